@@ -1,0 +1,105 @@
+"""The colour of every visible unit brick, from the surface near to it.
+
+References
+----------
+Paper, section "Colour of a unit brick": the colour with the greatest length of
+trajectory, over the brick's own square and those of its eight neighbours that
+belong to no other brick of the same trajectory.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from .catalogue import Catalogue
+from .colour_difference import ciede2000, lab_from_srgb
+from .exposure import nearest_faces, reached_by_air
+from .model import COLOUR_ANY, Floats, Ints, Mask
+from .samples import SurfaceSamples
+from .units import BRICK, STUD
+
+Codes = NDArray[np.int16]
+
+
+def likeliest_colours(samples: SurfaceSamples, solid: Mask, air: Mask, seen: Mask, catalogue: Catalogue) -> Codes:
+    """Return for every visible cell the colour most like all the surface on its outer faces.
+
+    Each sample that can be seen counts for the cell with the nearest outer face.
+    A cell takes the one of its colours that differs least, weighted by area, from
+    all of them: where one colour covers most of it that is the most frequent
+    one, and where many shades meet the one in their middle.
+
+    Parameters
+    ----------
+    samples : SurfaceSamples
+    solid, air, seen : (n_layers, n_y, n_x) bool arrays
+        Cells of the model, of the air around it, and those to colour.
+    catalogue : Catalogue
+
+    Returns
+    -------
+    (n_seen,) int16 array
+        LDraw codes in the order of ``np.nonzero(seen)``.
+    """
+    reached = reached_by_air(samples, solid.shape)
+    cell = nearest_faces(samples.place, solid, air)
+    codes, votes = counted(cell, samples.colour, samples.area * reached, seen)
+    lab = lab_from_srgb(catalogue.rgb[[catalogue.colour_row(int(code)) for code in codes]])
+    difference = votes @ ciede2000(lab[:, None], lab[None])
+    # a colour that the cell does not have at all is never chosen
+    return chosen(codes, votes, np.where(votes > 0, -difference, -np.inf), seen)
+
+
+def counted(cell: Ints, colour: Codes, weight: Floats, seen: Mask) -> tuple[Codes, Floats]:
+    """Sum up weights by visible cell and colour.
+
+    Parameters
+    ----------
+    cell : (n,) int64 array
+        Flat index of a cell, -1 for none.
+    colour : (n,) int16 array
+        LDraw codes; ``COLOUR_ANY`` is not counted.
+    weight : (n,) float64 array
+    seen : (n_layers, n_y, n_x) bool array
+
+    Returns
+    -------
+    codes : (k,) int16 array
+        The colours there are, rising.
+    votes : (n_seen, k) float64 array
+    """
+    number = np.full(seen.size, -1, dtype=np.int64)
+    number[seen.ravel()] = np.arange(int(seen.sum()))
+    target = np.where(cell >= 0, number[cell], -1)
+    valid = (target >= 0) & (colour != COLOUR_ANY)
+    codes, column = np.unique(colour[valid], return_inverse=True)
+    size = int(seen.sum()) * len(codes)
+    votes = np.bincount(target[valid] * len(codes) + column.ravel(), weight[valid], size)
+    return codes, votes.reshape(int(seen.sum()), len(codes))
+
+
+def chosen(codes: Codes, votes: Floats, score: Floats, seen: Mask) -> Codes:
+    """Return the colour with the best score of each cell, or that of the nearest cell with votes.
+
+    Parameters
+    ----------
+    codes : (k,) int16 array
+    votes, score : (n_seen, k) float64 arrays
+    seen : (n_layers, n_y, n_x) bool array
+
+    Returns
+    -------
+    (n_seen,) int16 array
+        ``COLOUR_ANY`` where no cell at all has votes.
+    """
+    voted = votes.sum(axis=1) > 0
+    if not voted.any():
+        return np.full(len(votes), COLOUR_ANY, dtype=np.int16)
+    colour = codes[score.argmax(axis=1)]
+    if not voted.all():
+        place = np.argwhere(seen) * np.array([BRICK, STUD, STUD])
+        nearest = cKDTree(place[voted]).query(place[~voted])[1]
+        colour[~voted] = colour[voted][nearest]
+    return colour

@@ -1,0 +1,156 @@
+"""How the bricks hold together: cells, collisions, stud contacts, components.
+
+A brick sits on another one when a cell of its underside lies on a cell of the
+other's top. Bricks that hang together by such contacts form a component; a
+component that stands on the lowest plate is grounded, every other one floats.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from .catalogue import Catalogue, footprint
+from .model import Bricks, Mask
+
+Rows = NDArray[np.int32]
+
+NOBODY = -1
+"""Owner of a cell in which there is no brick."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Connection:
+    """The bricks of a model as cells and as a graph.
+
+    Attributes
+    ----------
+    owner : (n_z, n_y, n_x) int32 array
+        Row of the brick in each cell (a stud square, a plate high), ``NOBODY``
+        where there is none. Where bricks collide the lowest row is named.
+    low : (3,) int32 array
+        Cell of the grid (x, y, z) that is ``owner[0, 0, 0]``; zero unless a
+        brick lies at negative coordinates.
+    collisions : int
+        Cells that more than one brick claims.
+    pairs : (n_pairs, 2) int32 array
+        Lower and upper brick of each contact, sorted, each pair once.
+    studs : (n_pairs,) int32 array
+        Studs that the two share.
+    component : (n,) int32 array
+        Number of the component of each brick.
+    grounded : (n,) bool array
+        Whether the component of the brick stands on the lowest plate.
+    """
+
+    owner: Rows
+    low: Rows
+    collisions: int
+    pairs: Rows
+    studs: Rows
+    component: Rows
+    grounded: Mask
+
+    @property
+    def n_components(self) -> int:
+        """Number of components."""
+        return int(self.component.max(initial=NOBODY)) + 1
+
+    @property
+    def n_floating(self) -> int:
+        """Number of bricks that hang in the air."""
+        return int(np.count_nonzero(~self.grounded))
+
+
+def connect(bricks: Bricks, catalogue: Catalogue) -> Connection:
+    """Find out which bricks touch, collide and stand on the ground.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The model.
+    catalogue : Catalogue
+        Whose parts the bricks are.
+
+    Returns
+    -------
+    Connection
+        Cells, contacts and components.
+    """
+    brick, columns = stud_columns(bricks, catalogue)
+    heights = np.array([part.height for part in catalogue.parts], dtype=np.int32)[bricks.part]
+    low = columns.min(axis=0, initial=0).astype(np.int32)
+    owner, collisions = _owners(brick, columns - low, heights[brick])
+    tops = columns - low
+    tops[:, 2] += heights[brick]
+    pairs, studs = _contacts(brick, owner[tops[:, 2], tops[:, 1], tops[:, 0]], len(bricks))
+    component, grounded = _components(pairs, bricks.corner[:, 2])
+    return Connection(owner[:-1], low, collisions, pairs, studs, component, grounded)
+
+
+def stud_columns(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, Rows]:
+    """List the stud squares that the bricks cover.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The model.
+    catalogue : Catalogue
+        Whose parts the bricks are.
+
+    Returns
+    -------
+    brick : (n_columns,) int32 array
+        Row of the brick, ascending: a 2 x 4 brick appears eight times.
+    columns : (n_columns, 3) int32 array
+        Stud square (x, y) and lowest plate z of the brick there.
+    """
+    kind = bricks.part.astype(np.int64) * 4 + bricks.turn
+    rows, cells = [np.zeros(0, dtype=np.int64)], [np.zeros((0, 3), dtype=np.int32)]
+    for value in np.unique(kind):
+        covered = footprint(catalogue.parts[value // 4], int(value % 4))
+        members = np.flatnonzero(kind == value)
+        offsets = np.pad(covered, ((0, 0), (0, 1)))
+        rows.append(np.repeat(members, len(covered)))
+        cells.append((bricks.corner[members, None] + offsets).reshape(-1, 3))
+    brick = np.concatenate(rows)
+    order = np.argsort(brick, kind="stable")
+    return brick[order].astype(np.int32), np.concatenate(cells)[order].astype(np.int32)
+
+
+def _owners(brick: Rows, columns: Rows, heights: Rows) -> tuple[Rows, int]:
+    """Fill the cells; one empty plate more on top, so that every stud can look upwards."""
+    shape = columns[:, ::-1].max(axis=0, initial=-1) + 1
+    shape[0] = (columns[:, 2] + heights).max(initial=0) + 1
+    owner = np.full(shape, NOBODY, dtype=np.int32)
+    flat = owner.reshape(-1)
+    above = np.arange(heights.sum()) - np.repeat(np.cumsum(heights) - heights, heights)
+    base = np.ravel_multi_index(tuple(columns[:, ::-1].T), tuple(shape))
+    cells = np.repeat(base, heights) + above * (shape[1] * shape[2])
+    claimant = np.repeat(brick, heights)
+    flat[cells] = claimant
+    lost = flat[cells] != claimant
+    np.minimum.at(flat, cells[lost], claimant[lost])
+    return owner, len(np.unique(cells[lost]))
+
+
+def _contacts(lower: Rows, upper: Rows, n: int) -> tuple[Rows, Rows]:
+    """Count the studs of each pair of a lower and an upper brick."""
+    touching = (upper != NOBODY) & (upper != lower)
+    key = lower[touching].astype(np.int64) * n + upper[touching]
+    pair, studs = np.unique(key, return_counts=True)
+    return np.stack(np.divmod(pair, max(n, 1)), axis=1).astype(np.int32), studs.astype(np.int32)
+
+
+def _components(pairs: Rows, level: Rows) -> tuple[Rows, Mask]:
+    """Label the components and tell which of them stand on the lowest plate."""
+    n = len(level)
+    graph = coo_array((np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
+    _, component = connected_components(graph, directed=False)
+    standing = np.zeros(n, dtype=bool)
+    standing[component[level == level.min(initial=np.iinfo(np.int32).max)]] = True
+    return component.astype(np.int32), standing[component]

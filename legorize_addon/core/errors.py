@@ -1,0 +1,38 @@
+"""What can go wrong, each as one full sentence for the user.
+
+``LegorizeError`` is the base of every *expected* failure: bad input, settings
+that contradict each other, a model that cannot be built. Its message says what
+is wrong, with the number, and what to do. Operators and scripts turn it into a
+report or an exit status in one place each. Anything else is a bug and keeps its
+traceback.
+
+::
+
+    LegorizeError
+    ├── MeshError        the mesh or its images cannot be used
+    ├── SettingsError    a setting, or a combination of settings, is impossible
+    └── BuildError       the model cannot be built or written
+    Cancelled            the user asked to stop (not a failure)
+"""
+
+from __future__ import annotations
+
+
+class LegorizeError(Exception):
+    """Base of the failures a user can understand and mend."""
+
+
+class MeshError(LegorizeError):
+    """The mesh, its materials or its images cannot be used."""
+
+
+class SettingsError(LegorizeError):
+    """A setting is out of range or contradicts another one."""
+
+
+class BuildError(LegorizeError):
+    """The model cannot be built, or its files cannot be written."""
+
+
+class Cancelled(Exception):  # noqa: N818 - a request, not an error
+    """Raised by a progress callback when the user asked to stop; never caught in the core."""

@@ -1,0 +1,243 @@
+"""Which parts may lie where.
+
+A *placement* is a shape at a place of a sheet where it covers no forbidden cell,
+no two colours, at least one cell that must be covered, and is made in the
+colour it gets.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import reduce
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model import COLOUR_ANY, COLOUR_EMPTY, Mask
+from .shapes import Index, Plane, Rows, Shapes
+from .sheets import Sheets
+
+Merge = Callable[[Plane, Plane], Plane]
+
+_FREE: Final = np.iinfo(np.int16).max
+"""Stands for a free colour where the smallest colour under a shape is looked for."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Placements:
+    """All placements on some sheets: sheet after sheet, in it shape after shape, then by y and x.
+
+    Attributes
+    ----------
+    shape : (n,) uint8 array
+        Row of the shape.
+    corner : (n, 3) int32 array
+        Lowest x and y of the bounding box, and number of the sheet.
+    colour : (n,) int16 array
+        LDraw code of the brick.
+    cells : (n_entries,) intp array
+        Numbers of the covered cells (see ``Sheets``), placement after
+        placement, each in the order of ``Shapes.cells``.
+    start : (n + 1,) intp array
+        First entry of each placement in ``cells``, and the end of the last one.
+    """
+
+    shape: NDArray[np.uint8]
+    corner: Rows
+    colour: Plane
+    cells: Index
+    start: Index
+
+    def __len__(self) -> int:
+        """Return the number of placements."""
+        return len(self.shape)
+
+    @property
+    def size(self) -> Index:
+        """Number of cells of each placement, shape (n,)."""
+        return np.diff(self.start)
+
+    def entries(self, rows: Index) -> Index:
+        """Return where in ``cells`` the cells of the given placements stand, one after the other."""
+        size = self.start[rows + 1] - self.start[rows]
+        return np.arange(size.sum()) + np.repeat(self.start[rows] - np.cumsum(size) + size, size)
+
+    def totals(self, amounts: NDArray[np.integer] | Mask) -> NDArray[np.int64]:
+        """Sum amounts given for each cell over the cells of each placement, shape (n,)."""
+        return segment_sums(amounts[self.cells], self.start[1:])
+
+    def through(self, marked: Mask) -> Index:
+        """Return the rows of the placements that cover a marked cell, ascending."""
+        return np.unique(np.searchsorted(self.start, np.flatnonzero(marked[self.cells]), side="right") - 1)
+
+    def find(self, shape: NDArray[np.integer], corner: NDArray[np.integer]) -> Index:
+        """Look placements up.
+
+        Parameters
+        ----------
+        shape : (k,) integer array
+            Rows of shapes.
+        corner : (k, 3) integer array
+            As in ``corner``.
+
+        Returns
+        -------
+        (k,) intp array
+            Row of each placement, -1 where there is none.
+        """
+        known, wanted = _key(self.shape, self.corner), _key(shape, corner)
+        row = np.minimum(np.searchsorted(known, wanted), len(known) - 1)
+        return np.where(known[row] == wanted, row, -1)
+
+    def of_sheet(self, sheet: int, n_cells_before: int) -> Placements:
+        """Return the placements of one sheet, as if there were no other one.
+
+        Parameters
+        ----------
+        sheet : int
+            Its number.
+        n_cells_before : int
+            Cells in the sheets before it.
+
+        Returns
+        -------
+        Placements
+            With cells of this sheet alone, and sheet number 0.
+        """
+        first, last = np.searchsorted(self.corner[:, 2], [sheet, sheet + 1])
+        start = self.start[first : last + 1]
+        return Placements(
+            shape=self.shape[first:last],
+            corner=self.corner[first:last] - np.array([0, 0, sheet], dtype=np.int32),
+            colour=self.colour[first:last],
+            cells=self.cells[start[0] : start[-1]] - n_cells_before,
+            start=start - start[0],
+        )
+
+
+def segment_sums(values: NDArray[np.integer] | Mask, end: Index) -> NDArray[np.int64]:
+    """Sum whole numbers over segments that follow one another; twice as fast as ``np.add.reduceat``.
+
+    Parameters
+    ----------
+    values : (n,) integer or bool array
+        What to sum.
+    end : (n_segments,) intp array
+        Where each segment ends; the first one starts at 0.
+
+    Returns
+    -------
+    (n_segments,) int64 array
+        The sums.
+    """
+    return np.diff(np.append(0, np.cumsum(values, dtype=np.int64))[end], prepend=0)
+
+
+def _key(shape: NDArray[np.integer], corner: NDArray[np.integer]) -> NDArray[np.int64]:
+    """Number the places of all shapes on all sheets in the order in which placements are listed."""
+    x, y, sheet = corner.astype(np.int64).T
+    return (((sheet << 8) + shape << 16) + y << 16) + x
+
+
+def placements(sheets: Sheets, among: Shapes) -> Placements:
+    """Enumerate everything that may be laid on some sheets.
+
+    The smallest and the greatest colour under a shape are found for all places
+    at once, by merging shifted copies of the sheets; where they agree, with the
+    free colour above and forbidden cells below all others, the shape fits.
+
+    Parameters
+    ----------
+    sheets : Sheets
+        Where to lay. Many sheets at once cost little more than one.
+    among : Shapes
+        What to lay; ``codes`` must hold every colour of the sheets.
+
+    Returns
+    -------
+    Placements
+        On all of the sheets.
+    """
+    planes = _Planes.of(sheets, among)
+    found = [planes.fitting(shape, among.made[row]) for row, shape in enumerate(among.cells)]
+    shape = np.repeat(np.arange(len(found), dtype=np.uint8), [len(places) for places, _ in found])
+    place = np.concatenate([places for places, _ in found])
+    colour = np.concatenate([colours for _, colours in found])
+    order = np.argsort((place // planes.extent).astype(np.uint16), kind="stable")
+    shape, place, colour = shape[order], place[order], colour[order]
+    code = np.where(colour < 0, among.hidden[shape], np.append(among.codes, np.int16(COLOUR_ANY))[colour])
+    cells, start = planes.covered(shape, place, among)
+    sheet, within = np.divmod(place, planes.extent)
+    y, x = np.divmod(within, planes.stride)
+    return Placements(shape, np.stack([x, y, sheet], axis=1).astype(np.int32), code, cells, start)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Planes:
+    """Sheets as flat, padded planes one after the other, so that a shift is a slice.
+
+    Attributes
+    ----------
+    stride, extent : int
+        Entries of a row and of a sheet; the padding is as wide as the longest shape.
+    least, most : (n,) int16 arrays
+        Column of the colour in ``Shapes.made``; free colours count as the
+        greatest in `least` and as -1 in `most`, forbidden cells the other way.
+    must : (n,) int16 array
+        1 where the cell has to be covered.
+    number : (n,) intp array
+        Number of the cell, of no meaning where it is forbidden.
+    """
+
+    stride: int
+    extent: int
+    least: Plane
+    most: Plane
+    must: Plane
+    number: Index
+
+    @classmethod
+    def of(cls, sheets: Sheets, among: Shapes) -> _Planes:
+        """Pad the sheets on the far sides."""
+        reach = max(int(cells.max()) for cells in among.cells)
+        padding = ((0, 0), (0, reach + 1), (0, reach))
+        colour = np.pad(sheets.colour, padding, constant_values=COLOUR_EMPTY)
+        must = np.pad(sheets.must, padding).astype(np.int16)
+        empty, free = colour == COLOUR_EMPTY, colour == COLOUR_ANY
+        column = np.searchsorted(among.codes, colour).astype(np.int16)
+        return cls(
+            stride=colour.shape[2],
+            extent=colour[0].size,
+            least=np.where(empty, np.int16(-1), np.where(free, np.int16(_FREE), column)).reshape(-1),
+            most=np.where(empty, np.int16(_FREE), np.where(free, np.int16(-1), column)).reshape(-1),
+            must=must.reshape(-1),
+            number=np.cumsum(~empty, dtype=np.intp) - 1,
+        )
+
+    def offsets(self, covered: Rows) -> Index:
+        """Return the cells of a shape as offsets in the flat planes, shape (k,)."""
+        return covered[:, 0] + covered[:, 1] * np.intp(self.stride)
+
+    def fitting(self, covered: Rows, made: Mask) -> tuple[Index, Plane]:
+        """Return where a shape fits, and the column of the colour it takes there."""
+        offsets = self.offsets(covered)
+        length = len(self.least) - int(offsets.max())
+        least, most, must = (
+            reduce(merge, (plane[offset : offset + length] for offset in offsets))
+            for plane, merge in ((self.least, np.minimum), (self.most, np.maximum), (self.must, np.maximum))
+        )
+        places = np.flatnonzero((least >= most) & (must > 0))
+        colours = most[places]
+        exists = made[colours]
+        return places[exists], colours[exists]
+
+    def covered(self, shape: NDArray[np.uint8], place: Index, among: Shapes) -> tuple[Index, Index]:
+        """List the numbers of the cells of each placement, and where each one's list starts."""
+        size = among.size
+        start = np.append(0, np.cumsum(size[shape]))
+        offsets = self.offsets(np.concatenate(among.cells))
+        first = np.cumsum(size) - size
+        entry = np.arange(start[-1]) + np.repeat(first[shape] - start[:-1], size[shape])
+        return self.number[np.repeat(place, size[shape]) + offsets[entry]], start

@@ -1,0 +1,110 @@
+"""The task that every way of laying solves: sheets, what may lie on them, and what each placement costs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..connection import NOBODY
+from ..model import Floats, Mask
+from .placements import Placements, segment_sums
+from .shapes import Index, Rows, Shapes
+from .sheets import Sheets
+
+GROUND: Final = NOBODY - 1
+"""Owner of the cells under the lowest sheet."""
+
+_SINGLE: Final = 1.0
+_HANGING: Final = 2.0
+_BRIDGE: Final = 0.06
+_OPTIONAL: Final = 0.004
+"""What a placement costs besides itself, in bricks: being a 1 x 1; having nothing
+below and nothing that must be built above; each seam of the layer below that it
+lies across (a gain); each cell that need not be covered."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Problem:
+    """Cover the cells of sheets at least cost, every must cell once, every other one at most once.
+
+    Attributes
+    ----------
+    shapes : Shapes
+        What the rows of ``placements.shape`` mean.
+    placements : Placements
+        What may be laid.
+    must : (n_cells,) bool array
+        Cells that have to be covered.
+    corner : (n_cells, 3) intp array
+        Where the cells are: x and y in studs, number of the sheet.
+    cost : (n,) float64 array
+        Cost of each placement, in bricks.
+    """
+
+    shapes: Shapes
+    placements: Placements
+    must: Mask
+    corner: Index
+    cost: Floats
+
+    def owner(self, chosen: Index) -> Index:
+        """Return the position in `chosen` of the placement that covers each cell, ``NOBODY`` where there is none."""
+        owner = np.full(len(self.must), NOBODY, dtype=np.intp)
+        cells = self.placements.cells[self.placements.entries(chosen)]
+        owner[cells] = np.repeat(np.arange(len(chosen)), self.placements.size[chosen])
+        return owner
+
+
+def pose(sheets: Sheets, among: Shapes, found: Placements, *, below: Rows, above: Mask) -> Problem:
+    """Put costs on the placements on some sheets.
+
+    Parameters
+    ----------
+    sheets : Sheets
+        The sheets.
+    among : Shapes
+        Shapes of the placements.
+    found : Placements
+        What may be laid.
+    below : (n_sheets, n_y, n_x) int32 array
+        Brick under each cell, ``NOBODY`` or ``GROUND``.
+    above : (n_sheets, n_y, n_x) bool array
+        Cells over which something must be built.
+
+    Returns
+    -------
+    Problem
+        The sheets' cells and costs. A placement costs one brick, more if it is
+        a 1 x 1, hangs in the air or covers optional cells, and less for the
+        seams that it bridges.
+    """
+    cells = sheets.cells
+    must = sheets.must.reshape(-1)[cells]
+    held = ((below != NOBODY) | above).reshape(-1)[cells]
+    cost = 1 + _SINGLE * (found.size == 1) + _OPTIONAL * found.totals(~must)
+    cost += _HANGING * (found.totals(held) == 0)
+    cost -= _BRIDGE * _bridged(found, among, _seams(below)[:, cells])
+    sheet, y, x = np.unravel_index(cells, sheets.colour.shape)
+    return Problem(shapes=among, placements=found, must=must, corner=np.stack([x, y, sheet], axis=1), cost=cost)
+
+
+def _seams(owner: Rows) -> Mask:
+    """Tell where two bricks meet, between each cell and the next along x and along y, shape (2, n)."""
+    seams = np.zeros((2, *owner.shape), dtype=bool)
+    there = owner > NOBODY
+    seams[0, ..., :-1] = (owner[..., :-1] != owner[..., 1:]) & there[..., :-1] & there[..., 1:]
+    seams[1, :, :-1] = (owner[:, :-1] != owner[:, 1:]) & there[:, :-1] & there[:, 1:]
+    return seams.reshape(2, -1)
+
+
+def _bridged(found: Placements, among: Shapes, seams: Mask) -> NDArray[np.int64]:
+    """Count the seams inside each placement, given those beyond each cell along x and y."""
+    size = among.size
+    first = np.cumsum(size) - size
+    within = np.arange(len(found.cells)) + np.repeat(first[found.shape] - found.start[:-1], found.size)
+    inside = (among.inner[0, within] & seams[0, found.cells]).astype(np.int8)
+    inside += among.inner[1, within] & seams[1, found.cells]
+    return segment_sums(inside, found.start[1:])

@@ -1,0 +1,137 @@
+"""The parts in all their orientations, and the colours they are made in.
+
+A *shape* is a part in one of its orientations: the 12 bricks give 24 shapes,
+and so do the 12 plates.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..catalogue import Catalogue, footprint
+from ..model import Mask
+
+Plane = NDArray[np.int16]
+Rows = NDArray[np.int32]
+Index = NDArray[np.intp]
+
+_PATTERN_SIDE: Final = 8
+"""Studs along the longest part."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shapes:
+    """The oriented parts of one height and the colours they are made in.
+
+    Attributes
+    ----------
+    part : (n_shapes,) int16 array
+        Row of the part in the catalogue.
+    turn : (n_shapes,) uint8 array
+        Quarter turns.
+    cells : tuple of (k, 2) int32 arrays
+        Cells (x, y) that each shape covers, from the corner of its bounding box.
+    inner : (2, n_cells_of_all_shapes) bool array
+        For each of ``cells``, shape after shape: whether the next cell along x
+        (row 0) and along y (row 1) belongs to the same shape.
+    pattern : (n_shapes,) uint64 array
+        Cells of each shape as bits (see :func:`pattern_bits`).
+    codes : (n_codes,) int16 array
+        LDraw codes of the grid, ascending.
+    made : (n_shapes, n_codes + 1) bool array
+        Whether the part is made in each code; the last column, for bricks of
+        any colour, tells whether it is made at all.
+    hidden : (n_shapes,) int16 array
+        LDraw code that the part gets where nobody sees it.
+    """
+
+    part: NDArray[np.int16]
+    turn: NDArray[np.uint8]
+    cells: tuple[Rows, ...]
+    inner: Mask
+    pattern: NDArray[np.uint64]
+    codes: Plane
+    made: Mask
+    hidden: Plane
+
+    @property
+    def size(self) -> Index:
+        """Number of cells of each shape, shape (n_shapes,)."""
+        return np.array([len(cells) for cells in self.cells], dtype=np.intp)
+
+    def rows_of(self, part: NDArray[np.integer], turn: NDArray[np.integer]) -> Index:
+        """Return the rows of parts of this height in the given turns, shape (k,)."""
+        known = self.part.astype(np.intp) * 4 + self.turn
+        return np.searchsorted(known, part.astype(np.intp) * 4 + turn)
+
+
+def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shapes:
+    """List the parts of one height in all their orientations.
+
+    Parameters
+    ----------
+    catalogue : Catalogue
+        Parts and colours.
+    height : int
+        Plates: 3 for bricks, 1 for plates.
+    codes : int16 array
+        LDraw codes that occur in the grid.
+    filler : int
+        LDraw code for bricks that nobody sees; a part that is not made in it
+        gets the first colour of the catalogue in which it is made.
+
+    Returns
+    -------
+    Shapes
+        In the order of the catalogue, then by quarter turn.
+    """
+    oriented = [
+        (row, turn)
+        for row, part in enumerate(catalogue.parts)
+        if part.height == height
+        for turn in range(part.turns)
+    ]
+    cells = tuple(footprint(catalogue.parts[row], turn) for row, turn in oriented)
+    part = np.array([row for row, _ in oriented], dtype=np.int16)
+    codes = np.unique(codes)
+    made = catalogue.exists_in(part[:, None], codes)
+    anywhere = catalogue.exists[part]
+    in_filler = catalogue.exists_in(part, filler)
+    return Shapes(
+        part=part,
+        turn=np.array([turn for _, turn in oriented], dtype=np.uint8),
+        cells=cells,
+        inner=np.concatenate([_inner_edges(covered) for covered in cells], axis=1),
+        pattern=np.array([pattern_bits(*covered.T).sum(dtype=np.uint64) for covered in cells]),
+        codes=codes,
+        made=np.column_stack([made, anywhere.any(axis=1)]),
+        hidden=np.where(in_filler, np.int16(filler), catalogue.codes[anywhere.argmax(axis=1)]),
+    )
+
+
+def _inner_edges(covered: Rows) -> Mask:
+    """Tell for each cell of a shape whether its next cells along x and y belong to it, shape (2, k)."""
+    filled = np.zeros(covered.max(axis=0) + 2, dtype=bool)
+    x, y = covered.T
+    filled[x, y] = True
+    return np.stack([filled[x + 1, y], filled[x, y + 1]])
+
+
+def pattern_bits(x: NDArray[np.integer], y: NDArray[np.integer]) -> NDArray[np.uint64]:
+    """Give every cell of an 8 x 8 field a bit of its own, so that a set of cells becomes one number.
+
+    Parameters
+    ----------
+    x, y : integer arrays
+        Cells, counted from the corner of the set's bounding box, below 8.
+
+    Returns
+    -------
+    uint64 array
+        One bit each.
+    """
+    return np.uint64(1) << (x + _PATTERN_SIDE * y).astype(np.uint64)

@@ -1,0 +1,98 @@
+"""Which cells are laid together.
+
+A *sheet* is everything of one height at one level: the bricks of a layer, or
+the plates of one third of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model import COLOUR_ANY, COLOUR_EMPTY, Cover, Mask, UnitGrid
+from ..units import PLATES_PER_BRICK
+from .shapes import Index, Plane, Rows
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sheets:
+    """Sheets of one height, bottom-up.
+
+    Their cells are numbered from 0, sheet after sheet, row after row, without
+    those where nothing may be laid.
+
+    Attributes
+    ----------
+    height : int
+        Plates: 3 for bricks, 1 for plates.
+    level : (n_sheets,) int32 array
+        Lowest plate of each sheet.
+    colour : (n_sheets, n_y, n_x) int16 array
+        LDraw code, ``COLOUR_ANY``, or ``COLOUR_EMPTY`` where nothing may be laid.
+    must : (n_sheets, n_y, n_x) bool array
+        Cells that have to be covered.
+    role : (n_sheets, n_y, n_x) uint8 array
+        ``Role`` of the cells.
+    """
+
+    height: int
+    level: Rows
+    colour: Plane
+    must: Mask
+    role: NDArray[np.uint8]
+
+    def __len__(self) -> int:
+        """Return the number of sheets."""
+        return len(self.level)
+
+    @property
+    def cells(self) -> Index:
+        """Flat indices of the cells in the arrays, by number, shape (n_cells,)."""
+        return np.flatnonzero(self.colour != COLOUR_EMPTY)
+
+    def take(self, which: NDArray[np.integer] | Mask | slice) -> Sheets:
+        """Return some of the sheets."""
+        return Sheets(self.height, self.level[which], self.colour[which], self.must[which], self.role[which])
+
+
+def split(grid: UnitGrid) -> list[Sheets]:
+    """Split a grid into sheets of bricks and of plates.
+
+    Three plates of a column that are all solid and of one colour (cells of any
+    colour agree with every other) become a brick; all other cells are plates.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        The hollowed model.
+
+    Returns
+    -------
+    list of Sheets
+        Bricks first, then plates. Sheets without cells are left out, and so is
+        a height without sheets.
+    """
+    top = grid.colour.max(axis=1)
+    bottom = np.where(grid.colour == COLOUR_ANY, np.iinfo(np.int16).max, grid.colour).min(axis=1)
+    brick = grid.solid.all(axis=1) & (bottom >= top)
+    must = grid.cover == Cover.MUST
+    level = np.arange(len(brick) * PLATES_PER_BRICK, dtype=np.int32)
+    bricks = Sheets(
+        height=PLATES_PER_BRICK,
+        level=level[::PLATES_PER_BRICK],
+        colour=np.where(brick, top, np.int16(COLOUR_EMPTY)),
+        must=must.any(axis=1),
+        role=grid.role.min(axis=1),
+    )
+    plane = (-1, *brick.shape[1:])
+    plates = Sheets(
+        height=1,
+        level=level,
+        colour=np.where(brick[:, None], np.int16(COLOUR_EMPTY), grid.colour).reshape(plane),
+        must=must.reshape(plane),
+        role=grid.role.reshape(plane),
+    )
+    filled = [each.take((each.colour != COLOUR_EMPTY).any(axis=(1, 2))) for each in (bricks, plates)]
+    return [each for each in filled if len(each)]

@@ -1,0 +1,116 @@
+"""The data that several stages share: the grid of unit bricks and the table of bricks.
+
+Everything is frozen and made of numpy arrays; a stage never writes into what it
+was given.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .units import PLATE, STUD
+
+Mask = NDArray[np.bool_]
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+COLOUR_ANY: Final = -1
+"""Colour of a cell that nobody sees: the layout may choose."""
+
+COLOUR_EMPTY: Final = -2
+"""Colour of a cell where nothing may be built."""
+
+
+class Role(IntEnum):
+    """What a brick or cell is there for; the scene shows each role by itself."""
+
+    SHELL = 0
+    INSIDE = 1
+    PLATE = 2
+    OFFSET = 3
+    SUPPORT_OUTSIDE = 4
+    SUPPORT_INSIDE = 5
+
+
+class Cover(IntEnum):
+    """Whether the layout has to fill a cell (visible or carrying), may, or must not."""
+
+    EMPTY = 0
+    MAY = 1
+    MUST = 2
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class UnitGrid:
+    """The model in unit cells of 8 x 8 x 3.2 mm, three plates to a brick.
+
+    Attributes
+    ----------
+    colour : (n_layers, 3, n_y, n_x) int16 array
+        LDraw colour code, ``COLOUR_ANY`` or ``COLOUR_EMPTY``.
+    cover : (n_layers, 3, n_y, n_x) uint8 array
+        ``Cover`` of each cell; ``EMPTY`` exactly where the colour is ``COLOUR_EMPTY``.
+    role : (n_layers, 3, n_y, n_x) uint8 array
+        ``Role`` of each cell (of no meaning where it is empty).
+    origin : (3,) float64 array
+        Corner of cell [0, 0, 0, 0] in mm, in the coordinates of the scaled mesh.
+    """
+
+    colour: NDArray[np.int16]
+    cover: NDArray[np.uint8]
+    role: NDArray[np.uint8]
+    origin: Floats
+
+    @property
+    def solid(self) -> Mask:
+        """Cells that must or may be built, shape (n_layers, 3, n_y, n_x)."""
+        return self.cover != Cover.EMPTY
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bricks:
+    """A table of bricks, one row each, on the grid of a :class:`UnitGrid`.
+
+    Attributes
+    ----------
+    part : (n,) int16 array
+        Row of the part in the catalogue.
+    corner : (n, 3) int32 array
+        Lowest corner of the brick's bounding box: x and y in studs, z in plates.
+    turn : (n,) uint8 array
+        Quarter turns, counter-clockwise as seen from above. At 0 the long side
+        lies along x and the arms of a corner part along +x and +y.
+    colour : (n,) int16 array
+        LDraw colour code.
+    role : (n,) uint8 array
+        ``Role``.
+    piece : (n,) int16 array
+        Number of the split piece, 0 for a model in one piece.
+    step : (n,) int32 array
+        Building step, from 0.
+    """
+
+    part: NDArray[np.int16]
+    corner: NDArray[np.int32]
+    turn: NDArray[np.uint8]
+    colour: NDArray[np.int16]
+    role: NDArray[np.uint8]
+    piece: NDArray[np.int16]
+    step: NDArray[np.int32]
+
+    def __len__(self) -> int:
+        """Return the number of bricks."""
+        return len(self.part)
+
+    def take(self, rows: NDArray[np.integer] | Mask) -> Bricks:
+        """Return the given rows as a table of their own."""
+        return Bricks(*(getattr(self, name)[rows] for name in self.__slots__))
+
+
+CELL_SIZE: Final = np.array([STUD, STUD, PLATE])
+"""Size of a cell along x, y and z in mm."""

@@ -1,0 +1,120 @@
+"""Every setting, once.
+
+A setting's name, type, default, limits, text and panel group stand in one
+place: its field here. Range checks, Blender's property group, the sidebar and
+the flags of the command line are all generated from these fields. The order of
+the fields is the order in the panel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import Field, dataclass, field, fields
+from typing import Any, Literal, get_args, get_type_hints
+
+from .errors import SettingsError
+
+
+def setting(default: Any, text: str, *, group: str, low: float | None = None, high: float | None = None) -> Any:
+    """Declare a setting.
+
+    Parameters
+    ----------
+    default : bool, int, float or str
+        Value when nothing is said.
+    text : str
+        One sentence for the tooltip and the command line's help.
+    group : str
+        Section of the panel.
+    low, high : float, optional
+        Limits of a number, both allowed values.
+
+    Returns
+    -------
+    Field
+        A dataclass field that carries the above as metadata.
+    """
+    return field(default=default, metadata={"text": text, "group": group, "low": low, "high": high})
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Settings:
+    """What a user may choose. Values out of range are refused with one sentence."""
+
+    # fmt: off
+    size_by: Literal["width", "height", "scale"] = setting(
+        "width", "Which of the following numbers sets the size of the model.", group="Size")
+    width: int = setting(
+        48, "Studs along the longer horizontal side.", group="Size", low=1, high=1000)
+    height: int = setting(
+        40, "Height of the model in bricks.", group="Size", low=1, high=1000)
+    scale: float = setting(
+        10.0, "Scale factor k of the paper: 10 keeps the object's own size, 5 halves it (section 3).",
+        group="Size", low=1e-4, high=1e6)
+
+    colours: int = setting(
+        64, "Most dominant colours to look for in the textures; those alike become one brick colour (Algorithm 1).",
+        group="Colours", low=1, high=256)
+    sampling: Literal["surface", "image"] = setting(
+        "surface", "Whether texels count by the surface they cover, or every texel of the whole image counts once "
+        "(the paper's literal way).", group="Colours")
+    palette: str = setting(
+        "", "LDraw codes of the colours to use, with commas between; empty for all colours made today.",
+        group="Colours")
+    one_to_one: bool = setting(
+        False, "Never let two dominant colours become the same brick colour.", group="Colours")
+    cell_colour: Literal["likeness", "longest"] = setting(
+        "likeness", "Whether a brick takes the colour most like all the surface on it, or the one with the greatest "
+        "trajectory length (the paper's literal way).", group="Colours")
+
+    cusp: float = setting(
+        3.2, "Cusp height in mm that one slice a brick may leave; smaller means three slices more often.",
+        group="Slicing", low=0.1, high=9.6)
+    chord_deviation: float = setting(
+        0.0, "How far in mm a simplified trajectory may leave the cut of the mesh.", group="Slicing",
+        low=0.0, high=4.0)
+
+    keep_thin: bool = setting(
+        True, "Keep legs, ears and walls that cover less than half a stud.", group="Bricks")
+    symmetric: bool = setting(
+        True, "Lay the grid symmetrically over the model.", group="Bricks")
+    hollow: bool = setting(
+        True, "Leave the inside empty.", group="Bricks")
+    shell: int = setting(
+        1, "Thickness in studs of the shell that must be built; one more stud inwards may be used.",
+        group="Bricks", low=1, high=100)
+
+    seed: int = setting(
+        0, "Seed of everything random: the same seed gives the same model.", group="Run", low=0, high=2**31 - 1)
+    # fmt: on
+
+    def __post_init__(self) -> None:
+        """Refuse values of a wrong type or out of range."""
+        for entry in fields(self):
+            _check(entry, getattr(self, entry.name))
+
+
+def setting_type(entry: Field[Any]) -> Any:
+    """Return the resolved type of a setting: bool, int, float, str or a Literal."""
+    return get_type_hints(Settings)[entry.name]
+
+
+def choices(entry: Field[Any]) -> tuple[str, ...]:
+    """Return the allowed words of a setting, empty where any value may stand."""
+    return tuple(str(choice) for choice in get_args(setting_type(entry)))
+
+
+def _check(entry: Field[Any], value: Any) -> None:
+    words = choices(entry)
+    if words:
+        if value not in words:
+            raise SettingsError(f"{entry.name} is {value!r}: choose one of {', '.join(words)}.")
+        return
+    expected = setting_type(entry)
+    if not isinstance(value, (int, float) if expected is float else expected) or (
+        isinstance(value, bool) and expected is not bool
+    ):
+        raise SettingsError(f"{entry.name} is {value!r}: give it a value of type {expected.__name__}.")
+    low, high = entry.metadata["low"], entry.metadata["high"]
+    # the negated form also refuses not-a-number
+    if low is not None and not low <= value <= high:
+        raise SettingsError(f"{entry.name} is {value:g}: choose a value from {low:g} to {high:g}.")

@@ -1,0 +1,129 @@
+"""The report: plain JSON, and numbers that agree with the bricks."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import fields
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.catalogue import load_catalogue
+from legorize_addon.core.connection import connect
+from legorize_addon.core.mesh import Repairs, TriangleMesh
+from legorize_addon.core.model import COLOUR_EMPTY, Bricks, Cover, Role, UnitGrid
+from legorize_addon.core.report import report
+from legorize_addon.core.settings import Settings
+
+CATALOGUE = load_catalogue()
+
+
+def grid_of(solid):
+    """Return a red grid of whole unit bricks from a mask of shape (layers, y, x)."""
+    cells = np.repeat(solid[:, None], 3, axis=1)
+    return UnitGrid(
+        colour=np.where(cells, 4, COLOUR_EMPTY).astype(np.int16),
+        cover=np.where(cells, Cover.MUST, Cover.EMPTY).astype(np.uint8),
+        role=np.zeros(cells.shape, np.uint8),
+        origin=np.array([-8.0, 16.0, 3.2]),
+    )
+
+
+def build_of(rows):
+    """Return a build of a solid 6 x 4 x 2 block with bricks from rows of part number, x, y, z, colour, role."""
+    n = len(rows)
+    bricks = Bricks(
+        part=np.array([CATALOGUE.part_row(row[0]) for row in rows], np.int16),
+        corner=np.array([row[1:4] for row in rows], np.int32),
+        turn=np.zeros(n, np.uint8),
+        colour=np.array([row[4] for row in rows], np.int16),
+        role=np.array([row[5] for row in rows], np.uint8),
+        piece=np.zeros(n, np.int16),
+        step=np.zeros(n, np.int32),
+    )
+    mesh = TriangleMesh(
+        vertices=np.eye(3),
+        faces=np.array([[0, 1, 2]], np.int32),
+        uvs=np.zeros((1, 3, 2)),
+        face_image=np.zeros(1, np.int32),
+        images=(np.zeros((1, 1, 3), np.uint8),),
+        image_clamp=np.ones(1, bool),
+    )
+    solid = np.zeros((3, 6, 8), bool)
+    solid[:2, 1:5, 1:7] = True
+    return SimpleNamespace(
+        settings=Settings(seed=7),
+        mesh=mesh,
+        repairs=Repairs(**{entry.name: 0 for entry in fields(Repairs)} | {"watertight": True}),
+        scale=0.5,
+        grid=grid_of(solid),
+        bricks=bricks,
+        connection=connect(bricks, CATALOGUE),
+        notes=("A remark.",),
+        timings={"slicing": 0.25},
+    )
+
+
+@pytest.fixture(scope="module")
+def described():
+    """Return the report of two red bricks on each other, a plate, and a corner on a support."""
+    rows = [
+        ("3001", 1, 1, 0, 4, Role.SHELL),
+        ("3001", 2, 2, 3, 4, Role.INSIDE),
+        ("2357", 6, 3, 3, 3, Role.SHELL),
+        ("3020", 1, 3, 0, 15, Role.PLATE),
+        ("3005", 6, 4, 0, 15, Role.SUPPORT_OUTSIDE),
+    ]
+    return report(build_of(rows), CATALOGUE, version="1.2.3", mm_per_unit=1000.0)
+
+
+def test_report_is_plain_json(described):
+    """Written and read again the report is the same: nothing in it is an array or a number JSON does not have."""
+    assert json.loads(json.dumps(described, allow_nan=False)) == described
+
+
+def test_report_repeats_what_it_was_given(described):
+    """Version, seed, settings, notes and times stand as they were handed in."""
+    assert described["version"] == "1.2.3"
+    assert described["seed"] == described["settings"]["seed"] == 7
+    assert described["settings"]["width"] == Settings().width
+    assert described["notes"] == ["A remark."]
+    assert described["timings_s"] == {"slicing": 0.25}
+    assert described["input"]["triangles"] == described["input"]["images"] == 1
+    assert described["input"]["watertight"] is True
+    assert "watertight" not in described["input"]["repairs"]
+
+
+def test_counts_agree_with_the_bricks(described):
+    """Bricks are counted by part, by colour and by role; the unit bricks are those of the solid block."""
+    counts = described["counts"]
+    assert counts["bricks"] == sum(counts["by_part"].values()) == sum(counts["by_colour"].values()) == 5
+    assert counts["by_part"] == {"3005": 1, "2357": 1, "3001": 2, "3020": 1}
+    assert counts["by_colour"] == {"3": 1, "4": 2, "15": 2}
+    assert (counts["plates"], counts["support_outside"], counts["support_inside"]) == (1, 1, 0)
+    assert counts["unit_bricks_before"] == 6 * 4 * 2
+    assert described["grid"] == {"x": 6, "y": 4, "layers": 2}
+
+
+def test_mass_and_hollow_ratio(described):
+    """The mass is that of all bricks; of the block's 144 cells the model's bricks fill 24 + 24 + 9 + 8."""
+    masses = [CATALOGUE.parts[CATALOGUE.part_row(number)].mass for number in ("3001", "3001", "2357", "3020", "3005")]
+    assert described["mass_g"] == pytest.approx(sum(masses))
+    assert described["hollow_ratio"] == pytest.approx(1 - 65 / 144, abs=1e-4)
+
+
+def test_connection_and_unavailable_parts(described):
+    """The corner rests on the support; the plate is loose; the corner was never made in Dark Turquoise."""
+    assert described["connection"] == {"components": 3, "floating": 0, "collisions": 0}
+    assert described["unavailable_part_colours"] == {
+        "bricks": 1,
+        "pairs": [{"part": "2357", "colour": 3, "count": 1}],
+    }
+    assert described["unknown_elements"] == described["unavailable_part_colours"]
+
+
+def test_matrix_belongs_to_grid_scale_and_units(described):
+    """The corner of the grid, taken back to scene units, is the origin of the LDraw file."""
+    corner = np.array([-8.0, 16.0, 3.2]) / 0.5 / 1000.0
+    np.testing.assert_allclose(np.array(described["mesh_to_ldraw"]) @ [*corner, 1], [0, 0, 0, 1], atol=1e-12)
