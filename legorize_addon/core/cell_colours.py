@@ -23,7 +23,9 @@ from .units import BRICK, STUD
 Codes = NDArray[np.int16]
 
 
-def likeliest_colours(samples: SurfaceSamples, solid: Mask, air: Mask, seen: Mask, catalogue: Catalogue) -> Codes:
+def likeliest_colours(
+    samples: SurfaceSamples, solid: Mask, air: Mask, seen: Mask, catalogue: Catalogue, *, one_surface: bool
+) -> Codes:
     """Return for every visible cell the colour most like all the surface on its outer faces.
 
     Each sample that can be seen counts for the cell with the nearest outer face.
@@ -37,13 +39,15 @@ def likeliest_colours(samples: SurfaceSamples, solid: Mask, air: Mask, seen: Mas
     solid, air, seen : (n_layers, n_y, n_x) bool arrays
         Cells of the model, of the air around it, and those to colour.
     catalogue : Catalogue
+    one_surface : bool
+        Whether the mesh is a single closed surface, all of which can be seen.
 
     Returns
     -------
     (n_seen,) int16 array
         LDraw codes in the order of ``np.nonzero(seen)``.
     """
-    reached = reached_by_air(samples, solid.shape)
+    reached = 1.0 if one_surface else reached_by_air(samples, solid.shape)
     cell = nearest_faces(samples.place, solid, air)
     codes, votes = counted(cell, samples.colour, samples.area * reached, seen)
     lab = lab_from_srgb(catalogue.rgb[[catalogue.colour_row(int(code)) for code in codes]])

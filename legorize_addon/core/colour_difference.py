@@ -9,7 +9,7 @@ mathematical observations", Color Research and Application 30(1), 2005.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,9 @@ _XYZ_FROM_LINEAR = np.array(
     [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]]
 )
 _WHITE = np.array([0.95047, 1.0, 1.08883])
+
+_ROUNDING: Final = 1e-9
+"""Degrees within which two hues are opposite."""
 
 
 def lab_from_srgb(rgb: NDArray[np.uint8]) -> Floats:
@@ -53,7 +56,9 @@ def ciede2000(first: Floats, second: Floats) -> Floats:
     c1, h1, c2, h2 = _chroma_and_hue(first, second)
     l_mean, c_mean = (l1 + l2) / 2, (c1 + c2) / 2
     grey = c1 * c2 == 0
-    turn = np.where(grey, 0, (h2 - h1 + 180) % 360 - 180)
+    turn = h2 - h1
+    # opposite hues stay as they are, whatever the rounding, so that both orders of the colours agree
+    turn = np.where(grey, 0, turn - 360 * np.sign(turn) * (np.abs(turn) > 180 + _ROUNDING))
     h_mean = np.where(grey, h1 + h2, h1 + turn / 2) % 360
     t = (
         1

@@ -23,10 +23,10 @@ from .errors import SettingsError
 from .mesh import TriangleMesh
 from .model import Floats, Ints, Mask
 
-_SAMPLES: Final = 40_000
+_SAMPLES: Final = 30_000
 """Texels drawn for the clustering; more change the centres by less than a byte."""
 
-_ITERATIONS: Final = 40
+_ITERATIONS: Final = 20
 
 Bytes = NDArray[np.uint8]
 Codes = NDArray[np.int16]
@@ -154,7 +154,7 @@ def surface_colours(
     texels = _surface_texels(mesh, rng) if sampling == "surface" else _image_texels(mesh, rng)
     centres = dominant_colours(texels, n_colours=n_colours, rng=rng)
     codes = brick_colours(centres, catalogue, palette=palette, one_to_one=one_to_one)
-    labels = tuple(_nearest_centre(image, centres) for image in mesh.images)
+    labels = _nearest_centres(mesh.images, centres)
     borders = tuple(_border_table(codes[image]) for image in labels)
     return SurfaceColours(centres, codes, labels, borders, mesh.image_clamp)
 
@@ -185,7 +185,11 @@ def dominant_colours(texels: Bytes, *, n_colours: int, rng: np.random.Generator)
     found = KMeans(
         n_clusters=n_colours, n_init=1, max_iter=_ITERATIONS, random_state=int(rng.integers(2**31))
     ).fit(rgb.astype(np.float64), sample_weight=count)
-    return _unpacked(np.unique(_packed(np.round(found.cluster_centers_).astype(np.uint8))))
+    # the means anew: sums of whole numbers are exact, in whatever order the threads add
+    weight = np.bincount(found.labels_, count)
+    total = np.stack([np.bincount(found.labels_, count * channel) for channel in rgb.T.astype(np.float64)], axis=1)
+    mean = total[weight > 0] / weight[weight > 0, None]
+    return _unpacked(np.unique(_packed(np.round(mean).astype(np.uint8))))
 
 
 def brick_colours(centres: Bytes, catalogue: Catalogue, *, palette: Codes, one_to_one: bool = False) -> Codes:
@@ -320,24 +324,24 @@ def _border_table(codes: Codes) -> NDArray[np.int32]:
     return table
 
 
-def _nearest_centre(image: Bytes, centres: Bytes) -> Bytes:
-    """Return the nearest centre of every texel by squared distance in sRGB, (h, w) uint8.
+def _nearest_centres(images: tuple[Bytes, ...], centres: Bytes) -> tuple[Bytes, ...]:
+    """Return the nearest centre of every texel by squared distance in sRGB, one (h, w) uint8 array an image.
 
     References
     ----------
     Paper, Algorithm 1, lines 3 to 12.
     """
-    packed = _packed(image)
     # every colour is looked at once, however many texels have it; a table of all 2^24 beats sorting them
     table = np.zeros(1 << 24, dtype=np.uint8)
-    table[packed.ravel()] = 1
+    for image in images:
+        table[_packed(image).ravel()] = 1
     colours = np.flatnonzero(table).astype(np.uint32)
     target = centres.astype(np.float32)
     half_norm = (target**2).sum(axis=1) / 2
     for start in range(0, len(colours), 1 << 18):
         part = colours[start : start + (1 << 18)]
         table[part] = (_unpacked(part).astype(np.float32) @ target.T - half_norm).argmax(axis=1)
-    return table[packed]
+    return tuple(table[_packed(image)] for image in images)
 
 
 def _packed(rgb: Bytes) -> NDArray[np.uint32]:

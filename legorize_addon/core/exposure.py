@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import ndimage
 
 from .model import Floats, Ints, Mask
@@ -20,6 +19,12 @@ _FINE: Final = np.array([3, 2, 2])
 
 _FINE_LIMIT: Final = 80_000_000
 """Fine cells beyond which unit cells are used instead, to bound the memory."""
+
+_CELL: Final = np.array([1.2, 1.0, 1.0])
+"""Sides of a cell along layer, y and x in studs."""
+
+_TIE: Final = 1e-12
+"""Squared distances nearer than this are equal: the first cell keeps the point."""
 
 _STEPS: Final = 5
 """Marks along a piece of trajectory, so that none of its fine cells is missed."""
@@ -45,12 +50,26 @@ def reached_by_air(samples: SurfaceSamples, shape: tuple[int, int, int]) -> Mask
     fine = _FINE if np.prod(np.array(shape) * _FINE) < _FINE_LIMIT else np.ones(3, dtype=int)
     margin = 4
     drawn = np.zeros(np.array(shape) * fine + 2 * margin, dtype=bool)
+    pieces = samples.along.any(axis=1)
+    drawn[_fine_cells(samples.place[~pieces], fine, drawn.shape, margin)] = True
     for share in (np.arange(_STEPS) + 0.5) / _STEPS - 0.5:
-        drawn[_fine_cells(samples.place + share * samples.along, fine, drawn.shape, margin)] = True
-    label, _ = ndimage.label(~ndimage.binary_dilation(drawn))
-    air = ndimage.binary_dilation(label == label[0, 0, 0], iterations=2)
+        place = samples.place[pieces] + share * samples.along[pieces]
+        drawn[_fine_cells(place, fine, drawn.shape, margin)] = True
+    label, _ = ndimage.label(~_grown(drawn))
+    air = _grown(_grown(label == label[0, 0, 0]))
     reached: Mask = air[_fine_cells(samples.place, fine, drawn.shape, margin)]
     return reached
+
+
+def _grown(mask: Mask) -> Mask:
+    """Return the mask grown by one cell face to face; an order faster than binary_dilation."""
+    grown = mask.copy()
+    for axis in range(mask.ndim):
+        inner, outer = [slice(None)] * mask.ndim, [slice(None)] * mask.ndim
+        inner[axis], outer[axis] = slice(1, None), slice(None, -1)
+        grown[tuple(inner)] |= mask[tuple(outer)]
+        grown[tuple(outer)] |= mask[tuple(inner)]
+    return grown
 
 
 def _fine_cells(place: Floats, fine: Ints, shape: tuple[int, ...], margin: int) -> tuple[Ints, ...]:
@@ -79,41 +98,53 @@ def nearest_faces(place: Floats, solid: Mask, air: Mask) -> Ints:
     """
     margin = 2
     solid_around = np.pad(solid, margin)
-    air_around = np.pad(air, margin, constant_values=True)
+    air_around = np.pad(air, margin, constant_values=True).ravel()
+    strides = np.array(solid_around.strides)
+    limit = np.array(solid_around.shape) - 2
+    base = np.floor(place - 0.5).astype(np.int64)
     found = np.full(len(place), -1, dtype=np.int64)
     least = np.full(len(place), np.inf)
-    base = np.floor(place - 0.5).astype(np.int64)
     for corner in np.ndindex(2, 2, 2):
-        cell = np.clip(base + corner + margin, 1, np.array(solid_around.shape) - 2)
-        rows = np.flatnonzero(solid_around[tuple(cell.T)])
-        cell = cell[rows]
-        distance = _face_distances(place[rows] - (cell - margin) - 0.5, cell, air_around)
-        nearer = distance < least[rows] - 1e-12
-        rows, cell = rows[nearer], cell[nearer]
+        cell = np.clip(base + corner + margin, 1, limit)
+        flat = cell @ strides
+        rows = np.flatnonzero(solid_around.ravel()[flat])
+        offset = place[rows] - (cell[rows] - margin) - 0.5
+        distance = _face_distances(offset, flat[rows], strides, air_around)
+        nearer = distance < least[rows] - _TIE
+        rows = rows[nearer]
         least[rows] = distance[nearer]
-        found[rows] = np.ravel_multi_index(tuple((cell - margin).T), solid.shape)
-    return found
+        found[rows] = flat[rows]
+    around = np.unravel_index(np.maximum(found, 0), solid_around.shape)
+    inside = np.ravel_multi_index(tuple(axis - margin for axis in around), solid.shape, mode="clip")
+    return np.where(found >= 0, inside, -1)
 
 
-def _face_distances(offset: Floats, cell: Ints, air: Mask) -> Floats:
+def _face_distances(offset: Floats, flat: Ints, strides: Ints, air: Mask) -> Floats:
     """Return the squared distance from points to the nearest open face of their cells, in studs.
 
     Parameters
     ----------
     offset : (n, 3) float64 array
         Points relative to the middle of the cell, in cells.
-    cell : (n, 3) int64 array
-    air : bool array
-        Cells of the air, in the same frame as ``cell``.
+    flat : (n,) int64 array
+        Flat index of the cells.
+    strides : (3,) int64 array
+        Steps of the flat index along the axes.
+    air : (n_cells,) bool array
+        Cells of the air.
+
+    Returns
+    -------
+    (n,) float64 array
+        Infinite for a cell without an open face.
     """
-    size: NDArray[np.float64] = np.array([1.2, 1.0, 1.0])
-    beside = np.maximum(np.abs(offset) - 0.5, 0) * size
-    aside = (beside**2).sum(axis=1, keepdims=True) - beside**2
+    beside = (np.maximum(np.abs(offset) - 0.5, 0) * _CELL) ** 2
+    total = beside.sum(axis=1)
     least = np.full(len(offset), np.inf)
     for axis in range(3):
+        aside = total - beside[:, axis]
         for side in (-1, 1):
-            neighbour = cell.copy()
-            neighbour[:, axis] += side
-            reach = (offset[:, axis] - side * 0.5) * size[axis]
-            least = np.where(air[tuple(neighbour.T)], np.minimum(least, reach**2 + aside[:, axis]), least)
+            open_ = air[flat + side * strides[axis]]
+            reach = ((offset[:, axis] - side * 0.5) * _CELL[axis]) ** 2 + aside
+            np.minimum(least, reach, out=least, where=open_)
     return least

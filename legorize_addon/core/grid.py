@@ -71,7 +71,7 @@ def fit_grid(mesh: TriangleMesh, *, symmetric: bool) -> Grid:
     # small models need at least one whole free cell on each side
     cells = np.maximum(np.ceil(ALPHA * size / STUD), np.ceil(size / STUD) + 2).astype(int)
     start = middle - ALPHA * size / 2
-    start = np.minimum(start, low[:2] - STUD / 2)
+    start -= np.where(low[:2] - start < STUD, STUD, 0)
     if symmetric:
         odd = np.round(size / STUD).astype(int) % 2
         cells += (cells + odd) % 2

@@ -149,6 +149,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
             heights=heights,
             keep_thin=settings.keep_thin,
             longest=settings.cell_colour == "longest",
+            one_surface=repairs.watertight and repairs.patches == 1,
             catalogue=catalogue,
         )
         _check_any(grid, mesh)

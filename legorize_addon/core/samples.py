@@ -22,7 +22,7 @@ from .rays import vertical_hits
 from .trajectories import Trajectories
 from .units import BRICK, STUD
 
-_RAYS: Final = 4
+_RAYS: Final = 3
 """Vertical rays along each side of a cell."""
 
 
@@ -106,7 +106,7 @@ def trajectory_samples(
 
 
 def horizontal_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid) -> SurfaceSamples:
-    """Return a sample for every hit of a lattice of vertical rays, 2 mm apart.
+    """Return a sample for every hit of a lattice of vertical rays.
 
     Parameters
     ----------

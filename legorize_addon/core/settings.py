@@ -52,7 +52,7 @@ class Settings:
         group="Size", low=1e-4, high=1e6)
 
     colours: int = setting(
-        64, "Most dominant colours to look for in the textures; those alike become one brick colour (Algorithm 1).",
+        256, "Most dominant colours to look for in the textures; those alike become one brick colour (Algorithm 1).",
         group="Colours", low=1, high=256)
     sampling: Literal["surface", "image"] = setting(
         "surface", "Whether texels count by the surface they cover, or every texel of the whole image counts once "
@@ -117,4 +117,4 @@ def _check(entry: Field[Any], value: Any) -> None:
     low, high = entry.metadata["low"], entry.metadata["high"]
     # the negated form also refuses not-a-number
     if low is not None and not low <= value <= high:
-        raise SettingsError(f"{entry.name} is {value:g}: choose a value from {low:g} to {high:g}.")
+        raise SettingsError(f"{entry.name} is {value}: choose a value from {low} to {high}.")

@@ -48,10 +48,11 @@ def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
 def _near(place: Floats, known: Mask) -> Mask:
     """Return whether each place lies in a known cell or within half a cell of one."""
     padded = np.pad(known, 1)
-    base = np.floor(place - 0.5).astype(np.int64) + 1
+    base = np.clip(np.floor(place - 0.5).astype(np.int64) + 1, 0, np.array(padded.shape) - 2)
+    flat = base @ np.array(padded.strides)
     near = np.zeros(len(place), dtype=bool)
-    for corner in _CORNERS:
-        near |= padded[tuple((base + corner).clip(0, np.array(padded.shape) - 1).T)]
+    for step in _CORNERS @ np.array(padded.strides):
+        near |= padded.ravel()[flat + step]
     return near
 
 

@@ -45,6 +45,7 @@ def unit_bricks(
     heights: Floats,
     keep_thin: bool,
     longest: bool,
+    one_surface: bool,
     catalogue: Catalogue,
 ) -> UnitGrid:
     """Turn trajectories into unit bricks.
@@ -64,6 +65,8 @@ def unit_bricks(
     longest : bool
         Colour by the greatest trajectory length, as the paper does, instead of
         by likeness to all the surface of a cell.
+    one_surface : bool
+        Whether the mesh is a single closed surface, all of which can be seen.
     catalogue : Catalogue
 
     Returns
@@ -87,7 +90,7 @@ def unit_bricks(
     if longest:
         colour[seen] = longest_colours(trajectories, pieces, samples, solid, seen)
     else:
-        colour[seen] = likeliest_colours(samples, solid, air, seen, catalogue)
+        colour[seen] = likeliest_colours(samples, solid, air, seen, catalogue, one_surface=one_surface)
     return _unit_grid(colour, grid.origin)
 
 

@@ -9,12 +9,12 @@
 ``exchange``        fewer small bricks by exchanging a few against others
 ``laid``            what lies on a sheet; the table of all bricks
 ``repair``          joins components that float
-``bottom_up``       all sheets in order: :func:`lay`
+``layers``          all sheets, every other one first: :func:`lay`
 ==================  =====================================================================
 """
 
 from __future__ import annotations
 
-from .bottom_up import FILLER, lay
+from .layers import FILLER, lay
 
 __all__ = ["FILLER", "lay"]

@@ -184,4 +184,5 @@ def _independent(moves: _Moves, gain: Floats, n_bricks: int, rng: np.random.Gene
     highest = np.full(taken.max(initial=0) + 1, -1)
     np.maximum.at(highest, taken, rank[move])
     lost = np.bincount(move[highest[taken] != rank[move]], minlength=len(gain))
-    return (rank >= 0) & (lost == 0)
+    winning: Mask = (rank >= 0) & (lost == 0)
+    return winning

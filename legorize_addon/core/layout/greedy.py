@@ -29,10 +29,10 @@ are the same on every machine."""
 _BEST: Final = 0.5
 """How fast a cell gets cheaper with the largest brick it can still be part of."""
 
-_SCARCE: Final = 40
+_SCARCE: Final = 60
 """Covered cells, over all placements through a cell, at which its price has doubled."""
 
-_PARTNERS: Final = ((1, _ONE // 2), (2, _ONE // 7))
+_PARTNERS: Final = ((1, _ONE // 2), (2, _ONE // 10))
 """What it is worth to take a cell together with a neighbour, by the number of
 neighbours that are left for it (found by trial on six models)."""
 
@@ -45,7 +45,7 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
     problem : Problem
         The sheet.
     rng : numpy.random.Generator
-        Decides between placements of the same score.
+        Decides where nothing else does.
 
     Returns
     -------
@@ -61,18 +61,35 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
     placements = problem.placements
     # bricks of one cell only fill what is left over: their cost must not keep them waiting
     merit = np.where(placements.size == 1, 0, np.rint((1 - problem.cost) * _ONE)).astype(np.int64)
-    tie = rng.permutation(len(placements))
+    tie = _ties(problem, rng)
+    n_ties = int(tie.max(initial=0)) + 1
     price_of_best = _price_table(int(placements.size.max(initial=0)))
     covered = np.zeros_like(problem.must)
     live = _Live(np.arange(len(placements)), placements.size, placements.cells)
     chosen = [live.rows[:0]]
     while len(live.rows):
         score = live.totals(_prices(live, problem.must, price_of_best)[live.cells]) + merit[live.rows]
-        won = live.winners(score * len(placements) + tie[live.rows], len(covered))
+        won = live.winners(score * n_ties + tie[live.rows], len(covered))
         chosen.append(live.rows[won])
         covered[live.cells[np.repeat(won, live.size)]] = True
         live = live.only(live.totals(covered[live.cells]) == 0)
     return np.concatenate(chosen)
+
+
+def _ties(problem: Problem, rng: np.random.Generator) -> Amounts:
+    """Give the placements numbers for the case that scores are equal.
+
+    Those on a lattice of their own size get the greatest ones: in wide areas
+    they fit together without gaps. The lattice of every other layer is shifted
+    by half a brick. For the rest it is chance.
+    """
+    found, sheets = problem.placements, problem.sheets
+    odd = (sheets.level // sheets.height % 2)[found.corner[:, 2]]
+    extent = problem.shapes.extent[found.shape]
+    remainder = (found.corner[:, :2] + odd[:, None] * (extent // 2)) % extent
+    aligned = (remainder[:, 0] == 0).astype(np.int64) + (remainder[:, 1] == 0)
+    ties: Amounts = aligned * len(found) + rng.permutation(len(found))
+    return ties
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -92,7 +109,7 @@ class _Live:
         keys = np.repeat(key, self.size)
         greatest = np.full(n_cells, np.iinfo(np.int64).min)
         np.maximum.at(greatest, self.cells, keys)
-        return self.totals(keys == greatest[self.cells]) == self.size
+        return np.equal(self.totals(keys == greatest[self.cells]), self.size)
 
     def only(self, kept: Mask) -> _Live:
         """Drop the other placements."""

@@ -16,13 +16,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model import COLOUR_ANY, COLOUR_EMPTY, Mask
-from .shapes import Index, Plane, Rows, Shapes
+from .shapes import Index, Plane, Rows, Shapes, Whole
 from .sheets import Sheets
 
 Merge = Callable[[Plane, Plane], Plane]
 
 _FREE: Final = np.iinfo(np.int16).max
 """Stands for a free colour where the smallest colour under a shape is looked for."""
+
+_SHEET_BITS: Final = 40
+"""Bits below the number of the sheet in the keys: 8 of the shape, 16 each of y and x."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,6 +45,8 @@ class Placements:
         placement, each in the order of ``Shapes.cells``.
     start : (n + 1,) intp array
         First entry of each placement in ``cells``, and the end of the last one.
+    key : (n,) int64 array
+        Shape and corner as one number, ascending.
     """
 
     shape: NDArray[np.uint8]
@@ -49,6 +54,7 @@ class Placements:
     colour: Plane
     cells: Index
     start: Index
+    key: NDArray[np.int64]
 
     def __len__(self) -> int:
         """Return the number of placements."""
@@ -62,9 +68,11 @@ class Placements:
     def entries(self, rows: Index) -> Index:
         """Return where in ``cells`` the cells of the given placements stand, one after the other."""
         size = self.start[rows + 1] - self.start[rows]
-        return np.arange(size.sum()) + np.repeat(self.start[rows] - np.cumsum(size) + size, size)
+        offset = self.start[rows] - np.cumsum(size) + size
+        entries: Index = np.arange(size.sum()) + np.repeat(offset, size)
+        return entries
 
-    def totals(self, amounts: NDArray[np.integer] | Mask) -> NDArray[np.int64]:
+    def totals(self, amounts: Whole | Mask) -> NDArray[np.int64]:
         """Sum amounts given for each cell over the cells of each placement, shape (n,)."""
         return segment_sums(amounts[self.cells], self.start[1:])
 
@@ -72,7 +80,7 @@ class Placements:
         """Return the rows of the placements that cover a marked cell, ascending."""
         return np.unique(np.searchsorted(self.start, np.flatnonzero(marked[self.cells]), side="right") - 1)
 
-    def find(self, shape: NDArray[np.integer], corner: NDArray[np.integer]) -> Index:
+    def find(self, shape: Whole, corner: Whole) -> Index:
         """Look placements up.
 
         Parameters
@@ -87,37 +95,13 @@ class Placements:
         (k,) intp array
             Row of each placement, -1 where there is none.
         """
-        known, wanted = _key(self.shape, self.corner), _key(shape, corner)
-        row = np.minimum(np.searchsorted(known, wanted), len(known) - 1)
-        return np.where(known[row] == wanted, row, -1)
-
-    def of_sheet(self, sheet: int, n_cells_before: int) -> Placements:
-        """Return the placements of one sheet, as if there were no other one.
-
-        Parameters
-        ----------
-        sheet : int
-            Its number.
-        n_cells_before : int
-            Cells in the sheets before it.
-
-        Returns
-        -------
-        Placements
-            With cells of this sheet alone, and sheet number 0.
-        """
-        first, last = np.searchsorted(self.corner[:, 2], [sheet, sheet + 1])
-        start = self.start[first : last + 1]
-        return Placements(
-            shape=self.shape[first:last],
-            corner=self.corner[first:last] - np.array([0, 0, sheet], dtype=np.int32),
-            colour=self.colour[first:last],
-            cells=self.cells[start[0] : start[-1]] - n_cells_before,
-            start=start - start[0],
-        )
+        wanted = _key(shape, corner)
+        row = np.minimum(np.searchsorted(self.key, wanted), len(self.key) - 1)
+        rows: Index = np.where(self.key[row] == wanted, row, -1)
+        return rows
 
 
-def segment_sums(values: NDArray[np.integer] | Mask, end: Index) -> NDArray[np.int64]:
+def segment_sums(values: Whole | Mask, end: Index) -> NDArray[np.int64]:
     """Sum whole numbers over segments that follow one another; twice as fast as ``np.add.reduceat``.
 
     Parameters
@@ -135,10 +119,11 @@ def segment_sums(values: NDArray[np.integer] | Mask, end: Index) -> NDArray[np.i
     return np.diff(np.append(0, np.cumsum(values, dtype=np.int64))[end], prepend=0)
 
 
-def _key(shape: NDArray[np.integer], corner: NDArray[np.integer]) -> NDArray[np.int64]:
-    """Number the places of all shapes on all sheets in the order in which placements are listed."""
+def _key(shape: Whole, corner: Whole) -> NDArray[np.int64]:
+    """Pack sheet, shape, y and x into numbers that ascend in the order in which placements are listed."""
     x, y, sheet = corner.astype(np.int64).T
-    return (((sheet << 8) + shape << 16) + y << 16) + x
+    key: NDArray[np.int64] = (sheet << _SHEET_BITS) | (shape.astype(np.int64) << 32) | (y << 16) | x
+    return key
 
 
 def placements(sheets: Sheets, among: Shapes) -> Placements:
@@ -171,7 +156,8 @@ def placements(sheets: Sheets, among: Shapes) -> Placements:
     cells, start = planes.covered(shape, place, among)
     sheet, within = np.divmod(place, planes.extent)
     y, x = np.divmod(within, planes.stride)
-    return Placements(shape, np.stack([x, y, sheet], axis=1).astype(np.int32), code, cells, start)
+    corner = np.stack([x, y, sheet], axis=1).astype(np.int32)
+    return Placements(shape, corner, code, cells, start, _key(shape, corner))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -201,7 +187,7 @@ class _Planes:
     @classmethod
     def of(cls, sheets: Sheets, among: Shapes) -> _Planes:
         """Pad the sheets on the far sides."""
-        reach = max(int(cells.max()) for cells in among.cells)
+        reach = int(among.extent.max()) - 1
         padding = ((0, 0), (0, reach + 1), (0, reach))
         colour = np.pad(sheets.colour, padding, constant_values=COLOUR_EMPTY)
         must = np.pad(sheets.must, padding).astype(np.int16)

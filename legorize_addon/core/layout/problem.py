@@ -22,8 +22,8 @@ _HANGING: Final = 2.0
 _BRIDGE: Final = 0.06
 _OPTIONAL: Final = 0.004
 """What a placement costs besides itself, in bricks: being a 1 x 1; having nothing
-below and nothing that must be built above; each seam of the layer below that it
-lies across (a gain); each cell that need not be covered."""
+below and nothing above; each seam of the layers below and above that it lies
+across (a gain); each cell that need not be covered."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,6 +32,8 @@ class Problem:
 
     Attributes
     ----------
+    sheets : Sheets
+        Where to lay.
     shapes : Shapes
         What the rows of ``placements.shape`` mean.
     placements : Placements
@@ -44,6 +46,7 @@ class Problem:
         Cost of each placement, in bricks.
     """
 
+    sheets: Sheets
     shapes: Shapes
     placements: Placements
     must: Mask
@@ -58,21 +61,22 @@ class Problem:
         return owner
 
 
-def pose(sheets: Sheets, among: Shapes, found: Placements, *, below: Rows, above: Mask) -> Problem:
+def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Mask) -> Problem:
     """Put costs on the placements on some sheets.
 
     Parameters
     ----------
     sheets : Sheets
-        The sheets.
+        The sheets, no two of them in touch.
     among : Shapes
         Shapes of the placements.
     found : Placements
         What may be laid.
-    below : (n_sheets, n_y, n_x) int32 array
-        Brick under each cell, ``NOBODY`` or ``GROUND``.
-    above : (n_sheets, n_y, n_x) bool array
-        Cells over which something must be built.
+    owner : (n_plates + 2, n_y, n_x) int32 array
+        Brick in each cell of the model, ``NOBODY`` or ``GROUND``; plane 0 lies
+        below the lowest plate, the last one above the highest.
+    must : (n_plates + 2, n_y, n_x) bool array
+        Cells of the model that have to be covered.
 
     Returns
     -------
@@ -82,13 +86,15 @@ def pose(sheets: Sheets, among: Shapes, found: Placements, *, below: Rows, above
         seams that it bridges.
     """
     cells = sheets.cells
-    must = sheets.must.reshape(-1)[cells]
-    held = ((below != NOBODY) | above).reshape(-1)[cells]
-    cost = 1 + _SINGLE * (found.size == 1) + _OPTIONAL * found.totals(~must)
+    needed = sheets.must.reshape(-1)[cells]
+    held = np.zeros(len(cells), dtype=bool)
+    cost = 1 + _SINGLE * (found.size == 1) + _OPTIONAL * found.totals(~needed)
+    for plane in (sheets.level, sheets.level + sheets.height + 1):
+        held |= ((owner[plane] != NOBODY) | must[plane]).reshape(-1)[cells]
+        cost -= _BRIDGE * _bridged(found, among, _seams(owner[plane])[:, cells])
     cost += _HANGING * (found.totals(held) == 0)
-    cost -= _BRIDGE * _bridged(found, among, _seams(below)[:, cells])
     sheet, y, x = np.unravel_index(cells, sheets.colour.shape)
-    return Problem(shapes=among, placements=found, must=must, corner=np.stack([x, y, sheet], axis=1), cost=cost)
+    return Problem(sheets, among, found, needed, np.stack([x, y, sheet], axis=1), cost)
 
 
 def _seams(owner: Rows) -> Mask:

@@ -14,10 +14,12 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
+from scipy.ndimage import maximum_filter
 
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, connect
 from ..model import COLOUR_EMPTY, Bricks, Floats, Mask
+from ..progress import Progress
 from .exchange import exchange
 from .placements import Placements, placements
 from .problem import GROUND, pose
@@ -25,7 +27,7 @@ from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
 from .table import bricks_of, gathered
 
-_ROUNDS: Final = 4
+_ROUNDS: Final = 3
 """Most rounds of joining; each joins neighbours of neighbours."""
 
 _JOIN: Final = 3.5
@@ -34,6 +36,9 @@ _JOIN: Final = 3.5
 _OFFERS: Final = 2
 """Placements tried in a round, for each brick of the model."""
 
+_REACH: Final = 8
+"""Studs around a floating component in which bricks may change."""
+
 
 def connect_loose(
     bricks: Bricks,
@@ -41,6 +46,7 @@ def connect_loose(
     must: Mask,
     catalogue: Catalogue,
     rng: np.random.Generator,
+    progress: Progress,
 ) -> Bricks:
     """Join what floats to what stands, as far as a few rounds of exchanges can.
 
@@ -56,6 +62,8 @@ def connect_loose(
         Whose parts the bricks are.
     rng : numpy.random.Generator
         Decides between equals.
+    progress : Progress
+        Told before each round.
 
     Returns
     -------
@@ -63,9 +71,10 @@ def connect_loose(
         Covers the same must cells with no more floating bricks than before.
     """
     links = connect(bricks, catalogue)
-    for _ in range(_ROUNDS):
+    for number in range(_ROUNDS):
         if not links.n_floating:
             break
+        progress("connection", number / _ROUNDS)
         cells = _Cells.of(bricks, links, must)
         tried = gathered(
             [
@@ -89,8 +98,8 @@ class _Cells:
     owner : int32 array
         Row of the brick, ``NOBODY`` or ``GROUND``.
     label : int32 array
-        0 where a brick stands, a number for each floating component, -1 where
-        there is no brick.
+        0 in the ground and where a brick stands, a number for each floating
+        component, -1 where there is no brick.
     must : bool array
         Cells that have to be covered.
     """
@@ -106,39 +115,32 @@ class _Cells:
         owner = np.full(must.shape, NOBODY, dtype=np.int32)
         owner[1 : n_z + 1, :n_y, :n_x] = links.owner
         label = np.append(np.where(links.grounded, 0, links.component + 1), -1).astype(np.int32)[owner]
-        owner[: bricks.corner[:, 2].min() + 1] = GROUND
+        ground = slice(bricks.corner[:, 2].min() + 1)
+        owner[ground], label[ground] = GROUND, 0
         return cls(owner, label, must)
 
 
 def _joined(bricks: Bricks, sheets: Sheets, among: Shapes, cells: _Cells, rng: np.random.Generator) -> Bricks:
     """Offer joining bricks once, in the sheets of one height that a floating component reaches."""
-    around = _around(sheets, cells)
-    own = cells.label[sheets.level + 1]
-    reached = np.maximum(around.max(axis=0), own).max(axis=(1, 2), where=sheets.colour != COLOUR_EMPTY, initial=-1) > 0
+    labels = np.stack([cells.label[sheets.level + plate] for plate in (0, sheets.height + 1, 1)])
+    floating = (labels > 0).any(axis=0) & (sheets.colour != COLOUR_EMPTY)
+    reached = floating.any(axis=(1, 2))
     if not reached.any():
         return bricks
-    sheets, around, own = sheets.take(reached), around[:, reached], own[reached]
-    affected = np.isin(bricks.corner[:, 2], sheets.level)
-    # whatever lies there has to be found again, ties between may cells included
-    worthwhile = sheets.must | (own >= 0) | (around > 0).any(axis=0)
-    found = placements(replace(sheets, must=worthwhile), among)
-    problem = pose(
-        sheets, among, found, below=cells.owner[sheets.level], above=cells.must[sheets.level + 1 + sheets.height]
-    )
-    around, own = around.reshape(2, -1)[:, sheets.cells], own.reshape(-1)[sheets.cells]
-    alone = found.totals(around.max(axis=0) >= 0) == 0
+    sheets, labels, floating = sheets.take(reached), labels[:, reached], floating[reached]
+    near = maximum_filter(floating, size=(1, 2 * _REACH + 1, 2 * _REACH + 1))
+    found = placements(replace(sheets, must=near & (sheets.must | (labels[2] >= 0) | floating)), among)
+    problem = pose(sheets, among, found, cells.owner, cells.must)
+    at = labels.reshape(3, -1)[:, sheets.cells]
+    alone = found.totals(at[:2].max(axis=0) >= 0) == 0
     problem = replace(problem, cost=problem.cost + _JOIN * alone)
-    corner = bricks.corner[affected]
+    here = np.flatnonzero(np.isin(bricks.corner[:, 2], sheets.level))
+    corner = bricks.corner[here]
     corner[:, 2] = np.searchsorted(sheets.level, corner[:, 2])
-    chosen = found.find(among.rows_of(bricks.part[affected], bricks.turn[affected]), corner)
-    offered, reward = _offers(found, np.vstack([around, own]), _OFFERS * len(bricks), rng)
-    chosen = exchange(problem, chosen, offered, rng, reward=reward)
-    return gathered([bricks.take(~affected), bricks_of(sheets, problem, chosen)])
-
-
-def _around(sheets: Sheets, cells: _Cells) -> Rows:
-    """Return the labels below and above each cell, shape (2, n_sheets, n_y, n_x)."""
-    return np.stack([cells.label[sheets.level], cells.label[sheets.level + 1 + sheets.height]])
+    row = found.find(among.rows_of(bricks.part[here], bricks.turn[here]), corner)
+    offered, reward = _offers(found, at, _OFFERS * len(bricks), rng)
+    chosen = exchange(problem, row[row >= 0], offered, rng, reward=reward)
+    return gathered([bricks.take(np.delete(np.arange(len(bricks)), here[row >= 0])), bricks_of(problem, chosen)])
 
 
 def _offers(found: Placements, labels: Rows, most: int, rng: np.random.Generator) -> tuple[Index, Floats]:

@@ -7,7 +7,7 @@ and so do the 12 plates.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,8 @@ from ..model import Mask
 Plane = NDArray[np.int16]
 Rows = NDArray[np.int32]
 Index = NDArray[np.intp]
+Whole = NDArray[np.integer[Any]]
+"""Whole numbers of whatever type."""
 
 _PATTERN_SIDE: Final = 8
 """Studs along the longest part."""
@@ -35,6 +37,10 @@ class Shapes:
         Quarter turns.
     cells : tuple of (k, 2) int32 arrays
         Cells (x, y) that each shape covers, from the corner of its bounding box.
+    size : (n_shapes,) intp array
+        Number of cells of each shape.
+    extent : (n_shapes, 2) intp array
+        Studs along x and y.
     inner : (2, n_cells_of_all_shapes) bool array
         For each of ``cells``, shape after shape: whether the next cell along x
         (row 0) and along y (row 1) belongs to the same shape.
@@ -52,18 +58,15 @@ class Shapes:
     part: NDArray[np.int16]
     turn: NDArray[np.uint8]
     cells: tuple[Rows, ...]
+    size: Index
+    extent: Index
     inner: Mask
     pattern: NDArray[np.uint64]
     codes: Plane
     made: Mask
     hidden: Plane
 
-    @property
-    def size(self) -> Index:
-        """Number of cells of each shape, shape (n_shapes,)."""
-        return np.array([len(cells) for cells in self.cells], dtype=np.intp)
-
-    def rows_of(self, part: NDArray[np.integer], turn: NDArray[np.integer]) -> Index:
+    def rows_of(self, part: Whole, turn: Whole) -> Index:
         """Return the rows of parts of this height in the given turns, shape (k,)."""
         known = self.part.astype(np.intp) * 4 + self.turn
         return np.searchsorted(known, part.astype(np.intp) * 4 + turn)
@@ -90,10 +93,7 @@ def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shap
         In the order of the catalogue, then by quarter turn.
     """
     oriented = [
-        (row, turn)
-        for row, part in enumerate(catalogue.parts)
-        if part.height == height
-        for turn in range(part.turns)
+        (row, turn) for row, part in enumerate(catalogue.parts) if part.height == height for turn in range(part.turns)
     ]
     cells = tuple(footprint(catalogue.parts[row], turn) for row, turn in oriented)
     part = np.array([row for row, _ in oriented], dtype=np.int16)
@@ -105,6 +105,8 @@ def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shap
         part=part,
         turn=np.array([turn for _, turn in oriented], dtype=np.uint8),
         cells=cells,
+        size=np.array([len(covered) for covered in cells], dtype=np.intp),
+        extent=np.array([covered.max(axis=0) + 1 for covered in cells], dtype=np.intp),
         inner=np.concatenate([_inner_edges(covered) for covered in cells], axis=1),
         pattern=np.array([pattern_bits(*covered.T).sum(dtype=np.uint64) for covered in cells]),
         codes=codes,
@@ -121,7 +123,7 @@ def _inner_edges(covered: Rows) -> Mask:
     return np.stack([filled[x + 1, y], filled[x, y + 1]])
 
 
-def pattern_bits(x: NDArray[np.integer], y: NDArray[np.integer]) -> NDArray[np.uint64]:
+def pattern_bits(x: Whole, y: Whole) -> NDArray[np.uint64]:
     """Give every cell of an 8 x 8 field a bit of its own, so that a set of cells becomes one number.
 
     Parameters

@@ -52,7 +52,7 @@ class Sheets:
         """Flat indices of the cells in the arrays, by number, shape (n_cells,)."""
         return np.flatnonzero(self.colour != COLOUR_EMPTY)
 
-    def take(self, which: NDArray[np.integer] | Mask | slice) -> Sheets:
+    def take(self, which: Mask | slice) -> Sheets:
         """Return some of the sheets."""
         return Sheets(self.height, self.level[which], self.colour[which], self.must[which], self.role[which])
 

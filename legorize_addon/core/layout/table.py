@@ -11,16 +11,13 @@ from ..model import Bricks, Role
 from ..units import PLATES_PER_BRICK
 from .problem import Problem
 from .shapes import Index
-from .sheets import Sheets
 
 
-def bricks_of(sheets: Sheets, problem: Problem, chosen: Index) -> Bricks:
+def bricks_of(problem: Problem, chosen: Index) -> Bricks:
     """Write chosen placements down as bricks.
 
     Parameters
     ----------
-    sheets : Sheets
-        Where they lie.
     problem : Problem
         What they are placements of.
     chosen : (n_bricks,) intp array
@@ -32,7 +29,7 @@ def bricks_of(sheets: Sheets, problem: Problem, chosen: Index) -> Bricks:
         In the order of `chosen`. A brick has the role of its cells, ``INSIDE``
         only if all are; its step is the layer.
     """
-    found = problem.placements
+    sheets, found = problem.sheets, problem.placements
     x, y, sheet = found.corner[chosen].T
     level = sheets.level[sheet]
     roles = sheets.role.reshape(-1)[sheets.cells[found.cells[found.entries(chosen)]]]

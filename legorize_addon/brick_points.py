@@ -1,0 +1,144 @@
+"""The table of bricks as the points of meshes, and back.
+
+A point is the middle of its brick's lower face, in model mm; the columns of
+:class:`~legorize_addon.core.model.Bricks` are attributes of the same names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .core.catalogue import Catalogue
+from .core.model import CELL_SIZE, Bricks, Floats
+
+Rows = NDArray[np.integer]
+
+COLUMNS: Final = ("part", "turn", "colour", "role", "piece", "step")
+VARIANT: Final = "variant"
+"""Attribute that chooses the instanced object."""
+
+ROW: Final = "row"
+"""Attribute with the row of a brick in the table it came from."""
+
+
+def sizes(part: Rows, turn: Rows, catalogue: Catalogue) -> NDArray[np.int32]:
+    """Return the studs that turned parts cover along x and y.
+
+    Parameters
+    ----------
+    part : (n,) integer array
+        Rows of the catalogue.
+    turn : (n,) integer array
+        Quarter turns.
+    catalogue : Catalogue
+        Parts and colours.
+
+    Returns
+    -------
+    (n, 2) int32 array
+    """
+    along = np.array([(entry.length, entry.width) for entry in catalogue.parts], dtype=np.int32)[part]
+    return np.where((turn % 2 == 1)[:, None], along[:, ::-1], along)
+
+
+def positions(bricks: Bricks, catalogue: Catalogue) -> Floats:
+    """Return the middles of the bricks' lower faces in model mm, shape (n, 3) float64."""
+    return (bricks.corner + _half(sizes(bricks.part, bricks.turn, catalogue))) * CELL_SIZE
+
+
+def box_corners(bricks: Bricks, catalogue: Catalogue) -> Floats:
+    """Return the eight corners of each brick's bounding box, studs left out, in model mm, shape (8 n, 3) float64."""
+    height = np.array([part.height for part in catalogue.parts])[bricks.part]
+    size = np.column_stack([sizes(bricks.part, bricks.turn, catalogue), height])
+    unit = np.stack(np.meshgrid([0, 1], [0, 1], [0, 1]), axis=-1).reshape(-1, 3)
+    return ((bricks.corner[:, None] + unit * size[:, None]) * CELL_SIZE).reshape(-1, 3)
+
+
+def points_mesh(name: str, bricks: Bricks, position: Floats, variant: Rows, row: Rows) -> bpy.types.Mesh:
+    """Return a new mesh with one point a brick.
+
+    Parameters
+    ----------
+    name : str
+        Name of the mesh.
+    bricks : Bricks
+        The table, n rows.
+    position : (n, 3) float64 array
+        Points in mm.
+    variant : (n,) integer array
+        Row of each brick's part and colour among the instanced objects.
+    row : (n,) integer array
+        Row of each brick in the whole model's table.
+
+    Returns
+    -------
+    bpy.types.Mesh
+    """
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(len(position))
+    mesh.vertices.foreach_set("co", position.astype(np.float32).ravel())
+    columns = {column: getattr(bricks, column) for column in COLUMNS} | {VARIANT: variant, ROW: row}
+    for key, values in columns.items():
+        mesh.attributes.new(key, "INT", "POINT").data.foreach_set("value", values.astype(np.int32))
+    return mesh
+
+
+def read_points(meshes: Sequence[bpy.types.Mesh], part_numbers: Sequence[str], catalogue: Catalogue) -> Bricks:
+    """Return the table of bricks that meshes of points hold, in its first order.
+
+    Parameters
+    ----------
+    meshes : sequence of bpy.types.Mesh
+        Made by :func:`points_mesh`.
+    part_numbers : sequence of str
+        LDraw numbers of the parts, by the rows that the meshes mean.
+    catalogue : Catalogue
+        Parts and colours of today.
+
+    Returns
+    -------
+    Bricks
+        The table. A brick whose point was moved is where its point is now.
+
+    Raises
+    ------
+    BuildError
+        A part number is not in the catalogue.
+    """
+    column = {name: np.concatenate([_read(mesh, name) for mesh in meshes]) for name in (*COLUMNS, ROW)}
+    order = np.argsort(column[ROW], kind="stable")
+    part, turn, colour, role, piece, step = (column[name][order] for name in COLUMNS)
+    part = np.array([catalogue.part_row(number) for number in part_numbers], dtype=np.int16)[part]
+    position = read_positions(meshes)[order]
+    return Bricks(
+        part=part,
+        corner=np.rint(position / CELL_SIZE - _half(sizes(part, turn, catalogue))).astype(np.int32),
+        turn=turn.astype(np.uint8),
+        colour=colour.astype(np.int16),
+        role=role.astype(np.uint8),
+        piece=piece.astype(np.int16),
+        step=step,
+    )
+
+
+def read_positions(meshes: Sequence[bpy.types.Mesh]) -> Floats:
+    """Return the points of several meshes in mm, shape (n, 3) float64."""
+    found = [np.empty(3 * len(mesh.vertices), dtype=np.float32) for mesh in meshes]
+    for mesh, values in zip(meshes, found, strict=True):
+        mesh.vertices.foreach_get("co", values)
+    return np.concatenate(found).reshape(-1, 3).astype(np.float64)
+
+
+def _half(size: NDArray[np.int32]) -> Floats:
+    return np.insert(size / 2, 2, 0.0, axis=1)
+
+
+def _read(mesh: bpy.types.Mesh, name: str) -> NDArray[np.int32]:
+    values = np.empty(len(mesh.vertices), dtype=np.int32)
+    mesh.attributes[name].data.foreach_get("value", values)
+    return values

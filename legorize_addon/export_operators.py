@@ -1,0 +1,132 @@
+"""The buttons that write files: LDraw and pictures."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+from typing import Final
+
+import bpy
+from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from .core.catalogue import load_catalogue
+from .core.errors import BuildError
+from .core.ldraw import write_ldr
+from .operators import OnBuild
+from .properties import current_build, label
+from .render import AZIMUTH, render_still
+from .scene import read_bricks
+
+VIEWS: Final = [(view, label(view), "") for view in AZIMUTH]
+
+
+class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
+    """Write the build that the panel shows as an LDraw file."""
+
+    bl_idname = "legorize.export_ldr"
+    bl_label = "Export LDraw"
+    bl_description = "Write the bricks as an LDraw model, which LeoCAD, BrickLink Studio and other programs open"
+    bl_options = {"REGISTER"}
+    filename_ext = ".ldr"
+    filter_glob: StringProperty(default="*.ldr", options={"HIDDEN"})
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Write the file."""
+        return self.reported(self._write, current_build(context.scene))
+
+    def _write(self, build: bpy.types.Collection) -> set[str]:
+        path = Path(self.filepath)
+        text = write_ldr(read_bricks(build), load_catalogue(), name=path.name, title=build.name)
+        write_whole(path, text)
+        self.report({"INFO"}, f"Wrote {path}.")
+        return {"FINISHED"}
+
+
+class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
+    """Render the scene's builds to a file."""
+
+    bl_idname = "legorize.render_still"
+    bl_label = "Render Picture"
+    bl_description = (
+        "Take a picture of the brick model with light and ground of its own; Blender waits until it is done"
+    )
+    bl_options = {"REGISTER"}
+    filename_ext = ".png"
+    filter_glob: StringProperty(default="*.png", options={"HIDDEN"})
+    samples: IntProperty(
+        name="Samples", description="Light paths a pixel; more is cleaner and slower", default=64, min=1
+    )
+    width: IntProperty(name="Width", description="Width of the picture in pixels", default=1280, min=16, max=16384)
+    height: IntProperty(name="Height", description="Height of the picture in pixels", default=960, min=16, max=16384)
+    view: EnumProperty(
+        name="View",
+        description="The corner from which the model is seen",
+        items=VIEWS,
+        default="front_right",
+    )
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Render and write the file."""
+        return self.reported(self._render, context.scene)
+
+    def _render(self, scene: bpy.types.Scene) -> set[str]:
+        path = Path(self.filepath)
+        render_still(scene, path, samples=self.samples, resolution=(self.width, self.height), view=self.view)
+        self.report({"INFO"}, f"Wrote {path}.")
+        return {"FINISHED"}
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a text file in one piece: it is there as a whole or as it was before.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        File to write or replace.
+    text : str
+        Content, with its own line ends.
+
+    Raises
+    ------
+    BuildError
+        The file cannot be written.
+    """
+    try:
+        with tempfile.NamedTemporaryFile(
+            "w", encoding="utf-8", newline="", dir=path.parent, prefix=f".{path.name}.", delete=False
+        ) as file:
+            partial = Path(file.name)
+            file.write(text)
+    except OSError as error:
+        raise BuildError(f"The file {path} cannot be written ({error.strerror}): choose another folder.") from error
+    _move(partial, path)
+
+
+def _move(partial: Path, path: Path) -> None:
+    try:
+        os.replace(partial, path)
+    except OSError as error:
+        partial.unlink()
+        raise BuildError(f"The file {path} cannot be written ({error.strerror}): choose another name.") from error
+
+
+def _draw_export(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    self.layout.operator(LEGORIZE_OT_export_ldr.bl_idname, text="Legorize Model (.ldr)")
+
+
+classes = (LEGORIZE_OT_export_ldr, LEGORIZE_OT_render_still)
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
+
+
+def register() -> None:
+    """Register the operators and their entry in File > Export."""
+    _register_classes()
+    bpy.types.TOPBAR_MT_file_export.append(_draw_export)
+
+
+def unregister() -> None:
+    """Undo :func:`register`."""
+    bpy.types.TOPBAR_MT_file_export.remove(_draw_export)
+    _unregister_classes()

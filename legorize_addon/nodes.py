@@ -1,0 +1,182 @@
+"""What turns brick points into coloured instances: one Geometry-Nodes tree, a material a colour.
+
+The tree "Legorize Bricks" sets, on every point of a mesh, the object of a
+collection that the point's attribute ``variant`` counts to, turned by its
+attribute ``turn``. A plane hides the points beyond it and leaves the data as
+they are.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Final
+
+import bpy
+from mathutils import Color
+
+from .core.catalogue import Colour
+
+TREE_NAME: Final = "Legorize Bricks"
+TREE_KEY: Final = "legorize_tree"
+TREE_VERSION: Final = 1
+MATERIAL_KEY: Final = "legorize_colour"
+MODIFIER_NAME: Final = "Bricks"
+PARTS: Final = "Parts"
+SECTION_NORMAL: Final = "Section Normal"
+SECTION_OFFSET: Final = "Section Offset"
+
+INTERFACE: Final = (
+    ("Geometry", "INPUT", "NodeSocketGeometry"),
+    (PARTS, "INPUT", "NodeSocketCollection"),
+    (SECTION_NORMAL, "INPUT", "NodeSocketVector"),
+    (SECTION_OFFSET, "INPUT", "NodeSocketFloat"),
+    ("Geometry", "OUTPUT", "NodeSocketGeometry"),
+)
+
+# name: type, place, properties, values of unlinked inputs
+NODES: Final[dict[str, tuple[str, tuple[int, int], dict[str, Any], dict[str, Any]]]] = {
+    "In": ("NodeGroupInput", (-600, 0), {}, {}),
+    "Out": ("NodeGroupOutput", (600, 0), {}, {}),
+    "Variant": ("GeometryNodeInputNamedAttribute", (-200, -200), {"data_type": "INT"}, {"Name": "variant"}),
+    "Turn": ("GeometryNodeInputNamedAttribute", (-400, -400), {"data_type": "INT"}, {"Name": "turn"}),
+    "Angle": ("ShaderNodeMath", (-200, -400), {"operation": "MULTIPLY"}, {1: math.pi / 2}),
+    "Rotation": ("FunctionNodeAxisAngleToRotation", (0, -400), {}, {"Axis": (0.0, 0.0, 1.0)}),
+    "Position": ("GeometryNodeInputPosition", (-600, 300), {}, {}),
+    "Distance": ("ShaderNodeVectorMath", (-400, 200), {"operation": "DOT_PRODUCT"}, {}),
+    "Kept": ("FunctionNodeCompare", (-200, 200), {"data_type": "FLOAT", "operation": "LESS_EQUAL"}, {}),
+    "Children": ("GeometryNodeCollectionInfo", (-200, 0), {}, {"Separate Children": True, "Reset Children": True}),
+    "Instances": ("GeometryNodeInstanceOnPoints", (200, 0), {}, {"Pick Instance": True}),
+}
+
+LINKS: Final = (
+    ("In", "Geometry", "Instances", "Points"),
+    ("In", PARTS, "Children", "Collection"),
+    ("Children", "Instances", "Instances", "Instance"),
+    ("Variant", "Attribute", "Instances", "Instance Index"),
+    ("Turn", "Attribute", "Angle", 0),
+    ("Angle", "Value", "Rotation", "Angle"),
+    ("Rotation", "Rotation", "Instances", "Rotation"),
+    ("Position", "Position", "Distance", 0),
+    ("In", SECTION_NORMAL, "Distance", 1),
+    ("Distance", "Value", "Kept", 0),
+    ("In", SECTION_OFFSET, "Kept", 1),
+    ("Kept", "Result", "Instances", "Selection"),
+    ("Instances", "Instances", "Out", "Geometry"),
+)
+
+
+def brick_tree() -> bpy.types.NodeTree:
+    """Return the Geometry-Nodes tree of this file, made at the first call."""
+    for tree in bpy.data.node_groups:
+        if tree.get(TREE_KEY) == TREE_VERSION:
+            return tree
+    tree = bpy.data.node_groups.new(TREE_NAME, "GeometryNodeTree")
+    tree[TREE_KEY] = TREE_VERSION
+    tree.is_modifier = True
+    for name, direction, kind in INTERFACE:
+        tree.interface.new_socket(name, in_out=direction, socket_type=kind)
+    for name, (kind, place, properties, values) in NODES.items():
+        _add_node(tree, name, kind, place, properties, values)
+    for source, output, target, entry in LINKS:
+        tree.links.new(_socket(tree.nodes[source].outputs, output), _socket(tree.nodes[target].inputs, entry))
+    return tree
+
+
+def add_bricks_modifier(target: bpy.types.Object, parts: bpy.types.Collection) -> None:
+    """Let an object's points show as bricks.
+
+    Parameters
+    ----------
+    target : bpy.types.Object
+        Mesh object whose vertices carry ``variant`` and ``turn``.
+    parts : bpy.types.Collection
+        Collection whose objects, by ascending name, are the variants.
+    """
+    modifier = target.modifiers.new(MODIFIER_NAME, "NODES")
+    modifier.node_group = brick_tree()
+    set_input(modifier, PARTS, parts)
+
+
+def set_section(target: bpy.types.Object, normal: tuple[float, float, float], offset: float) -> None:
+    """Hide an object's bricks beyond a plane.
+
+    Parameters
+    ----------
+    target : bpy.types.Object
+        Object with the modifier of :func:`add_bricks_modifier`.
+    normal : tuple of three float
+        Direction towards the hidden side; all zero shows everything.
+    offset : float
+        Distance of the plane from the model's origin along the normal, in mm.
+    """
+    modifier = target.modifiers[MODIFIER_NAME]
+    set_input(modifier, SECTION_NORMAL, normal)
+    set_input(modifier, SECTION_OFFSET, offset)
+
+
+def set_input(modifier: bpy.types.NodesModifier, name: str, value: Any) -> None:
+    """Set an input of a Geometry-Nodes modifier by the name that its tree shows.
+
+    Blender 5.2 keeps the values behind ``properties.inputs``, earlier versions
+    as custom properties of the modifier.
+    """
+    sockets = modifier.node_group.interface.items_tree
+    identifier = next(socket.identifier for socket in sockets if socket.name == name and socket.in_out == "INPUT")
+    if hasattr(modifier, "properties"):
+        getattr(modifier.properties.inputs, identifier).value = value
+    else:
+        modifier[identifier] = value
+    modifier.id_data.update_tag()
+
+
+def colour_material(colour: Colour) -> bpy.types.Material:
+    """Return the material of a brick colour, made at the first call in a file.
+
+    Parameters
+    ----------
+    colour : Colour
+        Colour of the catalogue.
+
+    Returns
+    -------
+    bpy.types.Material
+        Glossy plastic; the viewport's solid mode shows the same colour.
+    """
+    for material in bpy.data.materials:
+        if material.get(MATERIAL_KEY) == colour.code:
+            return material
+    material = bpy.data.materials.new(f"Brick {colour.code} {colour.name}")
+    material[MATERIAL_KEY] = colour.code
+    red, green, blue = Color([byte / 255 for byte in colour.rgb]).from_srgb_to_scene_linear()
+    material.diffuse_color = (red, green, blue, 1.0)
+    material.roughness = 0.3
+    if material.node_tree is None:
+        material.use_nodes = True
+    shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    shader.inputs["Base Color"].default_value = (red, green, blue, 1.0)
+    shader.inputs["Roughness"].default_value = 0.25
+    return material
+
+
+def _add_node(
+    tree: bpy.types.NodeTree,
+    name: str,
+    kind: str,
+    place: tuple[int, int],
+    properties: dict[str, Any],
+    values: dict[str, Any],
+) -> None:
+    node = tree.nodes.new(kind)
+    node.name = name
+    node.location = place
+    for key, value in properties.items():
+        setattr(node, key, value)
+    for key, value in values.items():
+        node.inputs[key].default_value = value
+
+
+def _socket(sockets: Any, key: str | int) -> bpy.types.NodeSocket:
+    # several sockets share a name, each for one data type: the one in use is enabled
+    if isinstance(key, int):
+        return sockets[key]
+    return next(socket for socket in sockets if socket.name == key and socket.enabled)

@@ -1,0 +1,281 @@
+"""Build and remove: from the context to the core, from the core to the scene, and what to tell the user."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final
+
+import bpy
+from bpy.app.handlers import persistent
+
+from . import job
+from .core.catalogue import load_catalogue
+from .core.errors import Cancelled, LegorizeError
+from .core.mesh import TriangleMesh
+from .core.pipeline import Build, legorize
+from .core.progress import Progress
+from .core.settings import Settings
+from .properties import current_build, label, settings_of
+from .read_mesh import read_objects
+from .scene import BUILD_KEY, OWN_KEY, builds_of, clear_build, show_build, sources_of
+from .view import readable
+
+TICK: Final = 0.1
+"""Seconds between two looks at a running job."""
+
+MM_PER_METRE: Final = 1000.0
+SOURCE_TYPES: Final = frozenset({"MESH", "CURVE", "SURFACE", "FONT", "META"})
+NAVIGATION: Final = frozenset(
+    {"MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM"}
+)
+"""Events that pass while a job runs: one may look around, not change the scene under its feet."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Order:
+    """What a build is made of, read on the main thread.
+
+    Attributes
+    ----------
+    sources : tuple of str
+        Names of the objects: references to them would not outlive an undo.
+    mesh : TriangleMesh
+        Their surface.
+    remarks : tuple of str
+        What could not be read literally.
+    settings : Settings
+        The user's choices.
+    mm_per_unit : float
+        World mm per Blender unit.
+    """
+
+    sources: tuple[str, ...]
+    mesh: TriangleMesh
+    remarks: tuple[str, ...]
+    settings: Settings
+    mm_per_unit: float
+
+    def work(self, progress: Progress) -> Build:
+        """Run the core; no Blender in here."""
+        return legorize(self.mesh, self.settings, progress)
+
+
+def chosen_sources(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Return the objects to legorize, by name.
+
+    These are the selected objects with a surface, for a selected brick model
+    the objects it was made of, and with nothing selected those of the model
+    that the panel shows.
+    """
+    selected = [thing for thing in context.selected_objects if OWN_KEY not in thing and _has_surface(thing)]
+    models = builds_of(context.scene, [thing for thing in context.selected_objects if OWN_KEY in thing])
+    if not selected and not models and current_build(context.scene):
+        models = [current_build(context.scene)]
+    again = [source for model in models for source in sources_of(model)]
+    return sorted({*selected, *again}, key=lambda thing: thing.name)
+
+
+class Reporting:
+    """The one place where an expected failure becomes a report."""
+
+    def reported(self, work: Callable[..., set[str]], *arguments: Any) -> set[str]:
+        """Call a function; report its failure and cancel if it has one that the user can mend."""
+        try:
+            return work(*arguments)
+        except LegorizeError as error:
+            self.report({"ERROR"}, str(error))
+        except Cancelled:
+            self.report({"INFO"}, "Stopped: nothing was changed.")
+        return {"CANCELLED"}
+
+
+class LEGORIZE_OT_build(Reporting, bpy.types.Operator):
+    """Make a brick model of the chosen objects."""
+
+    bl_idname = "legorize.build"
+    bl_label = "Legorize"
+    bl_description = (
+        "Build the selected objects of bricks, in place of an earlier model of theirs; "
+        "the objects are hidden, not changed, and come back when the model is removed"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there is something to build, and why not."""
+        if job.running():
+            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+        elif context.mode != "OBJECT":
+            cls.poll_message_set("Leave the edit mode first.")
+        elif not chosen_sources(context):
+            cls.poll_message_set("Select an object with a surface.")
+        else:
+            return True
+        return False
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Build in a worker thread, so that Blender stays alive."""
+        if bpy.app.background:
+            return self.execute(context)
+        return self.reported(self._start, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Build straight through."""
+        return self.reported(self._build_now, context)
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Show how far the job has come; show its result at the end."""
+        if self._timer is None:
+            return {"CANCELLED"}
+        if event.type == "ESC" and event.value == "PRESS":
+            self._job.cancel()
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"} if event.type in NAVIGATION else {"RUNNING_MODAL"}
+        self._show_progress(context)
+        if self._job.is_alive():
+            return {"RUNNING_MODAL"}
+        self._close(context)
+        return self.reported(self._finish, context)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Stop: Blender closes the window or opens another file."""
+        job.stop()
+        self._close(context)
+
+    def _build_now(self, context: bpy.types.Context) -> set[str]:
+        order = _take_order(context)
+        return self._show(context, order, order.work(lambda stage, share: None))
+
+    def _start(self, context: bpy.types.Context) -> set[str]:
+        self._order = _take_order(context)
+        self._job = job.Job(self._order.work)
+        self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        self._job.start()
+        return {"RUNNING_MODAL"}
+
+    def _show_progress(self, context: bpy.types.Context) -> None:
+        stage, share = self._job.progress
+        text = "Stopping" if self._job.stopping else f"{label(stage)} {share:.0%} (Esc to stop)"
+        context.workspace.status_text_set(f"Legorize: {text}")
+        _redraw(context)
+
+    def _finish(self, context: bpy.types.Context) -> set[str]:
+        return self._show(context, self._order, self._job.result())
+
+    def _show(self, context: bpy.types.Context, order: Order, build: Build) -> set[str]:
+        sources = [bpy.data.objects[name] for name in order.sources if name in bpy.data.objects]
+        notes = (*order.remarks, *build.notes)
+        view = context.scene.legorize
+        collection = show_build(
+            context.scene,
+            build.bricks,
+            load_catalogue(),
+            origin=build.grid.origin,
+            scale=build.scale,
+            mm_per_unit=order.mm_per_unit,
+            name=" + ".join(order.sources),
+            sources=sources,
+            settings=order.settings,
+            notes=notes,
+            detail=view.detail,
+        )
+        view.build = collection
+        view.show_sources, view.cut_from = False, "NONE"
+        _select_only(context, collection[BUILD_KEY]["root"])
+        self.report({"INFO"}, f"Built of {len(build.bricks)} bricks.")
+        for note in notes:
+            self.report({"WARNING"}, note)
+        return {"FINISHED"}
+
+    def _close(self, context: bpy.types.Context) -> None:
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
+        _redraw(context)
+
+
+class OnBuild(Reporting):
+    """What works on the build that the panel shows."""
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there is a build, and why not."""
+        if job.running():
+            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+        elif not current_build(context.scene):
+            cls.poll_message_set("Legorize an object first.")
+        else:
+            return True
+        return False
+
+
+class LEGORIZE_OT_clear(OnBuild, bpy.types.Operator):
+    """Remove the build that the panel shows."""
+
+    bl_idname = "legorize.clear"
+    bl_label = "Remove Model"
+    bl_description = "Remove the brick model and show the objects that it was made of again"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Remove the build."""
+        clear_build(context.scene, current_build(context.scene))
+        return {"FINISHED"}
+
+
+def _take_order(context: bpy.types.Context) -> Order:
+    sources = chosen_sources(context)
+    with readable(sources):
+        context.view_layer.update()
+        mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get())
+    return Order(
+        sources=tuple(source.name for source in sources),
+        mesh=mesh,
+        remarks=remarks,
+        settings=settings_of(context.scene.legorize.settings),
+        mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
+    )
+
+
+def _has_surface(thing: bpy.types.Object) -> bool:
+    return thing.type in SOURCE_TYPES or thing.instance_collection is not None
+
+
+def _select_only(context: bpy.types.Context, thing: bpy.types.Object) -> None:
+    for other in context.selected_objects:
+        other.select_set(False)
+    thing.select_set(True)
+    context.view_layer.objects.active = thing
+
+
+def _redraw(context: bpy.types.Context) -> None:
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+@persistent
+def _stop_jobs(*arguments: Any) -> None:
+    job.stop()
+
+
+classes = (LEGORIZE_OT_build, LEGORIZE_OT_clear)
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
+
+
+def register() -> None:
+    """Register the operators and what stops jobs when another file is opened."""
+    _register_classes()
+    bpy.app.handlers.load_pre.append(_stop_jobs)
+
+
+def unregister() -> None:
+    """Undo :func:`register`, after stopping what runs."""
+    job.stop()
+    bpy.app.handlers.load_pre.remove(_stop_jobs)
+    _unregister_classes()

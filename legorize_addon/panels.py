@@ -1,0 +1,171 @@
+"""The sidebar tab "Legorize": the button, the settings, what is shown, what came out."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+from dataclasses import Field, fields
+from types import MappingProxyType
+from typing import Any, Final
+
+import bpy
+
+from . import job
+from .core.settings import Settings, choices
+from .core.units import BRICK, STUD
+from .export_operators import LEGORIZE_OT_export_ldr, LEGORIZE_OT_render_still
+from .operators import LEGORIZE_OT_build, LEGORIZE_OT_clear
+from .properties import current_build, label
+from .scene import BUILD_KEY, builds
+
+MM_PER_CM: Final = 10.0
+PIXELS_PER_LETTER: Final = 8.0
+"""Width of a letter in the sidebar, with room for the icon: Blender does not wrap texts."""
+
+
+class _Tab:
+    """Where every panel stands."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Legorize"
+
+
+class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
+    """The button, or how far it has come."""
+
+    bl_label = "Legorize"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the button or the progress bar, and which build the other panels are about."""
+        running = job.running()
+        if running:
+            stage, share = running.progress
+            self.layout.progress(factor=share, type="BAR", text=label(stage))
+            self.layout.label(text="Stopping" if running.stopping else "Esc stops")
+            return
+        button = self.layout.column()
+        button.scale_y = 1.6
+        button.operator(LEGORIZE_OT_build.bl_idname, icon="MOD_BUILD")
+        if len(builds(context.scene)) > 1:
+            self.layout.prop(context.scene.legorize, "build")
+
+
+class _SettingsPanel(_Tab):
+    """The settings of one group.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The settings, in their order.
+    alternatives : mapping of str to str
+        The setting whose choice decides whether another one counts.
+    """
+
+    bl_parent_id = "LEGORIZE_PT_main"
+    names: tuple[str, ...] = ()
+    alternatives: Mapping[str, str] = MappingProxyType({})
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the group's settings, without the numbers that its choice leaves unused."""
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        group = context.scene.legorize.settings
+        for name in self.names:
+            choice = self.alternatives.get(name)
+            if choice is None or getattr(group, choice) == name:
+                self.layout.prop(group, name)
+
+
+def _settings_panels() -> tuple[type, ...]:
+    """Return one panel for each group of settings, in their order; the first one is open."""
+    groups: dict[str, list[Field[Any]]] = {}
+    for entry in fields(Settings):
+        groups.setdefault(entry.metadata["group"], []).append(entry)
+    return tuple(_settings_panel(group, entries, closed=i > 0) for i, (group, entries) in enumerate(groups.items()))
+
+
+def _settings_panel(group: str, entries: Sequence[Field[Any]], *, closed: bool) -> type:
+    alternatives = {word: choice.name for choice in entries for word in choices(choice)}
+    members = {
+        "__doc__": f"The settings of the group {group}.",
+        "bl_label": group,
+        "bl_options": {"DEFAULT_CLOSED"} if closed else set(),
+        "names": tuple(entry.name for entry in entries),
+        "alternatives": MappingProxyType(alternatives),
+    }
+    return type(f"LEGORIZE_PT_{group.lower()}", (_SettingsPanel, bpy.types.Panel), members)
+
+
+class _BuildPanel(_Tab):
+    """What is about a build, and is not there without one."""
+
+    bl_parent_id = "LEGORIZE_PT_main"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there is a build."""
+        return current_build(context.scene) is not None
+
+
+class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
+    """What is shown of a build."""
+
+    bl_label = "Layers"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the layer slider, the cut, and what else may be shown."""
+        view = context.scene.legorize
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        self.layout.prop(view, "top_layer", text=f"Top of {current_build(context.scene)[BUILD_KEY]['layers']}")
+        self.layout.prop(view, "cut_from")
+        if view.cut_from != "NONE":
+            self.layout.prop(view, "cut_share")
+        self.layout.prop(view, "show_sources")
+        self.layout.prop(view, "detail")
+
+
+class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):
+    """What came out."""
+
+    bl_label = "Result"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the figures of the build and its remarks."""
+        state = current_build(context.scene)[BUILD_KEY]
+        column = self.layout.column(align=True)
+        for text in _figures(state["summary"]):
+            column.label(text=text)
+        width = int(context.region.width / (PIXELS_PER_LETTER * context.preferences.system.ui_scale))
+        for note in state["notes"]:
+            lines = self.layout.column(align=True)
+            for row, text in enumerate(textwrap.wrap(note, max(width, 20))):
+                lines.label(text=text, icon="BLANK1" if row else "ERROR")
+        self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
+
+
+class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
+    """What can be written."""
+
+    bl_label = "Export"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the buttons that write files."""
+        self.layout.operator(LEGORIZE_OT_export_ldr.bl_idname, icon="EXPORT")
+        self.layout.operator(LEGORIZE_OT_render_still.bl_idname, icon="RENDER_STILL")
+
+
+def _figures(summary: Any) -> tuple[str, ...]:
+    x, y, layers = summary["studs_x"], summary["studs_y"], summary["layers"]
+    size = [length / MM_PER_CM for length in (x * STUD, y * STUD, layers * BRICK)]
+    return (
+        f"{summary['bricks']} bricks, {summary['mass']:.0f} g",
+        f"{summary['parts']} parts, {summary['colours']} colours",
+        f"{x} x {y} studs, {layers} layers",
+        "{:.1f} x {:.1f} x {:.1f} cm".format(*size),
+    )
+
+
+classes = (LEGORIZE_PT_main, *_settings_panels(), LEGORIZE_PT_layers, LEGORIZE_PT_result, LEGORIZE_PT_export)
+register, unregister = bpy.utils.register_classes_factory(classes)

@@ -1,0 +1,184 @@
+"""What the .blend keeps of the user's choices: the settings, and what is shown of a build.
+
+The settings' properties are generated from
+:class:`~legorize_addon.core.settings.Settings`, which alone knows their
+defaults, limits and texts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import Field, fields
+from typing import Any, Final
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+
+from .core.catalogue import load_catalogue
+from .core.settings import Settings, choices, setting_type
+from .part_meshes import set_detail
+from .scene import BUILD_KEY, builds, show_sources
+from .view import cut_away, show_layers
+
+DIRECTIONS: Final = {"NONE": (0, 0, 0), "LEFT": (-1, 0, 0), "RIGHT": (1, 0, 0), "FRONT": (0, -1, 0), "BACK": (0, 1, 0)}
+"""Directions towards the side that is cut away."""
+
+SIDES: Final = [(side, side.capitalize(), "") for side in DIRECTIONS]
+
+
+def label(name: str) -> str:
+    """Return a setting's name as the panel shows it."""
+    return name.replace("_", " ").capitalize()
+
+
+def _property(entry: Field[Any]) -> Any:
+    """Return the Blender property of a setting."""
+    # Blender ends every tooltip with a full stop of its own
+    common = {
+        "name": label(entry.name),
+        "description": entry.metadata["text"].removesuffix("."),
+        "default": entry.default,
+    }
+    words = choices(entry)
+    if words:
+        return EnumProperty(items=[(word, label(word), common["description"]) for word in words], **common)
+    kind = setting_type(entry)
+    if kind is bool:
+        return BoolProperty(**common)
+    if kind is str:
+        return StringProperty(**common)
+    limits = {"min": entry.metadata["low"], "max": entry.metadata["high"]}
+    return IntProperty(**common, **limits) if kind is int else FloatProperty(**common, **limits)
+
+
+LegorizeSettings = type(
+    "LegorizeSettings",
+    (bpy.types.PropertyGroup,),
+    {
+        "__doc__": "The settings of the next build.",
+        "__annotations__": {entry.name: _property(entry) for entry in fields(Settings)},
+    },
+)
+
+
+def settings_of(group: bpy.types.PropertyGroup) -> Settings:
+    """Return what the user chose.
+
+    Parameters
+    ----------
+    group : LegorizeSettings
+        The scene's settings.
+
+    Returns
+    -------
+    Settings
+        The same as the command line makes of the same numbers.
+    """
+    return Settings(**{entry.name: _value(getattr(group, entry.name)) for entry in fields(Settings)})
+
+
+def _value(value: Any) -> Any:
+    # Blender keeps 32 bits of a float: 3.2 comes back as 3.2000000477
+    return float(str(np.float32(value))) if isinstance(value, float) else value
+
+
+def current_build(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    """Return the build that the panel shows: the one chosen, else the newest; None without any."""
+    there = builds(scene)
+    return scene.legorize.build if scene.legorize.build in there else next(reversed(there), None)
+
+
+def _is_build(self: bpy.types.PropertyGroup, collection: bpy.types.Collection) -> bool:
+    return collection in builds(self.id_data)
+
+
+def _top_layer(self: bpy.types.PropertyGroup) -> int:
+    build = current_build(self.id_data)
+    return build[BUILD_KEY]["top_layer"] if build else 1
+
+
+def _set_top_layer(self: bpy.types.PropertyGroup, value: int) -> None:
+    build = current_build(self.id_data)
+    if build:
+        show_layers(self.id_data, build, max(1, min(value, build[BUILD_KEY]["layers"])))
+
+
+def _update_sources(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    build = current_build(self.id_data)
+    if build:
+        show_sources(build, visible=self.show_sources)
+
+
+def _update_cut(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    build = current_build(self.id_data)
+    if build:
+        cut_away(build, DIRECTIONS[self.cut_from], self.cut_share)
+
+
+def _update_detail(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    build = current_build(self.id_data)
+    if build:
+        set_detail(build[BUILD_KEY]["parts"], load_catalogue(), self.detail)
+
+
+class LegorizeView(bpy.types.PropertyGroup):
+    """What the scene shows of which build, and the settings of the next one."""
+
+    settings: PointerProperty(type=LegorizeSettings)
+    build: PointerProperty(
+        type=bpy.types.Collection, poll=_is_build, name="Model", description="The brick model that this panel is about"
+    )
+    top_layer: IntProperty(
+        name="Top layer",
+        description="The highest layer of bricks that is shown, in the viewport and in renders",
+        min=1,
+        get=_top_layer,
+        set=_set_top_layer,
+    )
+    show_sources: BoolProperty(
+        name="Show original",
+        description="Show the objects that the model was made of; building hides them and removing the model "
+        "brings them back",
+        update=_update_sources,
+    )
+    cut_from: EnumProperty(
+        name="Cut away",
+        description="The side from which bricks are hidden to show the inside",
+        items=SIDES,
+        update=_update_cut,
+    )
+    cut_share: FloatProperty(
+        name="Share",
+        description="How much of the model's extent is cut away",
+        subtype="FACTOR",
+        min=0.0,
+        max=1.0,
+        default=0.5,
+        update=_update_cut,
+    )
+    detail: EnumProperty(
+        name="Detail",
+        description="How finely the parts are drawn; low keeps very large models quick",
+        items=[
+            ("low", "Low", "Plain boxes with eight-sided studs"),
+            ("high", "High", "Bevelled edges, round studs, hollow from below"),
+        ],
+        default="high",
+        update=_update_detail,
+    )
+
+
+classes = (LegorizeSettings, LegorizeView)
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
+
+
+def register() -> None:
+    """Register the property groups and hang them on the scene."""
+    _register_classes()
+    bpy.types.Scene.legorize = PointerProperty(type=LegorizeView)
+
+
+def unregister() -> None:
+    """Undo :func:`register`."""
+    del bpy.types.Scene.legorize
+    _unregister_classes()

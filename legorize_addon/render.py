@@ -1,0 +1,216 @@
+"""A still picture of the builds of a scene, by Cycles on the processor.
+
+The picture is taken in a scene of its own that shares the builds' collections
+with the user's scene and is removed afterwards, so the user's camera, lights
+and render settings never change.
+"""
+
+from __future__ import annotations
+
+import errno
+import math
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Final, Literal
+
+import bpy
+import numpy as np
+from mathutils import Euler, Vector
+
+from .brick_points import box_corners
+from .core.catalogue import load_catalogue
+from .core.errors import BuildError
+from .core.model import Floats
+from .scene import BUILD_KEY, builds, read_bricks
+
+View = Literal["front_left", "front_right", "back_left", "back_right"]
+
+AZIMUTH: Final[dict[View, float]] = {"front_left": -35.0, "front_right": 35.0, "back_left": -145.0, "back_right": 145.0}
+"""Direction in which the camera stands, in degrees from -y counter-clockwise as seen from above."""
+
+ELEVATION: Final = 24.0
+FOCAL_LENGTH: Final = 85.0
+MARGIN: Final = 0.08
+"""Share of the camera's distance that is left free around the model."""
+
+SKY: Final = (0.85, 0.92, 1.0)
+SKY_STRENGTH: Final = 0.4
+GROUND: Final = (0.55, 0.55, 0.55)
+GROUND_REACH: Final = 400.0
+"""Half the side of the ground, in diagonals of the model: the horizon stays out of the picture."""
+
+# direction from which it shines (azimuth from the camera, elevation), strength, size in degrees
+SUNS: Final = ((-50.0, 50.0, 2.2, 10.0), (75.0, 25.0, 0.4, 60.0))
+
+
+def render_still(
+    scene: bpy.types.Scene,
+    path: Path,
+    *,
+    samples: int = 24,
+    resolution: tuple[int, int] = (960, 720),
+    view: View = "front_right",
+) -> None:
+    """Write a picture of a scene's builds, from a little above, on a pale ground.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Its builds are shown as they are, with hidden layers left out.
+    path : pathlib.Path
+        PNG file to write, in a folder that exists.
+    samples : int, optional
+        Light paths a pixel.
+    resolution : tuple of two int, optional
+        Width and height in pixels.
+    view : str, optional
+        Corner from which the model is seen.
+
+    Raises
+    ------
+    BuildError
+        Nothing is to be seen, Cycles is switched off, or the file cannot be written there.
+    """
+    partial = path.with_name(f".{path.name}.part.png")
+    with _writable(partial, path), _studio(scene) as studio:
+        corners = _corners(studio)
+        _set_up_render(studio, samples, resolution, partial)
+        _add_light(studio, AZIMUTH[view])
+        _add_ground(studio, corners)
+        _add_camera(studio, corners, AZIMUTH[view])
+        bpy.ops.render.render("EXEC_DEFAULT", write_still=True, scene=studio.name)
+
+
+@contextmanager
+def _writable(partial: Path, path: Path) -> Iterator[None]:
+    """Move a file to its place once it is written; find out before the work that it cannot be."""
+    try:
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "it is a folder")
+        partial.touch()
+    except OSError as error:
+        raise BuildError(f"The picture {path} cannot be written ({error.strerror}): choose another place.") from error
+    try:
+        yield
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+@contextmanager
+def _studio(scene: bpy.types.Scene) -> Iterator[bpy.types.Scene]:
+    """Yield a scene that shows the builds, and remove it with all that was added to it."""
+    before = {
+        kind: set(getattr(bpy.data, kind)) for kind in ("worlds", "objects", "meshes", "lights", "cameras", "materials")
+    }
+    studio = bpy.data.scenes.new("Legorize Still")
+    try:
+        for build in builds(scene):
+            studio.collection.children.link(build)
+        studio.view_layers[0].update()
+        yield studio
+    finally:
+        bpy.data.scenes.remove(studio)
+        for kind, kept in before.items():
+            bpy.data.batch_remove([thing for thing in getattr(bpy.data, kind) if thing not in kept])
+
+
+def _corners(studio: bpy.types.Scene) -> Floats:
+    """Return the corners of all bricks that are shown, in world units, shape (n, 3)."""
+    found = []
+    for build in studio.collection.children:
+        matrix = np.array(build[BUILD_KEY]["root"].matrix_world)
+        corners = box_corners(read_bricks(build, shown_only=True), load_catalogue())
+        found.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
+    if not found:
+        raise BuildError("The scene has 0 brick models to take a picture of: legorize an object first.")
+    return np.concatenate(found)
+
+
+def _set_up_render(studio: bpy.types.Scene, samples: int, resolution: tuple[int, int], path: Path) -> None:
+    try:
+        studio.render.engine = "CYCLES"
+    except TypeError as error:
+        raise BuildError(
+            "Blender has 0 ray tracers at hand: switch the add-on Cycles on in the preferences."
+        ) from error
+    cycles = studio.cycles
+    cycles.device = "CPU"
+    cycles.samples = samples
+    cycles.max_bounces = 6
+    cycles.use_denoising = _set_denoiser(studio)
+    studio.view_settings.view_transform = "Standard"
+    render = studio.render
+    render.resolution_x, render.resolution_y = resolution
+    render.resolution_percentage = 100
+    render.image_settings.file_format = "PNG"
+    render.image_settings.color_mode = "RGB"
+    render.use_file_extension = False
+    render.filepath = str(path)
+
+
+def _set_denoiser(studio: bpy.types.Scene) -> bool:
+    """Choose the fast OpenImageDenoise; return False where Blender was built without it, as Debian's."""
+    try:
+        studio.cycles.denoiser = "OPENIMAGEDENOISE"
+    except TypeError:
+        return False
+    studio.cycles.denoising_quality = "FAST"
+    studio.cycles.denoising_prefilter = "FAST"
+    return True
+
+
+def _add_light(studio: bpy.types.Scene, azimuth: float) -> None:
+    world = bpy.data.worlds.new("Legorize Sky")
+    if world.node_tree is None:
+        world.use_nodes = True
+    background = next(node for node in world.node_tree.nodes if node.type == "BACKGROUND")
+    background.inputs["Color"].default_value = (*SKY, 1.0)
+    background.inputs["Strength"].default_value = SKY_STRENGTH
+    studio.world = world
+    for turn, elevation, strength, size in SUNS:
+        light = bpy.data.lights.new("Legorize Sun", "SUN")
+        light.energy = strength
+        light.angle = math.radians(size)
+        sun = bpy.data.objects.new("Legorize Sun", light)
+        sun.rotation_euler = _look(azimuth + turn, elevation)
+        studio.collection.objects.link(sun)
+
+
+def _add_ground(studio: bpy.types.Scene, corners: Floats) -> None:
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    reach = GROUND_REACH * float(np.linalg.norm(high - low))
+    x, y = ((low + high) / 2)[:2]
+    mesh = bpy.data.meshes.new("Legorize Ground")
+    square = [(x - reach, y - reach), (x + reach, y - reach), (x + reach, y + reach), (x - reach, y + reach)]
+    mesh.from_pydata([(*corner, low[2]) for corner in square], [], [(0, 1, 2, 3)])
+    material = bpy.data.materials.new("Legorize Ground")
+    if material.node_tree is None:
+        material.use_nodes = True
+    shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    shader.inputs["Base Color"].default_value = (*GROUND, 1.0)
+    shader.inputs["Roughness"].default_value = 1.0
+    mesh.materials.append(material)
+    studio.collection.objects.link(bpy.data.objects.new("Legorize Ground", mesh))
+
+
+def _add_camera(studio: bpy.types.Scene, corners: Floats, azimuth: float) -> None:
+    lens = bpy.data.cameras.new("Legorize Camera")
+    lens.lens = FOCAL_LENGTH
+    camera = bpy.data.objects.new("Legorize Camera", lens)
+    camera.rotation_euler = _look(azimuth, ELEVATION)
+    studio.collection.objects.link(camera)
+    studio.camera = camera
+    studio.view_layers[0].update()
+    place, _ = camera.camera_fit_coords(studio.view_layers[0].depsgraph, corners.ravel().tolist())
+    target = Vector(corners.mean(axis=0))
+    away = place - target
+    camera.location = target + away * (1 + MARGIN)
+    lens.clip_start, lens.clip_end = away.length / 100, away.length * 10 * GROUND_REACH
+
+
+def _look(azimuth: float, elevation: float) -> Euler:
+    """Return the rotation of something that looks along -z and stands in a direction given in degrees."""
+    return Euler((math.radians(90.0 - elevation), 0.0, math.radians(azimuth)))

@@ -1,0 +1,121 @@
+"""The colours that unit bricks would have if the surface were sampled densely.
+
+Many points, evenly over the area, stand in for the pieces of trajectories; what
+is done with them, the rule of the colour, stays the same.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from legorize_addon.core.catalogue import Catalogue
+from legorize_addon.core.cell_colours import chosen, counted, likeliest_colours
+from legorize_addon.core.colours import SurfaceColours
+from legorize_addon.core.coverage import Pieces
+from legorize_addon.core.eight_neighbours import excluded_neighbours, participants
+from legorize_addon.core.grid import Grid
+from legorize_addon.core.mesh import TriangleMesh
+from legorize_addon.core.samples import SurfaceSamples, face_normals, inner_cells
+from legorize_addon.core.trajectories import Trajectories
+from legorize_addon.core.unit_bricks import outer_air
+from legorize_addon.core.units import BRICK, STUD
+
+Codes = NDArray[np.int16]
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+def dense_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid, count: int) -> SurfaceSamples:
+    """Return points evenly over the surface, each in the brick colour of its texel.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    surface : SurfaceColours
+    grid : Grid
+    count : int
+        Points.
+
+    Returns
+    -------
+    SurfaceSamples
+    """
+    corners = mesh.vertices[mesh.faces]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    rng = np.random.default_rng(0)
+    comb = (np.arange(count) + rng.random()) / count * area.sum()
+    face = np.minimum(np.searchsorted(np.cumsum(area), comb), len(area) - 1)
+    weight = _barycentric(count, rng)
+    points = np.einsum("ki,kij->kj", weight, corners[face])
+    place = ((points - grid.origin) / [STUD, STUD, BRICK])[:, ::-1]
+    return SurfaceSamples(
+        place=place,
+        along=np.zeros_like(place),
+        cell=np.clip(np.floor(place).astype(np.int64), 0, np.array(grid.shape) - 1),
+        normal=face_normals(mesh)[face],
+        area=np.full(count, area.sum() / count),
+        colour=surface.at(mesh.face_image[face], np.einsum("ki,kij->kj", weight, mesh.uvs[face])),
+    )
+
+
+def _barycentric(count: int, rng: np.random.Generator) -> Floats:
+    """Return shares of three corners that spread points evenly over a triangle, (count, 3)."""
+    a, b = rng.random((2, count))
+    root = np.sqrt(a)
+    return np.stack([1 - root, root * (1 - b), root * b], axis=1)
+
+
+def dense_likeliest(samples: SurfaceSamples, solid: Mask, seen: Mask, catalogue: Catalogue) -> Codes:
+    """Return the colours by the default rule, (n_seen,)."""
+    return likeliest_colours(samples, solid, outer_air(solid), seen, catalogue)
+
+
+def dense_longest(
+    samples: SurfaceSamples, trajectories: Trajectories, pieces: Pieces, passed: SurfaceSamples, solid: Mask, seen: Mask
+) -> Codes:
+    """Return the colours by the paper's rule, as they would be with ever more slices.
+
+    The length of trajectory in a square, summed over all heights, is the surface
+    there times the sine of its slope. Which neighbours take part is asked of the
+    trajectories, as no cloud of points has a former and a latter brick.
+
+    Parameters
+    ----------
+    samples : SurfaceSamples
+        Dense points.
+    trajectories : Trajectories
+    pieces : Pieces
+        The trajectories' edges, cut at the grid.
+    passed : SurfaceSamples
+        The pieces on real surface, in the same order.
+    solid, seen : (n_layers, n_y, n_x) bool arrays
+
+    Returns
+    -------
+    (n_seen,) int16 array
+    """
+    real = trajectories.face[pieces.edge] >= 0
+    bounding = inner_cells(passed, solid)
+    excluded = excluded_neighbours(trajectories, pieces.edge[real], bounding, solid.shape)
+    brick = inner_cells(samples, solid)
+    on_trajectory = np.isin(brick, bounding)
+    cell, entry = participants(samples.cell, np.where(on_trajectory, brick, -1), excluded, solid)
+    level = _level_share(samples)
+    upright = samples.area * np.sqrt(1 - level**2)
+    codes, votes = counted(
+        np.concatenate([cell, brick]),
+        np.concatenate([samples.colour[entry], samples.colour]),
+        # as in the core: level surface decides only where no trajectory does
+        np.concatenate([upright[entry], samples.area * level * 1e-9]),
+        seen,
+    )
+    return chosen(codes, votes, votes, seen)
+
+
+def _level_share(samples: SurfaceSamples) -> Floats:
+    """Return |n_z| of the unit normals in mm, (n,)."""
+    normal = samples.normal * [BRICK, STUD, STUD]
+    length = np.linalg.norm(normal, axis=1)
+    share: Floats = np.clip(np.abs(normal[:, 0]) / np.maximum(length, np.finfo(float).tiny), 0, 1)
+    return share

@@ -1,0 +1,302 @@
+"""Legorize a file without a window.
+
+::
+
+    blender -b -P scripts/legorize.py -- IN --out DIR [--width STUDS | --height BRICKS | --scale K] [more]
+    python scripts/legorize.py IN --out DIR ...        where Blender is installed as the module bpy
+
+IN is a .blend (all that its renders would show), .obj, .glb, .gltf, .ply, .stl
+or .fbx file; models with bones are taken in their rest pose, not in that of
+whatever action comes first. Every setting is a flag; ``--help`` lists them.
+
+Exit status: 0 written; 2 written, but a check failed and ``report.json`` says
+which; 1 nothing written, the folder is as it was, one sentence says why (or a
+traceback, if it is a bug). As ``blender -b -P`` ends with 0 after an error in
+Python, this file catches, shows and turns every exception into a 1 by itself.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import tempfile
+import time
+import tomllib
+import traceback
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import Field, fields, replace
+from pathlib import Path
+from typing import Any, Final, NoReturn
+
+import bpy
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+try:
+    from legorize_addon.core import ldraw, shopping
+    from legorize_addon.core.catalogue import Catalogue, load_catalogue
+    from legorize_addon.core.errors import BuildError, LegorizeError, MeshError, SettingsError
+    from legorize_addon.core.pipeline import Build, legorize
+    from legorize_addon.core.report import report
+    from legorize_addon.core.settings import Settings, choices, setting_type
+    from legorize_addon.read_mesh import read_objects
+    from legorize_addon.render import render_still
+    from legorize_addon.scene import show_build
+except ModuleNotFoundError as missing:
+    print(f"Legorize needs the Python package {missing.name}: install its extension, or the packages.", file=sys.stderr)
+    sys.exit(1)
+
+MM_PER_METRE: Final = 1000.0
+SIZES: Final = ("size_by", "width", "height", "scale")
+"""Settings that exclude each other; each of the last three also chooses itself in the first."""
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose complaints are sentences, since a 2 as exit status means something else here."""
+
+    def error(self, message: str) -> NoReturn:
+        """Raise the complaint."""
+        raise SettingsError(f"The command line is wrong: {message}.")
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Legorize a file and return the exit status."""
+    try:
+        options = vars(parser().parse_args(arguments))
+        source, out = options.pop("source"), options.pop("out")
+        wanted = {name: options.pop(name) for name in ("render", "save_blend")}
+        return run(source, out, settings_of(options), **wanted)
+    except LegorizeError as error:
+        print(error, file=sys.stderr)
+        return 1
+
+
+def parser() -> Parser:
+    """Return the parser, whose flags for settings are generated."""
+    made = Parser(prog="legorize.py", description="Turn a textured mesh into a brick model.", allow_abbrev=False)
+    made.add_argument("source", metavar="IN", type=Path, help="file with the mesh")
+    made.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the results")
+    made.add_argument("--render", action="store_true", help="write a picture, render.png")
+    made.add_argument("--save-blend", action="store_true", help="write the scene with the bricks, build.blend")
+    sizes = made.add_mutually_exclusive_group()
+    for entry in fields(Settings):
+        add_flag(sizes if entry.name in SIZES else made, entry)
+    return made
+
+
+def add_flag(group: Any, entry: Field[Any]) -> None:
+    """Add the flag of a setting; settings without a flag on the command line keep their default."""
+    kind, words = setting_type(entry), choices(entry)
+    # argparse takes % for a placeholder
+    text = entry.metadata["text"].replace("%", "%%")
+    options: dict[str, Any] = {"default": argparse.SUPPRESS, "help": f"{text} (default: {entry.default})"}
+    if kind is bool:
+        options["action"] = argparse.BooleanOptionalAction
+    elif words:
+        options["choices"] = words
+    else:
+        options.update(type=kind, metavar=kind.__name__.upper())
+    group.add_argument(f"--{entry.name.replace('_', '-')}", **options)
+
+
+def settings_of(options: dict[str, Any]) -> Settings:
+    """Return the settings that the flags ask for."""
+    named = [name for name in SIZES[1:] if name in options]
+    return Settings(**options, **({"size_by": named[0]} if named else {}))
+
+
+def run(source: Path, out: Path, settings: Settings, *, render: bool, save_blend: bool) -> int:
+    """Legorize a file into a folder."""
+    with new_folder(out) as folder:
+        seconds = {}
+        with timed(seconds, "import"):
+            objects = load(source)
+        with timed(seconds, "read"):
+            mesh, remarks = read_objects(objects, bpy.context.evaluated_depsgraph_get())
+        build = legorize(mesh, settings)
+        build = replace(build, notes=(*remarks, *build.notes), timings={**seconds, **build.timings})
+        catalogue = load_catalogue()
+        facts = report(build, catalogue, version=version(), mm_per_unit=mm_per_unit())
+        facts["failed_checks"] = failed_checks(facts)
+        with writing(out):
+            for name, text in texts(build, catalogue, facts, source.stem).items():
+                (folder / name).write_text(text, encoding="utf-8", newline="")
+        if render or save_blend:
+            show_build(
+                bpy.context.scene, build.bricks, catalogue, origin=build.grid.origin, scale=build.scale,
+                mm_per_unit=mm_per_unit(), name=source.stem, sources=objects, settings=settings, notes=build.notes,
+            )  # fmt: skip
+        if render:
+            render_still(bpy.context.scene, folder / "render.png")
+        if save_blend:
+            save(folder / "build.blend")
+    print(f"{out}: {facts['counts']['bricks']} bricks in {facts['grid']['layers']} layers.")
+    for sentence in facts["failed_checks"]:
+        print(sentence, file=sys.stderr)
+    return 2 if facts["failed_checks"] else 0
+
+
+def failed_checks(facts: dict[str, Any]) -> list[str]:
+    """Return a sentence for each check that a finished model failed."""
+    connection, colours = facts["connection"], facts["unavailable_part_colours"]
+    counts = (
+        (connection["components"] - 1, "The model falls into {} parts too many: its bricks do not all hold together."),
+        (connection["floating"], "{} bricks float: nothing below or above holds them."),
+        (connection["collisions"], "{} cells are claimed by two bricks."),
+        (colours["bricks"], "{} bricks have a colour in which their part was never made."),
+    )
+    return [sentence.format(count) for count, sentence in counts if count > 0]
+
+
+def texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:
+    """Return the contents of the text files by name."""
+    parts = shopping.count_parts(build.bricks, catalogue)
+    return {
+        "model.ldr": ldraw.write_ldr(build.bricks, catalogue, name="model.ldr", title=title),
+        "model.mpd": ldraw.write_mpd(build.bricks, catalogue, name="model.ldr", title=title),
+        "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
+        "parts.csv": shopping.parts_csv(parts, catalogue),
+        "bricklink.xml": shopping.bricklink_xml(parts, catalogue),
+        "rebrickable.csv": shopping.rebrickable_csv(parts, catalogue),
+        "pick-a-brick.csv": shopping.pick_a_brick_csv(parts, catalogue)[0],
+    }
+
+
+def load(source: Path) -> list[bpy.types.Object]:
+    """Open or import a file into an empty Blender; return what its renders would show, shown in the viewport too."""
+    if not source.is_file():
+        raise MeshError(f"There is no file {source}: name one that exists.")
+    known = importers()
+    kind = source.suffix.lower()
+    if kind not in known:
+        raise MeshError(f"{source.name} is of no known kind: use one of {', '.join(known)}.")
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    operator, options = known[kind]
+    try:
+        operator(filepath=str(source.resolve()), **options)
+    except RuntimeError as error:
+        # an importer in Python hands on its traceback
+        lines = [line for line in str(error).strip().splitlines() if not line.startswith("Location:")]
+        reason = lines[-1].removeprefix("Error: ").rstrip(".")
+        raise MeshError(f"{source.name} cannot be read as {kind} ({reason}): export it again.") from error
+    if kind != ".blend":
+        for armature in bpy.data.armatures:
+            armature.pose_position = "REST"
+    return list(rendered(bpy.context.view_layer.layer_collection))
+
+
+def importers() -> dict[str, tuple[Any, dict[str, Any]]]:
+    """Return Blender's own operator for every suffix, and its options."""
+    gltf = (bpy.ops.import_scene.gltf, {})
+    # the importer in C++, from 4.5 on, reads more kinds of FBX than the add-on
+    fbx = bpy.ops.wm.fbx_import if "fbx_import" in dir(bpy.ops.wm) else bpy.ops.import_scene.fbx
+    return {
+        ".blend": (bpy.ops.wm.open_mainfile, {"load_ui": False, "use_scripts": False}),
+        ".obj": (bpy.ops.wm.obj_import, {}),
+        ".glb": gltf,
+        ".gltf": gltf,
+        ".ply": (bpy.ops.wm.ply_import, {}),
+        ".stl": (bpy.ops.wm.stl_import, {}),
+        ".fbx": (fbx, {}),
+    }
+
+
+def rendered(layer: bpy.types.LayerCollection) -> Iterator[bpy.types.Object]:
+    """Yield the objects that a render shows, and show them in the viewport, from which meshes are read."""
+    if layer.exclude or layer.collection.hide_render:
+        return
+    layer.hide_viewport = layer.collection.hide_viewport = False
+    for obj in layer.collection.objects:
+        if not obj.hide_render:
+            obj.hide_viewport = False
+            obj.hide_set(False)
+            yield obj
+    for below in layer.children:
+        yield from rendered(below)
+
+
+def save(path: Path) -> None:
+    """Write the scene, with paths of images that hold wherever the file is moved to."""
+    if bpy.data.filepath:
+        bpy.ops.file.make_paths_absolute()
+    try:
+        bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, compress=True, relative_remap=False)
+    except RuntimeError as error:
+        raise BuildError(f"The scene cannot be saved: {str(error).strip()}") from error
+
+
+@contextmanager
+def new_folder(out: Path) -> Iterator[Path]:
+    """Yield a folder to write into; what it holds moves to ``out`` at the end, and only if all went well."""
+    if out.exists() and not out.is_dir():
+        raise BuildError(f"{out} is a file, not a folder: choose another name.")
+    # on the same disk, so that moving is renaming
+    near = next(folder for folder in (out, *out.absolute().parents) if folder.exists())
+    with ExitStack() as stack:
+        with writing(out):
+            temporary = stack.enter_context(tempfile.TemporaryDirectory(prefix=".legorize-", dir=near))
+            folder = Path(temporary) / "results"
+            folder.mkdir()
+        yield folder
+        with writing(out):
+            publish(folder, out)
+
+
+def publish(folder: Path, out: Path) -> None:
+    """Rename a folder, or all of its files if the new name is taken by a folder."""
+    if not out.exists():
+        out.parent.mkdir(parents=True, exist_ok=True)
+        folder.rename(out)
+        return
+    files = sorted(folder.iterdir())
+    for taken in (out / file.name for file in files):
+        if taken.is_dir():
+            raise BuildError(f"{taken} is a folder: move it away, or choose another folder for the results.")
+    for file in files:
+        os.replace(file, out / file.name)
+
+
+@contextmanager
+def writing(out: Path) -> Iterator[None]:
+    """Turn a failure of the file system into a sentence."""
+    try:
+        yield
+    except OSError as error:
+        raise BuildError(f"The folder {out} cannot be written ({error.strerror}): choose another one.") from error
+
+
+@contextmanager
+def timed(seconds: dict[str, float], stage: str) -> Iterator[None]:
+    """Note the processor time that a stage takes."""
+    start = time.process_time()
+    yield
+    seconds[stage] = time.process_time() - start
+
+
+def mm_per_unit() -> float:
+    """Return the length of a Blender unit in mm."""
+    return float(bpy.context.scene.unit_settings.scale_length) * MM_PER_METRE
+
+
+def version() -> str:
+    """Return the version, which stands in the manifest alone."""
+    return str(tomllib.loads((ROOT / "blender_manifest.toml").read_text(encoding="utf-8"))["version"])
+
+
+def own_arguments() -> list[str]:
+    """Return what the command line says to this script: all after ``--`` if a Blender program runs it."""
+    if "--" in sys.argv:
+        return sys.argv[sys.argv.index("--") + 1 :]
+    return [] if bpy.app.binary_path else sys.argv[1:]
+
+
+if __name__ == "__main__":
+    try:
+        status = main(own_arguments())
+    except Exception:
+        traceback.print_exc()
+        raise SystemExit(1) from None
+    sys.exit(status)

@@ -1,0 +1,191 @@
+"""Set up and run Legorize from a fresh copy of the repository, with a Python and nothing else.
+
+::
+
+    python3 scripts/run.py sample     legorize the bundled sample into out/sample
+    python3 scripts/run.py test       run the tests (more arguments go to pytest)
+    python3 scripts/run.py check      look over the source with ruff and mypy
+    python3 scripts/run.py zip        build the extension into dist (more arguments: --platform)
+    python3 scripts/run.py setup      only make the environment
+
+The first use makes an environment in ``.venv`` with the packages pinned in
+pyproject.toml, Blender among them, and later uses find it there. ``--blender``
+chooses between the Blenders; without it the running Python decides. Only the
+standard library is used here. Exit status: 3 where no fitting Python is
+installed, 1 where something else is missing or a command took too long, else
+that of the command.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+PYTHONS = {"4.5": "3.11", "5.2": "3.13", "4.2": "3.11"}  # Blender: its Python; the favourite first
+LIMIT = 40 * 60  # seconds; Blender 4.5's module may hang at exit when something went wrong
+NO_PYTHON = 3
+
+
+class Missing(Exception):  # noqa: N818 - a state of the machine, told in one sentence
+    """Something that this machine has to have is not there."""
+
+    def __init__(self, sentence: str, status: int = 1) -> None:
+        super().__init__(sentence)
+        self.status = status
+
+
+def main() -> int:
+    """Run one command in its environment and return the exit status."""
+    parser = argparse.ArgumentParser(description="Set up and run Legorize.")
+    parser.add_argument("command", choices=("sample", "test", "check", "zip", "setup"))
+    parser.add_argument("--blender", choices=PYTHONS, help="Blender version to use")
+    chosen, rest = parser.parse_known_args()
+    try:
+        blender, python = _find(chosen.blender)
+        if python != sys.executable:
+            os.execv(python, [python, *sys.argv])  # the running Python may be too old for what follows
+        own = _environment(blender, python)
+        return max((_run([str(own), *line]) for line in _lines(chosen.command, rest)), default=0)
+    except Missing as missing:
+        print(missing, file=sys.stderr)
+        return missing.status
+
+
+def _lines(command: str, rest: list[str]) -> Iterator[list[str]]:
+    """Yield the Python command lines of a command."""
+    if command == "sample":
+        yield ["scripts/legorize.py", "assets/sample.glb", "--out", "out/sample", "--render", *rest]
+    elif command == "test":
+        yield ["-m", "pytest", *rest]
+    elif command == "zip":
+        yield ["scripts/build_extension.py", *rest]
+    elif command == "check":
+        yield ["-m", "ruff", "check", *rest]
+        yield ["-m", "ruff", "format", "--check", *rest]
+        yield ["-m", "mypy"]
+
+
+def _find(blender: str | None) -> tuple[str, str]:
+    """Return the Blender version to use and a Python for it."""
+    wanted = [blender] if blender else [name for name in PYTHONS if name != "4.2"]
+    running = ".".join(map(str, sys.version_info[:2]))
+    for name in sorted(wanted, key=lambda name: PYTHONS[name] != running):
+        for python in _pythons(PYTHONS[name]):
+            if _version(python) == PYTHONS[name]:
+                return name, python
+    versions = " or ".join(PYTHONS[name] for name in wanted)
+    raise Missing(f"Legorize needs Python {versions}, and none was found on this machine: install it first.", NO_PYTHON)
+
+
+def _pythons(version: str) -> Iterator[str]:
+    """Yield programs that may be the wanted Python, likely ones first."""
+    yield sys.executable
+    for name in (f"python{version}", "python3", "python"):
+        found = shutil.which(name)
+        if found:
+            yield found
+    pyenv = Path(os.environ.get("PYENV_ROOT") or Path.home() / ".pyenv") / "versions"
+    frameworks = Path("/Library/Frameworks/Python.framework/Versions")
+    yield from map(str, sorted(pyenv.glob(f"{version}.*/bin/python"), reverse=True))
+    for folder in (Path("/opt/homebrew/bin"), Path("/usr/local/bin"), frameworks / version / "bin"):
+        if (folder / f"python{version}").exists():
+            yield str(folder / f"python{version}")
+
+
+def _version(python: str) -> str:
+    """Return the version of a Python as "3.11", empty if it does not start (as a shim of another version)."""
+    code = "import sys; print('.'.join(map(str, sys.version_info[:2])))"
+    try:
+        return subprocess.run([python, "-c", code], capture_output=True, text=True, check=False).stdout.strip()
+    except OSError:
+        return ""
+
+
+def _environment(blender: str, python: str) -> Path:
+    """Return the Python of the environment for a Blender, which is made if it is missing or out of date."""
+    pins = _pins(f"blender-{blender}")
+    folder = ROOT / ".venv" / f"blender-{blender}"
+    own, installed, starts = folder / "bin" / "python", folder / "pins.sha256", folder / "blender-starts"
+    digest = hashlib.sha256("\n".join(pins).encode()).hexdigest()
+    if not installed.exists() or installed.read_text() != digest:
+        print(f"Making {folder.relative_to(ROOT)} with {len(pins)} packages (once, some 500 MB) ...", flush=True)
+        _make(python, folder)
+        _install(own, pins)
+        installed.write_text(digest)
+    if not starts.exists():
+        _try_blender(own)
+        starts.touch()
+    return own
+
+
+def _make(python: str, folder: Path) -> None:
+    if subprocess.run([python, "-c", "import ensurepip, venv"], capture_output=True, check=False).returncode:
+        version = _version(python)
+        raise Missing(
+            f"{python} cannot make virtual environments: install its venv module first "
+            f"(Debian and Ubuntu: apt-get install python{version}-venv)."
+        )
+    subprocess.run([python, "-m", "venv", "--clear", str(folder)], check=True)
+
+
+def _install(own: Path, pins: list[str]) -> None:
+    pip = [str(own), "-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", *pins]
+    done = subprocess.run(pip, stderr=subprocess.PIPE, text=True, check=False)
+    if done.returncode:
+        last = (done.stderr.strip() or "no message").splitlines()[-1]
+        raise Missing(f"The packages pinned in pyproject.toml could not be installed; pip says: {last}")
+
+
+def _try_blender(own: Path) -> None:
+    """Import Blender once, since its module needs system libraries that a bare Linux may lack."""
+    done = subprocess.run([str(own), "-c", "import bpy"], stderr=subprocess.PIPE, text=True, check=False, timeout=300)
+    library = re.search(r"(lib\S+\.so\S*): cannot open", done.stderr)
+    if library:
+        packages = (ROOT / "scripts" / "system_packages.txt").read_text().split()
+        raise Missing(
+            f"Blender needs the system library {library[1]}: install it first "
+            f"(Debian and Ubuntu: apt-get install {' '.join(packages)})."
+        )
+    if done.returncode:
+        last = (done.stderr.strip() or "no message").splitlines()[-1]
+        raise Missing(f"Blender's module does not start in {own}; it says: {last}")
+
+
+def _pins(group: str) -> list[str]:
+    """Return the requirements of a dependency group of pyproject.toml, included groups first."""
+    import tomllib
+
+    groups = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["dependency-groups"]
+
+    def flat(name: str) -> Iterator[str]:
+        for entry in groups[name]:
+            yield from (entry,) if isinstance(entry, str) else flat(entry["include-group"])
+
+    return list(flat(group))
+
+
+def _run(line: list[str]) -> int:
+    """Run a command from the repository's root; it and what it started are killed when it takes too long."""
+    process = subprocess.Popen(line, cwd=ROOT, start_new_session=True)
+    try:
+        status = process.wait(LIMIT)
+    except BaseException as reason:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        if isinstance(reason, subprocess.TimeoutExpired):
+            raise Missing(f"{' '.join(line[1:])} did not end within {LIMIT // 60} minutes and was stopped.") from None
+        raise
+    return 128 - status if status < 0 else status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

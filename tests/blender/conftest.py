@@ -1,0 +1,13 @@
+"""What the tests inside Blender share: every test begins with an empty file."""
+
+from __future__ import annotations
+
+import pytest
+
+bpy = pytest.importorskip("bpy", reason="needs Blender as a Python module")
+
+
+@pytest.fixture(autouse=True)
+def empty_file() -> None:
+    """Open an empty file; unlike read_factory_settings this keeps add-ons enabled."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)

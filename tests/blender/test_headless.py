@@ -1,0 +1,378 @@
+"""scripts/legorize.py: the files it writes, its exit status, and that a failure writes nothing."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import fields
+from functools import partial
+from pathlib import Path
+from types import ModuleType
+
+import bpy
+import numpy as np
+import pytest
+
+from legorize_addon.core.catalogue import load_catalogue
+from legorize_addon.core.errors import SettingsError
+from legorize_addon.core.ldraw import read_ldr
+from legorize_addon.core.settings import Settings
+from tests.blender.builders import add_image, add_object, image_material
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / "scripts" / "legorize.py"
+FILES = {"bricklink.xml", "model.ldr", "model.mpd", "parts.csv", "pick-a-brick.csv", "rebrickable.csv", "report.json"}
+RED, WHITE = 4, 15
+# red but for the last texel of the topmost row
+TEXELS = np.full((3, 4, 3), (201, 26, 9), dtype=np.uint8)
+TEXELS[2, 3] = 255
+
+
+@pytest.fixture(scope="module")
+def script() -> ModuleType:
+    """Return the script as a module."""
+    spec = importlib.util.spec_from_file_location("legorize_script", SCRIPT)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def out(tmp_path: Path) -> Path:
+    """Return a folder for results that already holds something."""
+    folder = tmp_path / "out"
+    folder.mkdir()
+    (folder / "model.ldr").write_text("an earlier model")
+    (folder / "mine.txt").write_text("not yours")
+    return folder
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Return all files below a folder."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+def add_box(size: tuple[float, float, float], centre: tuple[float, float, float] = (0, 0, 0)) -> bpy.types.Object:
+    """Add a red box with a white corner, towards +x, +y and +z, no higher than a third of it."""
+    bpy.ops.mesh.primitive_cube_add(size=1)
+    obj = bpy.context.object
+    corners = np.array([vertex.co for vertex in obj.data.vertices])
+    loops = np.array([loop.vertex_index for loop in obj.data.loops])
+    uvs = (np.column_stack([corners[loops, :2].mean(axis=1), corners[loops, 2]]) + 0.5).astype(np.float32)
+    obj.data.uv_layers[0].uv.foreach_set("vector", uvs.ravel())
+    obj.data.vertices.foreach_set("co", (corners * size + centre).astype(np.float32).ravel())
+    image = add_image(TEXELS)
+    image.pack()
+    obj.data.materials.append(image_material(image, extension="EXTEND"))
+    return obj
+
+
+def save(path: Path) -> Path:
+    """Write everything to a file of the kind that its name says."""
+    target = str(path)
+    {
+        ".blend": lambda: bpy.ops.wm.save_as_mainfile(filepath=target, copy=True),
+        ".glb": lambda: bpy.ops.export_scene.gltf(filepath=target, export_format="GLB"),
+        ".gltf": lambda: bpy.ops.export_scene.gltf(filepath=target, export_format="GLTF_SEPARATE"),
+        ".obj": lambda: bpy.ops.wm.obj_export(filepath=target, path_mode="COPY"),
+        ".stl": lambda: bpy.ops.wm.stl_export(filepath=target),
+        ".ply": lambda: bpy.ops.wm.ply_export(filepath=target),
+        ".fbx": lambda: bpy.ops.export_scene.fbx(filepath=target, path_mode="COPY", embed_textures=True),
+    }[path.suffix]()
+    return path
+
+
+def report(folder: Path) -> dict[str, object]:
+    """Return the report in a folder."""
+    return json.loads((folder / "report.json").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("kind", [".blend", ".glb", ".gltf", ".obj", ".fbx", ".ply", ".stl"])
+def test_every_kind_of_file(kind: str, script: ModuleType, tmp_path: Path) -> None:
+    """A box of 8 x 4 studs and 3 bricks keeps its sides, and where the file has colours its white corner."""
+    add_box((0.8, 0.4, 0.36))
+    source = save(tmp_path / f"box{kind}")
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "8"]) == 0
+    assert {path.name for path in (tmp_path / "out").iterdir()} == FILES
+    facts = report(tmp_path / "out")
+    assert facts["grid"] == {"x": 8, "y": 4, "layers": 3}
+    assert facts["failed_checks"] == []
+    if kind not in (".ply", ".stl"):
+        catalogue = load_catalogue()
+        bricks = read_ldr((tmp_path / "out" / "model.ldr").read_text(), catalogue)
+        assert set(facts["counts"]["by_colour"]) == {str(RED), str(WHITE)}
+        assert np.ptp(bricks.corner[bricks.colour == RED, 2]) == 2 * 3
+        low = bricks.corner[bricks.colour == WHITE]
+        assert (low >= (4, 2, 2 * 3)).all()
+
+
+def test_matrix_leads_from_the_mesh_to_the_bricks(script: ModuleType, tmp_path: Path) -> None:
+    """The report's matrix takes the box's corners to the corners of the model, also under another unit scale."""
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    add_box((80, 40, 36), centre=(7, 8, 9))
+    source = save(tmp_path / "box.blend")
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--scale", "1.0"]) == 0
+    facts = report(tmp_path / "out")
+    assert facts["grid"] == {"x": 10, "y": 5, "layers": 4}
+    low, high = (np.array(facts["mesh_to_ldraw"]) @ (*corner, 1) for corner in ((-33, -12, -9), (47, 28, 27)))
+    # x to x, y to -z, z to -y; 20 LDU a stud, 24 a brick
+    np.testing.assert_allclose((high - low)[:3], (200, -90, -100))
+
+
+def test_blend_takes_what_renders_show(script: ModuleType, tmp_path: Path) -> None:
+    """Objects hidden from renders do not count; those hidden in the viewport only do."""
+    shown, hidden = add_box((1, 1, 1)), add_box((9, 1, 1))
+    hidden.hide_render = True
+    shown.hide_viewport = True
+    excluded = bpy.data.collections.new("excluded")
+    bpy.context.scene.collection.children.link(excluded)
+    excluded.objects.link(add_object(hidden.data, "elsewhere"))
+    bpy.context.scene.collection.objects.unlink(bpy.data.objects["elsewhere"])
+    bpy.context.view_layer.layer_collection.children["excluded"].exclude = True
+    source = save(tmp_path / "scene.blend")
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "5"]) == 0
+    assert report(tmp_path / "out")["grid"] == {"x": 5, "y": 5, "layers": 4}
+
+
+def test_bones_are_at_rest(script: ModuleType, tmp_path: Path) -> None:
+    """A model with a posed skeleton is taken as it was modelled."""
+    box = add_box((0.8, 0.4, 0.36))
+    bpy.ops.object.armature_add()
+    rig = bpy.context.object
+    box.vertex_groups.new(name="Bone").add(range(8), 1.0, "REPLACE")
+    box.parent, box.modifiers.new("rig", "ARMATURE").object = rig, rig
+    rig.pose.bones[0].scale = (1, 4, 1)
+    rig.pose.bones[0].keyframe_insert("scale", frame=1)
+    source = save(tmp_path / "rigged.glb")
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "8"]) == 0
+    assert report(tmp_path / "out")["grid"] == {"x": 8, "y": 4, "layers": 3}
+
+
+def test_picture_and_scene(script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The flags for the picture and the scene write them; the scene opens with the bricks in it."""
+    monkeypatch.setattr(script, "render_still", partial(script.render_still, samples=1, resolution=(40, 30)))
+    add_box((0.8, 0.4, 0.36))
+    source = save(tmp_path / "box.glb")
+    arguments = [str(source), "--out", str(tmp_path / "out"), "--width", "8", "--render", "--save-blend"]
+    assert script.main(arguments) == 0
+    assert {path.name for path in (tmp_path / "out").iterdir()} == FILES | {"render.png", "build.blend"}
+    picture = bpy.data.images.load(str(tmp_path / "out" / "render.png"))
+    pixels = np.empty(len(picture.pixels), dtype=np.float32)
+    picture.pixels.foreach_get(pixels)
+    assert np.ptp(pixels.reshape(-1, 4)[:, :3]) > 0.2
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "build.blend"))
+    assert "Legorize box" in bpy.data.collections
+
+
+def test_failed_check_is_a_two(script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of two boxes with a gap between them the upper floats: all is written, the report and stderr say so."""
+    add_box((1, 1, 1))
+    add_box((1, 1, 1), centre=(0, 0, 3))
+    source = save(tmp_path / "two.blend")
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "4"]) == 2
+    facts = report(tmp_path / "out")
+    assert facts["connection"]["floating"] > 0
+    assert len(facts["failed_checks"]) == 2
+    assert capsys.readouterr().err.splitlines() == facts["failed_checks"]
+
+
+def test_existing_folder_keeps_other_files(script: ModuleType, out: Path, tmp_path: Path) -> None:
+    """Results replace files of their names and leave the others; nothing temporary stays."""
+    add_box((0.8, 0.4, 0.36))
+    source = save(tmp_path / "box.blend")
+    assert script.main([str(source), "--out", str(out), "--width", "8"]) == 0
+    assert set(contents(out)) == FILES | {"mine.txt"}
+    assert (out / "model.ldr").read_text().startswith("0 box\n")
+
+
+def test_every_setting_is_a_flag(script: ModuleType) -> None:
+    """Each field of Settings has its flag, and only what is said is changed."""
+    parser, text = script.parser(), script.parser().format_help()
+    for entry in fields(Settings):
+        assert f"--{entry.name.replace('_', '-')}" in text
+    plain = vars(parser.parse_args(["in.obj", "--out", "out"]))
+    assert not plain.keys() & {entry.name for entry in fields(Settings)}
+    said = ["--no-hollow", "--one-to-one", "--cusp", "1.5", "--palette", "1,4", "--sampling", "image", "--height", "9"]
+    options = vars(parser.parse_args(["in.obj", "--out", "out", *said]))
+    given = {name: value for name, value in options.items() if name not in plain}
+    assert script.settings_of(given) == Settings(
+        hollow=False, one_to_one=True, cusp=1.5, palette="1,4", sampling="image", height=9, size_by="height"
+    )
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        (["--width", "0"], "width is 0"),
+        (["--width", "100000"], "width is 100000"),
+        (["--width", "many"], "--width"),
+        (["--scale", "nan"], "scale is nan"),
+        (["--scale", "1000000"], "studs"),
+        (["--width", "3", "--height", "4"], "not allowed with"),
+        (["--widht", "3"], "--widht"),
+        (["--palette", "99999"], "99999"),
+    ],
+)
+def test_impossible_settings(
+    flags: list[str], words: str, script: ModuleType, out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A value out of range, no number, a contradiction or an unknown flag is a 1 with one sentence."""
+    add_box((0.8, 0.4, 0.36))
+    assert_refused(script, save(tmp_path / "box.blend"), out, words, capsys, flags)
+
+
+def no_file(path: Path) -> Path:
+    """Name a file that is not there."""
+    return path / "nothing.obj"
+
+
+def unknown_kind(path: Path) -> Path:
+    """Write a file of a kind that is no mesh."""
+    (path / "mesh.txt").write_text("v 0 0 0")
+    return path / "mesh.txt"
+
+
+def broken(path: Path) -> Path:
+    """Write a file that is not what its name says."""
+    (path / "broken.ply").write_text("no mesh")
+    return path / "broken.ply"
+
+
+def empty_blend(path: Path) -> Path:
+    """Save an empty scene."""
+    return save(path / "empty.blend")
+
+
+def no_faces(path: Path) -> Path:
+    """Save a mesh of points."""
+    mesh = bpy.data.meshes.new("points")
+    mesh.from_pydata([(0, 0, 0), (1, 1, 1), (2, 0, 1)], [], [])
+    add_object(mesh, "points")
+    return save(path / "points.blend")
+
+
+def no_numbers(path: Path) -> Path:
+    """Save a box with a vertex at NaN."""
+    add_box((1, 1, 1)).data.vertices[0].co.z = float("nan")
+    return save(path / "nan.blend")
+
+
+def zero_scale(path: Path) -> Path:
+    """Save a box scaled to nothing."""
+    add_box((1, 1, 1)).scale = (0, 0, 0)
+    return save(path / "zero.blend")
+
+
+def one_triangle(path: Path) -> Path:
+    """Write a single triangle."""
+    (path / "one.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    return path / "one.obj"
+
+
+def missing_image(path: Path) -> Path:
+    """Write a mesh whose material names an image that is not there."""
+    add_box((1, 1, 1))
+    save(path / "box.obj")
+    (path / "box.mtl").write_text("newmtl paint\nKd 1 1 1\nmap_Kd lost.png\n")
+    return path / "box.obj"
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (no_file, "There is no file"),
+        (unknown_kind, "no known kind"),
+        (broken, "cannot be read"),
+        (empty_blend, "nothing to build from"),
+        (no_faces, "no faces"),
+        (no_numbers, "no numbers"),
+        (zero_scale, "scale of zero"),
+        (one_triangle, "triangle"),
+        (missing_image, "lost.png"),
+    ],
+)
+def test_bad_input(
+    make: Callable[[Path], Path], words: str, script: ModuleType, out: Path, tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """What cannot be read is a 1 with one sentence, and the folder is as it was."""
+    assert_refused(script, make(tmp_path), out, words, capsys, [])
+
+
+def assert_refused(
+    script: ModuleType, source: Path, out: Path, words: str, capsys: pytest.CaptureFixture[str], flags: list[str]
+) -> None:
+    """Check that a run ends with 1, says one sentence, and changes nothing."""
+    before = contents(out.parent)
+    capsys.readouterr()
+    assert script.main([str(source), "--out", str(out), *flags]) == 1
+    [sentence] = capsys.readouterr().err.splitlines()
+    assert words in sentence
+    assert sentence.endswith(".")
+    assert contents(out.parent) == before
+    assert not list(out.parent.rglob(".legorize-*"))
+
+
+@pytest.mark.parametrize("place", ["file", "below a file", "read-only"])
+def test_unwritable_folder(place: str, script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A file in the way, above or at the folder, and a folder without permission give one sentence and a 1."""
+    add_box((1, 1, 1))
+    source = save(tmp_path / "box.blend")
+    taken = tmp_path / "taken"
+    if place == "read-only":
+        if os.geteuid() == 0:
+            pytest.skip("root may write everywhere")
+        taken.mkdir(mode=0o500)
+    else:
+        taken.write_text("a file")
+    out = taken if place == "file" else taken / "out"
+    assert_refused(script, source, out, str(out), capsys, [])
+
+
+def test_folder_in_the_place_of_a_result(
+    script: ModuleType, out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A folder that is called like a result stops everything before the first file is replaced."""
+    add_box((0.8, 0.4, 0.36))
+    (out / "report.json").mkdir()
+    assert_refused(script, save(tmp_path / "box.blend"), out, "report.json is a folder", capsys, ["--width", "8"])
+
+
+def test_parser_complains_by_exception(script: ModuleType) -> None:
+    """A wrong command line never ends with argparse's own 2, which would mean a failed check."""
+    with pytest.raises(SettingsError, match="required"):
+        script.parser().parse_args(["in.obj"])
+
+
+@pytest.mark.parametrize("before", [[], ["blender", "-b", "-P", "legorize.py", "--"]])
+def test_whole_process(before: list[str], tmp_path: Path) -> None:
+    """As a process of its own, called as Python does or as Blender does, it ends with the status of the run."""
+    add_box((0.8, 0.4, 0.36))
+    source = save(tmp_path / "box.glb")
+    done = run_process([*(before or [str(SCRIPT)]), str(source), "--out", str(tmp_path / "out"), "--width", "8"])
+    assert done.returncode == 0, done.stderr
+    assert report(tmp_path / "out")["counts"]["bricks"] > 0
+
+
+def test_bug_keeps_its_traceback(tmp_path: Path) -> None:
+    """An unexpected exception is shown in full, the status is 1, and nothing is written."""
+    add_box((0.8, 0.4, 0.36))
+    source = save(tmp_path / "box.glb")
+    patch = "import legorize_addon.core.pipeline as pipeline; pipeline.legorize = None;"
+    done = run_process([str(SCRIPT), str(source), "--out", str(tmp_path / "out")], patch)
+    assert done.returncode == 1
+    assert "Traceback" in done.stderr
+    assert "TypeError" in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def run_process(argv: list[str], patch: str = "") -> subprocess.CompletedProcess[str]:
+    """Run the script under the given command line in a process of its own."""
+    code = f"import runpy, sys; {patch} sys.argv = {argv!r}; runpy.run_path({str(SCRIPT)!r}, run_name='__main__')"
+    return subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=240, check=False
+    )

@@ -1,0 +1,152 @@
+"""The settings in Blender are the core's settings; the view's properties work on the build of the panel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields
+
+import bpy
+import numpy as np
+import pytest
+
+import legorize_addon
+from legorize_addon import panels
+from legorize_addon.core.settings import Settings, choices
+from legorize_addon.properties import current_build, settings_of
+from legorize_addon.scene import BUILD_KEY, clear_build, layers_of
+
+from .bricks import content, instances, random_table, show, table
+
+BY_NAME = {entry.name: entry for entry in fields(Settings)}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def addon() -> Iterator[None]:
+    """Register the add-on for the tests of this file."""
+    legorize_addon.register()
+    yield
+    legorize_addon.unregister()
+
+
+@pytest.fixture
+def view() -> bpy.types.PropertyGroup:
+    """Return the scene's properties."""
+    return bpy.context.scene.legorize
+
+
+def tower(n: int, **changes) -> bpy.types.Collection:
+    """Show a tower of n small bricks."""
+    return show(table([(0, 0, 0, 3 * layer, 0, 4) for layer in range(n)]), **changes)
+
+
+def test_defaults_are_the_cores(view) -> None:
+    """An untouched scene gives the core's defaults, floats to the last digit."""
+    assert settings_of(view.settings) == Settings()
+
+
+def test_properties_are_those_of_the_core(view) -> None:
+    """Blender has the core's settings in their order, with their limits, words and texts."""
+    found = [entry for entry in view.settings.bl_rna.properties if entry.identifier not in ("rna_type", "name")]
+    assert [entry.identifier for entry in found] == list(BY_NAME)
+    for entry in found:
+        setting = BY_NAME[entry.identifier]
+        assert setting.metadata["text"] == f"{entry.description}."
+        if choices(setting):
+            assert tuple(item.identifier for item in entry.enum_items) == choices(setting)
+        elif entry.type in ("INT", "FLOAT"):
+            assert (entry.hard_min, entry.hard_max) == pytest.approx(
+                (setting.metadata["low"], setting.metadata["high"])
+            )
+
+
+def test_floats_come_back_as_they_were_typed(view) -> None:
+    """Blender's 32 bits do not leak: a number of up to six digits is the same number in the core."""
+    for value in np.random.default_rng(0).uniform(0.1, 9.6, 20).round(4).tolist():
+        view.settings.cusp = value
+        assert settings_of(view.settings).cusp == value
+
+
+def test_limits_are_kept(view) -> None:
+    """Blender keeps numbers within the limits, and what it keeps the core takes."""
+    for name, setting in BY_NAME.items():
+        for limit, beyond in ((setting.metadata["low"], -(2**31)), (setting.metadata["high"], 2**31 - 1)):
+            if limit is not None:
+                setattr(view.settings, name, beyond)
+                assert getattr(settings_of(view.settings), name) == pytest.approx(limit)
+
+
+def test_addon_comes_and_goes() -> None:
+    """Registering can be undone and done again; nothing of it stays on the scene meanwhile."""
+    legorize_addon.unregister()
+    assert not hasattr(bpy.types.Scene, "legorize")
+    assert not hasattr(bpy.types, "LEGORIZE_PT_main")
+    legorize_addon.register()
+    assert hasattr(bpy.types.Scene, "legorize")
+
+
+def test_each_setting_has_its_place() -> None:
+    """Every setting is in just one panel, in the panel of its group."""
+    shown = [(panel.bl_label, name) for panel in panels.classes for name in getattr(panel, "names", ())]
+    assert shown == [(entry.metadata["group"], entry.name) for entry in BY_NAME.values()]
+
+
+def test_panel_is_about_one_build(view) -> None:
+    """The panel shows the chosen build, else the newest, else none."""
+    scene = bpy.context.scene
+    assert current_build(scene) is None
+    first, second = tower(1, name="a"), tower(2, name="b")
+    assert current_build(scene) == second
+    view.build = first
+    assert current_build(scene) == first
+    clear_build(scene, first)
+    assert view.build is None
+    assert current_build(scene) == second
+
+
+def test_top_layer_keeps_to_the_model(view) -> None:
+    """The slider begins at the top, goes no higher than the model and no lower than its first layer."""
+    build = tower(5)
+    assert view.top_layer == 5
+    view.top_layer = 2
+    assert view.top_layer == 2
+    assert [layer.hide_render for layer in layers_of(build)] == [False, False, True, True, True]
+    view.top_layer = 99
+    assert view.top_layer == 5
+    view.top_layer = -3
+    assert view.top_layer == 1
+
+
+def test_cut_detail_and_source_follow(view) -> None:
+    """The other properties act on the build at once."""
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.object
+    show(table([(0, x, 0, 0, 0, 4) for x in range(10)]), cube)
+    view.cut_share = 0.2
+    assert len(instances()) == 10
+    view.cut_from = "LEFT"
+    assert min(matrix[0, 3] for _, _, matrix in instances()) > 16
+    assert len(instances()) == 8
+    view.cut_from = "NONE"
+    assert len(instances()) == 10
+    view.detail = "low"
+    assert {mesh["legorize_mesh"] for mesh, _, _ in instances()} == {"3005 low"}
+    view.show_sources = True
+    assert not cube.hide_viewport
+    view.show_sources = False
+    assert cube.hide_viewport
+
+
+def test_properties_without_a_build_do_nothing(view) -> None:
+    """Turning knobs in an empty scene changes nothing."""
+    before = content()
+    view.top_layer, view.cut_from, view.detail, view.show_sources = 3, "FRONT", "low", True
+    assert content() == before
+    assert view.top_layer == 1
+
+
+def test_figures_are_sentences_of_numbers() -> None:
+    """The result panel's lines give the size in studs and in cm."""
+    build = show(random_table(10))
+    summary = dict(build[BUILD_KEY]["summary"]) | {"studs_x": 10, "studs_y": 5, "layers": 4, "mass": 12.4}
+    assert panels._figures(summary)[2:] == ("10 x 5 studs, 4 layers", "8.0 x 4.0 x 3.8 cm")
+    assert panels._figures(summary)[0] == "10 bricks, 12 g"

@@ -1,0 +1,103 @@
+"""A still shows the bricks in their colours and leaves the user's scene alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from PIL import Image
+
+from legorize_addon.core.errors import BuildError
+from legorize_addon.render import AZIMUTH, render_still
+from legorize_addon.view import show_layers
+
+from .bricks import content, show, table
+
+SIZE = (60, 40)
+RED, BLUE = 4, 1
+
+
+def picture(path: Path, **changes) -> np.ndarray:
+    """Render the scene coarsely and return the pixels, (h, w, 3) float from 0 to 1."""
+    render_still(bpy.context.scene, path, **{"samples": 4, "resolution": SIZE} | changes)
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGB")) / 255
+
+
+def share(pixels: np.ndarray, code: int) -> float:
+    """Return the share of the pixels that are plainly red or blue."""
+    channel, others = (0, (1, 2)) if code == RED else (2, (0, 1))
+    return float((pixels[..., channel] > 1.5 * pixels[..., others].max(axis=-1)).mean())
+
+
+def test_bricks_fill_the_picture(tmp_path) -> None:
+    """The model is seen whole: its colours are there, the rim of the picture is ground."""
+    show(table([(11, 0, 0, 0, 0, RED), (11, 0, 0, 3, 0, BLUE)]), scale=0.01, mm_per_unit=1000.0)
+    pixels = picture(tmp_path / "still.png")
+    assert pixels.shape == (SIZE[1], SIZE[0], 3)
+    assert share(pixels, RED) > 0.05
+    assert share(pixels, BLUE) > 0.05
+    rim = np.concatenate([pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]])
+    assert np.ptp(rim, axis=1).max() < 0.2
+    assert 0.3 < rim.mean() < 1
+
+
+def test_hidden_layers_are_left_out(tmp_path) -> None:
+    """Layers that the slider hides are not in the picture, which moves closer to the rest."""
+    build = show(table([(11, 0, 0, 0, 0, RED), (11, 0, 0, 3, 0, BLUE)]))
+    show_layers(bpy.context.scene, build, 1)
+    pixels = picture(tmp_path / "still.png")
+    assert share(pixels, BLUE) == 0
+    assert share(pixels, RED) > 0.1
+
+
+def test_views_differ(tmp_path) -> None:
+    """From the front left another side of the model is seen than from the back right."""
+    show(table([(0, x, y, 0, 0, RED if y == 0 else BLUE) for x in range(8) for y in range(2)]))
+    red = {view: share(picture(tmp_path / f"{view}.png", view=view), RED) for view in AZIMUTH}
+    assert min(red["front_left"], red["front_right"]) > 2 * max(red["back_left"], red["back_right"])
+
+
+def test_scene_is_as_before(tmp_path) -> None:
+    """No data is left over, and engine, camera, world, path and selection are the user's."""
+    scene = bpy.context.scene
+    bpy.ops.object.camera_add()
+    scene.camera = bpy.context.object
+    scene.render.engine, scene.render.filepath = "BLENDER_WORKBENCH", "//mine"
+    show(table([(0, 0, 0, 0, 0, RED)]))
+    before = content()
+    picture(tmp_path / "still.png")
+    assert content() == before
+    assert (scene.render.engine, scene.render.filepath) == ("BLENDER_WORKBENCH", "//mine")
+    assert bpy.context.scene == scene
+    assert scene.camera == bpy.context.object
+    assert scene.world is None
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["still.png"]
+
+
+def test_nothing_to_see_is_said(tmp_path) -> None:
+    """A scene without bricks, and one with all layers hidden, give a sentence and no file."""
+    with pytest.raises(BuildError, match="0 brick models"):
+        picture(tmp_path / "still.png")
+    build = show(table([(0, 0, 0, 0, 0, RED)]))
+    show_layers(bpy.context.scene, build, 0)
+    before = content()
+    with pytest.raises(BuildError, match="0 bricks to show"):
+        picture(tmp_path / "still.png")
+    assert content() == before
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_path_that_cannot_be_written_is_said(tmp_path) -> None:
+    """A path that is a folder, or lies in a file, gives a sentence; nothing is left over."""
+    show(table([(0, 0, 0, 0, 0, RED)]))
+    before = content()
+    (tmp_path / "folder.png").mkdir()
+    (tmp_path / "file").touch()
+    for path in (tmp_path / "folder.png", tmp_path / "file" / "still.png"):
+        with pytest.raises(BuildError, match="cannot be written"):
+            picture(path)
+    assert content() == before
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "folder.png"]

@@ -1,0 +1,41 @@
+#!/bin/sh
+# make_blender.sh ROOT: lay a Debian stable tree with its real Blender under ROOT (about a minute, 1.3 GB).
+# Needs Debian and root. Nothing is mounted, so ROOT can be removed like any other folder.
+set -eu
+root=$1
+suite=trixie
+packages="blender python3-numpy python3-requests python3-zstandard xvfb xauth imagemagick
+libgl1-mesa-dri libegl1 libgl1 libglx-mesa0 fonts-dejavu-core"
+export DEBIAN_FRONTEND=noninteractive LC_ALL=C
+
+stamp="$suite $(echo $packages)"
+[ "$(cat "$root/.ready" 2>/dev/null)" = "$stamp" ] && exit 0
+
+if ! command -v debootstrap >/dev/null; then
+    apt-get update -q
+    apt-get install -y -q --no-install-recommends debootstrap
+fi
+# the mirror that this machine's own main packages come from
+mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Component: main' |
+    grep -v security | head -n 1)
+
+rm -rf --one-file-system "$root"
+debootstrap --variant=minbase --include=ca-certificates "$suite" "$root" "$mirror"
+printf '#!/bin/sh\nexit 101\n' >"$root/usr/sbin/policy-rc.d" # no service is to start in there
+chmod +x "$root/usr/sbin/policy-rc.d"
+cat >"$root/etc/apt/apt.conf.d/99tree" <<CONF
+APT::Install-Recommends "false";
+Acquire::Check-Valid-Until "false";
+Acquire::Languages "none";
+CONF
+cat >"$root/etc/dpkg/dpkg.cfg.d/99tree" <<CONF
+path-exclude=/usr/share/doc/*
+path-exclude=/usr/share/man/*
+path-exclude=/usr/share/locale/*
+force-unsafe-io
+CONF
+chroot "$root" apt-get update -q
+# shellcheck disable=SC2086
+chroot "$root" apt-get install -y -q $packages
+chroot "$root" apt-get clean
+echo "$stamp" >"$root/.ready"
