@@ -14,8 +14,8 @@ from .read_colours import Bytes, Floats, linear_from_srgb, srgb_from_linear
 from .read_materials import Texture
 
 _LINEAR: Final = ("Linear Rec.709", "Linear", "Non-Color", "Raw")
-_LARGEST: Final = 8192 * 8192
-"""Pixels read at once: Blender hands them out in 16 bytes each."""
+LARGEST_SIDE: Final = 8192
+"""Texels along a side; of a larger image every second one in both directions is taken."""
 
 
 class Album:
@@ -96,19 +96,17 @@ class Album:
         return _filled(colours, seen) if texture.cutout else colours
 
     def _read(self, image: bpy.types.Image, tile: int) -> tuple[Bytes, NDArray[np.bool_]]:
-        if tile > 0:
-            copy = bpy.data.images.load(_tile_path(image, tile))
-            copy.colorspace_settings.name = image.colorspace_settings.name
-        elif image.size[0] * image.size[1] > _LARGEST:
-            self.remark(f"The image {image.name!r} has more than 8192 x 8192 texels: it was halved.")
-            copy = image.copy()
-            copy.scale(image.size[0] // 2, image.size[1] // 2)
-        else:
+        if max(image.size) > LARGEST_SIDE:
+            self.remark(f"The image {image.name!r} is larger than {LARGEST_SIDE} texels: every second one was taken.")
+        if tile == 0:
             return read_pixels(image)
+        # Blender hands out the pixels of the first tile only
+        single = bpy.data.images.load(_tile_path(image, tile))
         try:
-            return read_pixels(copy)
+            single.colorspace_settings.name = image.colorspace_settings.name
+            return read_pixels(single)
         finally:
-            bpy.data.images.remove(copy)
+            bpy.data.images.remove(single)
 
 
 def check_image(image: bpy.types.Image | None, material: str) -> None:
@@ -162,9 +160,10 @@ def read_pixels(image: bpy.types.Image) -> tuple[Bytes, NDArray[np.bool_]]:
     width, height = image.size
     buffer = np.empty(width * height * image.channels, dtype=np.float32)
     image.pixels.foreach_get(buffer)
-    values = buffer.reshape(height, width, image.channels)
+    step = 2 if max(width, height) > LARGEST_SIDE else 1
+    values = buffer.reshape(height, width, image.channels)[::step, ::step]
     colours = values[..., :3] if image.channels >= 3 else np.repeat(values[..., :1], 3, axis=2)
-    seen = values[..., -1] >= 0.5 if image.channels in (2, 4) else np.ones((height, width), dtype=bool)
+    seen = values[..., -1] >= 0.5 if image.channels in (2, 4) else np.ones(values.shape[:2], dtype=bool)
     if image.is_float or image.colorspace_settings.is_data or image.colorspace_settings.name in _LINEAR:
         return srgb_from_linear(np.nan_to_num(colours)), seen
     return np.rint(colours * 255.0).astype(np.uint8), seen

@@ -239,6 +239,8 @@ def _in_tiles(texture: Texture, factor: tuple[float, float, float], uvs: Floats,
 def _face_slots(mesh: bpy.types.Mesh, count: int) -> Ints:
     """Return the slot of every loop triangle; numbers beyond the last slot mean the last one, as in Blender."""
     mesh.calc_loop_triangles()
+    if count == 1:
+        return np.zeros(len(mesh.loop_triangles), dtype=np.int32)
     return np.clip(_numbers(mesh.loop_triangles, "material_index", 1, np.int32)[:, 0], 0, count - 1)
 
 

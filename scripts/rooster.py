@@ -74,12 +74,12 @@ class Limb:
 TRUNK: Final = Limb("body", "white", ((0, 6, 21.5, 8.6), (0, -2, 20.5, 9.2), (0, -9.5, 24.5, 6)))
 ROOSTER: Final = (
     TRUNK,
-    Limb("body", "white", ((4.8, 0, 16, 4.6), (4.8, 0, 10.5, 2.6)), blend=2),
-    Limb("leg", "orange", ((4.8, 0, 10, 1.55), (4.8, 0, 1, 1.55)), blend=0.5),
-    Limb("leg", "orange", ((4.8, 0, 1, 1.7), (1.5, 5, 0.8, 1.25))),
-    Limb("leg", "orange", ((4.8, 0, 1, 1.7), (4.8, 6.4, 0.8, 1.25))),
-    Limb("leg", "orange", ((4.8, 0, 1, 1.7), (8.1, 5, 0.8, 1.25))),
-    Limb("leg", "orange", ((4.8, 0, 1, 1.7), (4.8, -4.6, 0.8, 1.25))),
+    Limb("body", "white", ((4.9, 0, 16, 4.6), (4.9, 0, 10.5, 2.7)), blend=2),
+    Limb("leg", "orange", ((4.9, 0, 10, 1.7), (4.9, 0, 1, 1.7)), blend=0.5),
+    Limb("leg", "orange", ((4.9, -4.2, 0.9, 1.4), (4.9, 0, 1.1, 2.3))),
+    Limb("leg", "orange", ((4.9, 0.5, 1.1, 2.2), (1.9, 4.8, 0.9, 1.35))),
+    Limb("leg", "orange", ((4.9, 0.5, 1.1, 2.2), (4.9, 6.2, 0.9, 1.35))),
+    Limb("leg", "orange", ((4.9, 0.5, 1.1, 2.2), (7.9, 4.8, 0.9, 1.35))),
     Limb("body", "white", ((0, 6.5, 24.5, 8), (0, 9.5, 31, 6.4), (0, 11, 36, 6)), blend=3),
     Limb("head", "white", ((0, 11.3, 37.8, 6.4),), blend=1.5),
     Limb("beak", "orange", ((0, 16, 37.2, 3.3), (0, 21, 36.2, 1.8), (0, 23.2, 35.4, 0.9)), flat=0.9, blend=0.5),
@@ -203,5 +203,5 @@ def paint_wing(colour: Ints, where: Mask, forward: Floats, up: Floats) -> None:
 
 def paint_eye(colour: Ints, where: Mask, forward: Floats, up: Floats) -> None:
     """Give the head two big round eyes."""
-    colour[where & (np.hypot(forward - 13.2, up - 39) < 3.3)] = NUMBER["white"]
-    colour[where & (np.hypot(forward - 13.6, up - 39) < 1.75)] = NUMBER["black"]
+    colour[where & (np.hypot(forward - 13.2, up - 39) < 3.4)] = NUMBER["white"]
+    colour[where & (np.hypot(forward - 13.6, up - 39) < 1.9)] = NUMBER["black"]

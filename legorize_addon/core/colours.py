@@ -182,9 +182,9 @@ def dominant_colours(texels: Bytes, *, n_colours: int, rng: np.random.Generator)
     rgb = _unpacked(colours)
     if len(colours) <= n_colours:
         return rgb
-    found = KMeans(
-        n_clusters=n_colours, n_init=1, max_iter=_ITERATIONS, random_state=int(rng.integers(2**31))
-    ).fit(rgb.astype(np.float64), sample_weight=count)
+    found = KMeans(n_clusters=n_colours, n_init=1, max_iter=_ITERATIONS, random_state=int(rng.integers(2**31))).fit(
+        rgb.astype(np.float64), sample_weight=count
+    )
     # the means anew: sums of whole numbers are exact, in whatever order the threads add
     weight = np.bincount(found.labels_, count)
     total = np.stack([np.bincount(found.labels_, count * channel) for channel in rgb.T.astype(np.float64)], axis=1)
@@ -223,7 +223,8 @@ def brick_colours(centres: Bytes, catalogue: Catalogue, *, palette: Codes, one_t
     black = palette == 0
     difference[:, black] = np.minimum(difference, ciede2000(wanted, np.zeros((1, 1, 3))))[:, black]
     if not one_to_one:
-        return palette[difference.argmin(axis=1)]
+        nearest: Codes = palette[difference.argmin(axis=1)]
+        return nearest
     if len(centres) > len(palette):
         raise SettingsError(
             f"{len(centres)} dominant colours cannot each have one of {len(palette)} brick colours of their own: "
@@ -311,7 +312,8 @@ def _boxes_varied(table: NDArray[np.int32], low: Floats, high: Floats, *, clamp:
     # counts vertical borders in the rows of the box and horizontal ones in its columns a little too
     # generously at the far sides, which only costs time
     count = table[y1 + 1, x1 + 1] - table[y0, x1 + 1] - table[y1 + 1, x0] + table[y0, x0]
-    return across | ((count > 0) & (first != last).any(axis=1))
+    varied: Mask = across | ((count > 0) & (first != last).any(axis=1))
+    return varied
 
 
 def _border_table(codes: Codes) -> NDArray[np.int32]:

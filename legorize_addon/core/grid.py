@@ -59,8 +59,8 @@ def fit_grid(mesh: TriangleMesh, *, symmetric: bool) -> Grid:
     mesh : TriangleMesh
     symmetric : bool
         Put the middle of the model on a cell border or a cell centre, whichever
-        lets the outer cells fit better; else the rectangle B, enlarged about the
-        middle of the model, begins the grid, as in the paper.
+        lets the outer cells fit better; else the cells start at the corner of the
+        rectangle B, enlarged about the middle of the model, as in the paper.
 
     Returns
     -------
@@ -68,9 +68,9 @@ def fit_grid(mesh: TriangleMesh, *, symmetric: bool) -> Grid:
     """
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     middle, size = (low + high)[:2] / 2, (high - low)[:2]
-    # small models need at least one whole free cell on each side
     cells = np.maximum(np.ceil(ALPHA * size / STUD), np.ceil(size / STUD) + 2).astype(int)
     start = middle - ALPHA * size / 2
+    # the enlargement of a small model is less than the one free cell that every side needs
     start -= np.where(low[:2] - start < STUD, STUD, 0)
     if symmetric:
         odd = np.round(size / STUD).astype(int) % 2

@@ -69,7 +69,8 @@ class UnitGrid:
     @property
     def solid(self) -> Mask:
         """Cells that must or may be built, shape (n_layers, 3, n_y, n_x)."""
-        return self.cover != Cover.EMPTY
+        solid: Mask = self.cover != Cover.EMPTY
+        return solid
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -175,9 +175,7 @@ def adaptive_heights(
     return heights, layer.astype(np.int32), plate.astype(np.int8)
 
 
-def _fine_layers(
-    mesh: TriangleMesh, *, ground: float, n_layers: int, cusp: float, colour: NDArray[np.int16]
-) -> Mask:
+def _fine_layers(mesh: TriangleMesh, *, ground: float, n_layers: int, cusp: float, colour: NDArray[np.int16]) -> Mask:
     """Return which layers need three planes, shape (n_layers,)."""
     corners = mesh.vertices[mesh.faces]
     z = (corners[:, :, 2] - ground) / BRICK

@@ -6,6 +6,8 @@ is done with them, the rule of the colour, stays the same.
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,6 +26,9 @@ from legorize_addon.core.units import BRICK, STUD
 Codes = NDArray[np.int16]
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+
+_INWARDS: Final = 1e-7
+"""A point on a border of cells belongs to the inner one, as an edge of a trajectory does; in cells."""
 
 
 def dense_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid, count: int) -> SurfaceSamples:
@@ -49,11 +54,13 @@ def dense_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid, count
     weight = _barycentric(count, rng)
     points = np.einsum("ki,kij->kj", weight, corners[face])
     place = ((points - grid.origin) / [STUD, STUD, BRICK])[:, ::-1]
+    normal = face_normals(mesh)[face]
+    within = place - _INWARDS * normal / np.linalg.norm(normal, axis=1, keepdims=True)
     return SurfaceSamples(
         place=place,
         along=np.zeros_like(place),
-        cell=np.clip(np.floor(place).astype(np.int64), 0, np.array(grid.shape) - 1),
-        normal=face_normals(mesh)[face],
+        cell=np.clip(np.floor(within).astype(np.int64), 0, np.array(grid.shape) - 1),
+        normal=normal,
         area=np.full(count, area.sum() / count),
         colour=surface.at(mesh.face_image[face], np.einsum("ki,kij->kj", weight, mesh.uvs[face])),
     )
@@ -66,9 +73,11 @@ def _barycentric(count: int, rng: np.random.Generator) -> Floats:
     return np.stack([1 - root, root * (1 - b), root * b], axis=1)
 
 
-def dense_likeliest(samples: SurfaceSamples, solid: Mask, seen: Mask, catalogue: Catalogue) -> Codes:
+def dense_likeliest(
+    samples: SurfaceSamples, solid: Mask, seen: Mask, catalogue: Catalogue, *, one_surface: bool
+) -> Codes:
     """Return the colours by the default rule, (n_seen,)."""
-    return likeliest_colours(samples, solid, outer_air(solid), seen, catalogue)
+    return likeliest_colours(samples, solid, outer_air(solid), seen, catalogue, one_surface=one_surface)
 
 
 def dense_longest(

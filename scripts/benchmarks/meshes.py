@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.colours import SurfaceColours, chosen_palette, surface_colours
 from legorize_addon.core.errors import MeshError
-from legorize_addon.core.mesh import TriangleMesh, repair, scaled
+from legorize_addon.core.mesh import Repairs, TriangleMesh, repair, scaled
 from legorize_addon.core.pipeline import model_scale
 from legorize_addon.core.settings import Settings
 
@@ -42,14 +42,18 @@ class Model:
         Of the file.
     mesh : TriangleMesh
     surface : SurfaceColours
-    closed : bool
-        Whether the mesh is watertight.
+    repairs : Repairs
     """
 
     name: str
     mesh: TriangleMesh
     surface: SurfaceColours
-    closed: bool
+    repairs: Repairs
+
+    @property
+    def one_surface(self) -> bool:
+        """Whether the mesh is a single closed surface."""
+        return self.repairs.watertight and self.repairs.patches == 1
 
 
 def models_in(folder: Path) -> list[Path]:
@@ -61,7 +65,7 @@ def prepared(path: Path, settings: Settings) -> Model:
     """Read, repair and scale a mesh and find its colours, as the pipeline does."""
     mesh, repairs = repair(read_mesh(path))
     mesh = scaled(mesh, model_scale(mesh, settings))
-    return Model(path.stem, mesh, textured(mesh, settings), repairs.watertight)
+    return Model(path.stem, mesh, textured(mesh, settings), repairs)
 
 
 def textured(mesh: TriangleMesh, settings: Settings) -> SurfaceColours:

@@ -58,10 +58,10 @@ def measure(
         for count in triangles:
             finer = replace(model, mesh=subdivided(model.mesh, count))
             speeds += [_speed(finer, even_heights(finer.mesh, n), repeats) for n in planes]
-            checks.append(_checked(finer, "between vertices", even_heights(finer.mesh, max(planes))))
+            checks.append(_checked(finer, "even", even_heights(finer.mesh, max(planes))))
             checks.append(_checked(finer, "through vertices", vertex_heights(finer.mesh, max(planes))))
     return [
-        Table("slicing_speed", f"Slicing with loops, colours and areas: at least {RATIO:g} times faster", tuple(speeds)),
+        Table("slicing_speed", f"Slices, loops, colours and areas: at least {RATIO:g} times faster", tuple(speeds)),
         Table("slicing_checks", f"Loops: closed, areas within {AREA_ERROR:g} of shapely's", tuple(checks)),
     ]
 
@@ -76,7 +76,7 @@ def even_heights(mesh: TriangleMesh, n: int) -> Floats:
 def vertex_heights(mesh: TriangleMesh, n: int) -> Floats:
     """Return at most n heights of vertices, evenly among all there are but the highest and the lowest."""
     heights = np.unique(mesh.vertices[:, 2])[1:-1]
-    chosen: Floats = heights[np.unique(np.linspace(0, len(heights) - 1, n).astype(int))]
+    chosen: Floats = heights[np.unique(np.linspace(0, len(heights), n, endpoint=False).astype(int))[: len(heights)]]
     return chosen
 
 
@@ -116,13 +116,13 @@ def _checked(model: Model, where: str, heights: Floats) -> Row:
         "model": model.name,
         "planes": where,
         "triangles": len(model.mesh.faces),
-        "closed_mesh": model.closed,
+        "closed_mesh": model.repairs.watertight,
         "n_planes": len(heights),
         "loops": len(areas),
         "gaps_closed": trajectories.gaps,
         "widest_gap_mm": gap,
         "area_error": error,
-        "met": (trajectories.gaps == 0 or not model.closed) and gap == 0 and error <= AREA_ERROR,
+        "met": (trajectories.gaps == 0 or not model.repairs.watertight) and gap == 0 and error <= AREA_ERROR,
     }
 
 

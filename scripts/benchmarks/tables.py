@@ -36,10 +36,11 @@ class Table:
     rows: tuple[Row, ...]
 
     def markdown(self) -> str:
-        """Return the title and a Markdown table."""
-        columns = list(self.rows[0])
-        lines = [columns, ["---" if isinstance(value, str) else "--:" for value in self.rows[0].values()]]
-        lines += [[shown(row[column]) for column in columns] for row in self.rows]
+        """Return the title and a Markdown table; missed goals are bold."""
+        lines = [list(self.rows[0]), ["---" if isinstance(value, str) else "--:" for value in self.rows[0].values()]]
+        for row in self.rows:
+            missed = {column for column, value in row.items() if value is False and column.endswith("met")}
+            lines.append([f"**{shown(value)}**" if column in missed else shown(value) for column, value in row.items()])
         return "\n".join([f"**{self.title}**", "", *(f"| {' | '.join(line)} |" for line in lines), ""])
 
 
@@ -48,7 +49,7 @@ def shown(value: Value) -> str:
     if value is None:
         return "–"  # noqa: RUF001 - a dash, not a minus
     if isinstance(value, bool):
-        return "yes" if value else "**no**"
+        return "yes" if value else "no"
     if isinstance(value, float):
         return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.4g}"
     return str(value)

@@ -79,6 +79,7 @@ class Cut:
             heights=self.heights,
             keep_thin=keep_thin,
             longest=longest,
+            one_surface=self.model.one_surface,
             catalogue=load_catalogue(),
         )
         return grid.colour[:, 0]
@@ -121,7 +122,7 @@ def measure(paths: Sequence[Path], *, width: int, triangles: Sequence[int], poin
     titles = {
         "units_speed": f"Unit bricks with colours at {width} studs: at least {RATIO:g} times faster",
         "units_occupancy": f"Occupied cells against {PLANES_A_LAYER} planes a layer: at most {OCCUPANCY:.1%} differ",
-        "units_colours": f"Colours against {points:,} points: {CROSSED:.0%} where a trajectory crosses, {VISIBLE:.0%} of all",
+        "units_colours": f"Colours as by {points:,} points: {CROSSED:.0%} on trajectories, {VISIBLE:.0%} of all",
         "units_points": f"Points on trajectories against {SAMPLES_A_VOXEL} in a surface voxel: at most {POINTS:.0%}",
     }
     return [Table(name, title, tuple(part)) for (name, title), part in zip(titles.items(), rows, strict=True)]
@@ -178,7 +179,7 @@ def _occupancy(cut: Cut) -> Row:
         "differing": differing,
         "share_of_grid": differing / exact.size,
         "share_of_model": differing / int(exact.sum()),
-        "met": differing <= OCCUPANCY * exact.sum(),
+        "met": differing <= OCCUPANCY * int(exact.sum()),
         "thin_cells_added": int((cut.solid(keep_thin=True) & ~solid).sum()),
     }
 
@@ -203,7 +204,7 @@ def _colours(cut: Cut, points: int) -> list[Row]:
     seen = visible(solid, outer_air(solid))
     samples = dense_samples(model.mesh, model.surface, cut.frame, points)
     dense = {
-        "likeness": dense_likeliest(samples, solid, seen, catalogue),
+        "likeness": dense_likeliest(samples, solid, seen, catalogue, one_surface=model.one_surface),
         "longest": dense_longest(samples, cut.trajectories, cut.pieces, cut.passed, solid, seen),
     }
     return [_agreement(cut, rule, colours, seen) for rule, colours in dense.items()]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import importlib.util
 import json
 import os
@@ -26,6 +27,7 @@ from tests.blender.builders import add_image, add_object, image_material
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts" / "legorize.py"
 FILES = {"bricklink.xml", "model.ldr", "model.mpd", "parts.csv", "pick-a-brick.csv", "rebrickable.csv", "report.json"}
+BOX = (0.4, 0.2, 0.36)
 RED, WHITE = 4, 15
 # red but for the last texel of the topmost row
 TEXELS = np.full((3, 4, 3), (201, 26, 9), dtype=np.uint8)
@@ -56,8 +58,10 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
-def add_box(size: tuple[float, float, float], centre: tuple[float, float, float] = (0, 0, 0)) -> bpy.types.Object:
-    """Add a red box with a white corner, towards +x, +y and +z, no higher than a third of it."""
+def add_box(
+    size: tuple[float, float, float], centre: tuple[float, float, float] = (0, 0, 0), image_file: Path | None = None
+) -> bpy.types.Object:
+    """Add a red box with a white corner towards +x, +y and +z: half of that edge, a third of the height."""
     bpy.ops.mesh.primitive_cube_add(size=1)
     obj = bpy.context.object
     corners = np.array([vertex.co for vertex in obj.data.vertices])
@@ -66,7 +70,11 @@ def add_box(size: tuple[float, float, float], centre: tuple[float, float, float]
     obj.data.uv_layers[0].uv.foreach_set("vector", uvs.ravel())
     obj.data.vertices.foreach_set("co", (corners * size + centre).astype(np.float32).ravel())
     image = add_image(TEXELS)
-    image.pack()
+    if image_file is None:
+        image.pack()
+    else:
+        image.filepath_raw, image.file_format = str(image_file), "PNG"
+        image.save()
     obj.data.materials.append(image_material(image, extension="EXTEND"))
     return obj
 
@@ -93,34 +101,34 @@ def report(folder: Path) -> dict[str, object]:
 
 @pytest.mark.parametrize("kind", [".blend", ".glb", ".gltf", ".obj", ".fbx", ".ply", ".stl"])
 def test_every_kind_of_file(kind: str, script: ModuleType, tmp_path: Path) -> None:
-    """A box of 8 x 4 studs and 3 bricks keeps its sides, and where the file has colours its white corner."""
-    add_box((0.8, 0.4, 0.36))
+    """A box of 4 x 2 studs and 3 bricks keeps its sides, and where the file has colours its white corner."""
+    add_box(BOX, image_file=tmp_path / "paint.png")
     source = save(tmp_path / f"box{kind}")
-    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "8"]) == 0
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "4"]) == 0
     assert {path.name for path in (tmp_path / "out").iterdir()} == FILES
     facts = report(tmp_path / "out")
-    assert facts["grid"] == {"x": 8, "y": 4, "layers": 3}
+    assert facts["grid"] == {"x": 4, "y": 2, "layers": 3}
     assert facts["failed_checks"] == []
     if kind not in (".ply", ".stl"):
         catalogue = load_catalogue()
         bricks = read_ldr((tmp_path / "out" / "model.ldr").read_text(), catalogue)
         assert set(facts["counts"]["by_colour"]) == {str(RED), str(WHITE)}
         assert np.ptp(bricks.corner[bricks.colour == RED, 2]) == 2 * 3
-        low = bricks.corner[bricks.colour == WHITE]
-        assert (low >= (4, 2, 2 * 3)).all()
+        place = bricks.corner[bricks.colour == WHITE] - bricks.corner.min(axis=0)
+        assert place.min(axis=0).tolist() == [2, 1, 2 * 3]
 
 
 def test_matrix_leads_from_the_mesh_to_the_bricks(script: ModuleType, tmp_path: Path) -> None:
     """The report's matrix takes the box's corners to the corners of the model, also under another unit scale."""
     bpy.context.scene.unit_settings.scale_length = 0.01
-    add_box((80, 40, 36), centre=(7, 8, 9))
+    add_box((32, 16, 36), centre=(7, 8, 9))
     source = save(tmp_path / "box.blend")
     assert script.main([str(source), "--out", str(tmp_path / "out"), "--scale", "1.0"]) == 0
     facts = report(tmp_path / "out")
-    assert facts["grid"] == {"x": 10, "y": 5, "layers": 4}
-    low, high = (np.array(facts["mesh_to_ldraw"]) @ (*corner, 1) for corner in ((-33, -12, -9), (47, 28, 27)))
-    # x to x, y to -z, z to -y; 20 LDU a stud, 24 a brick
-    np.testing.assert_allclose((high - low)[:3], (200, -90, -100))
+    assert facts["grid"] == {"x": 4, "y": 2, "layers": 4}
+    low, high = (np.array(facts["mesh_to_ldraw"]) @ (*corner, 1) for corner in ((-9, 0, -9), (23, 16, 27)))
+    # x to x, z to -y, y to z; 20 LDU a stud, 24 a brick
+    np.testing.assert_allclose((high - low)[:3], (80, -90, 40))
 
 
 def test_blend_takes_what_renders_show(script: ModuleType, tmp_path: Path) -> None:
@@ -134,13 +142,13 @@ def test_blend_takes_what_renders_show(script: ModuleType, tmp_path: Path) -> No
     bpy.context.scene.collection.objects.unlink(bpy.data.objects["elsewhere"])
     bpy.context.view_layer.layer_collection.children["excluded"].exclude = True
     source = save(tmp_path / "scene.blend")
-    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "5"]) == 0
-    assert report(tmp_path / "out")["grid"] == {"x": 5, "y": 5, "layers": 4}
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "2"]) == 0
+    assert report(tmp_path / "out")["grid"] == {"x": 2, "y": 2, "layers": 2}
 
 
 def test_bones_are_at_rest(script: ModuleType, tmp_path: Path) -> None:
     """A model with a posed skeleton is taken as it was modelled."""
-    box = add_box((0.8, 0.4, 0.36))
+    box = add_box(BOX)
     bpy.ops.object.armature_add()
     rig = bpy.context.object
     box.vertex_groups.new(name="Bone").add(range(8), 1.0, "REPLACE")
@@ -148,16 +156,16 @@ def test_bones_are_at_rest(script: ModuleType, tmp_path: Path) -> None:
     rig.pose.bones[0].scale = (1, 4, 1)
     rig.pose.bones[0].keyframe_insert("scale", frame=1)
     source = save(tmp_path / "rigged.glb")
-    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "8"]) == 0
-    assert report(tmp_path / "out")["grid"] == {"x": 8, "y": 4, "layers": 3}
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "4"]) == 0
+    assert report(tmp_path / "out")["grid"] == {"x": 4, "y": 2, "layers": 3}
 
 
 def test_picture_and_scene(script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The flags for the picture and the scene write them; the scene opens with the bricks in it."""
     monkeypatch.setattr(script, "render_still", partial(script.render_still, samples=1, resolution=(40, 30)))
-    add_box((0.8, 0.4, 0.36))
+    add_box(BOX)
     source = save(tmp_path / "box.glb")
-    arguments = [str(source), "--out", str(tmp_path / "out"), "--width", "8", "--render", "--save-blend"]
+    arguments = [str(source), "--out", str(tmp_path / "out"), "--width", "4", "--render", "--save-blend"]
     assert script.main(arguments) == 0
     assert {path.name for path in (tmp_path / "out").iterdir()} == FILES | {"render.png", "build.blend"}
     picture = bpy.data.images.load(str(tmp_path / "out" / "render.png"))
@@ -182,9 +190,9 @@ def test_failed_check_is_a_two(script: ModuleType, tmp_path: Path, capsys: pytes
 
 def test_existing_folder_keeps_other_files(script: ModuleType, out: Path, tmp_path: Path) -> None:
     """Results replace files of their names and leave the others; nothing temporary stays."""
-    add_box((0.8, 0.4, 0.36))
+    add_box(BOX)
     source = save(tmp_path / "box.blend")
-    assert script.main([str(source), "--out", str(out), "--width", "8"]) == 0
+    assert script.main([str(source), "--out", str(out), "--width", "4"]) == 0
     assert set(contents(out)) == FILES | {"mine.txt"}
     assert (out / "model.ldr").read_text().startswith("0 box\n")
 
@@ -221,7 +229,7 @@ def test_impossible_settings(
     flags: list[str], words: str, script: ModuleType, out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A value out of range, no number, a contradiction or an unknown flag is a 1 with one sentence."""
-    add_box((0.8, 0.4, 0.36))
+    add_box(BOX)
     assert_refused(script, save(tmp_path / "box.blend"), out, words, capsys, flags)
 
 
@@ -317,19 +325,28 @@ def assert_refused(
     assert not list(out.parent.rglob(".legorize-*"))
 
 
-@pytest.mark.parametrize("place", ["file", "below a file", "read-only"])
-def test_unwritable_folder(place: str, script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A file in the way, above or at the folder, and a folder without permission give one sentence and a 1."""
-    add_box((1, 1, 1))
+@pytest.mark.parametrize("place", ["at", "below", "forbidden"])
+def test_unwritable_folder(
+    place: str,
+    script: ModuleType,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A file at the folder's place or above it, and missing rights, give one sentence and a 1."""
+
+    def forbid(**_: object) -> None:
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+
+    add_box(BOX)
     source = save(tmp_path / "box.blend")
     taken = tmp_path / "taken"
-    if place == "read-only":
-        if os.geteuid() == 0:
-            pytest.skip("root may write everywhere")
-        taken.mkdir(mode=0o500)
+    if place == "forbidden":
+        # root, as whom tests may run, is refused nothing
+        monkeypatch.setattr(script.tempfile, "TemporaryDirectory", forbid)
     else:
         taken.write_text("a file")
-    out = taken if place == "file" else taken / "out"
+    out = taken / "out" if place == "below" else taken
     assert_refused(script, source, out, str(out), capsys, [])
 
 
@@ -337,9 +354,9 @@ def test_folder_in_the_place_of_a_result(
     script: ModuleType, out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A folder that is called like a result stops everything before the first file is replaced."""
-    add_box((0.8, 0.4, 0.36))
+    add_box(BOX)
     (out / "report.json").mkdir()
-    assert_refused(script, save(tmp_path / "box.blend"), out, "report.json is a folder", capsys, ["--width", "8"])
+    assert_refused(script, save(tmp_path / "box.blend"), out, "report.json is a folder", capsys, ["--width", "4"])
 
 
 def test_parser_complains_by_exception(script: ModuleType) -> None:
@@ -351,16 +368,16 @@ def test_parser_complains_by_exception(script: ModuleType) -> None:
 @pytest.mark.parametrize("before", [[], ["blender", "-b", "-P", "legorize.py", "--"]])
 def test_whole_process(before: list[str], tmp_path: Path) -> None:
     """As a process of its own, called as Python does or as Blender does, it ends with the status of the run."""
-    add_box((0.8, 0.4, 0.36))
+    add_box(BOX)
     source = save(tmp_path / "box.glb")
-    done = run_process([*(before or [str(SCRIPT)]), str(source), "--out", str(tmp_path / "out"), "--width", "8"])
+    done = run_process([*(before or [str(SCRIPT)]), str(source), "--out", str(tmp_path / "out"), "--width", "4"])
     assert done.returncode == 0, done.stderr
     assert report(tmp_path / "out")["counts"]["bricks"] > 0
 
 
 def test_bug_keeps_its_traceback(tmp_path: Path) -> None:
     """An unexpected exception is shown in full, the status is 1, and nothing is written."""
-    add_box((0.8, 0.4, 0.36))
+    add_box(BOX)
     source = save(tmp_path / "box.glb")
     patch = "import legorize_addon.core.pipeline as pipeline; pipeline.legorize = None;"
     done = run_process([str(SCRIPT), str(source), "--out", str(tmp_path / "out")], patch)

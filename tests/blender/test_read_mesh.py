@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 
+from legorize_addon import read_images
 from legorize_addon.core.errors import MeshError
 from legorize_addon.core.mesh import TriangleMesh
 from legorize_addon.read_colours import linear_from_srgb, srgb_from_linear
@@ -334,6 +335,18 @@ def test_udim_tiles_are_images_of_their_own(tmp_path: Path) -> None:
     np.testing.assert_array_equal(colours_at(read(first), texel_centres()), TEXELS.reshape(-1, 3))
     np.testing.assert_array_equal(colours_at(read(second), texel_centres()), TEXELS[::-1].reshape(-1, 3))
     assert len(bpy.data.images) == before
+
+
+def test_huge_images_are_halved(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of an image with too many texels every second one is taken, with a remark; the image itself keeps its size."""
+    monkeypatch.setattr(read_images, "LARGEST_SIDE", 4)
+    texels = np.repeat(np.repeat(TEXELS[:, :2], 4, axis=0), 4, axis=1)
+    image = add_image(texels)
+    mesh, remarks = read_with_remarks(add_quad(image_material(image)))
+    np.testing.assert_array_equal(mesh.images[0], texels[::2, ::2])
+    assert "every second one" in remarks[0]
+    assert tuple(image.size) == (8, 8)
+    assert len(bpy.data.images) == 1
 
 
 def test_several_materials_and_empty_slots() -> None:

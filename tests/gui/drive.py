@@ -20,7 +20,7 @@ import bpy
 SAMPLE, FOLDER = sys.argv[sys.argv.index("--") + 1 :]
 TAB = "Legorize"
 BUTTON = "LEGORIZE_OT_build"
-LIMIT = 60.0  # seconds that any one wait may take
+LIMIT = 120.0  # seconds that any one wait may take
 
 Wait = Iterator[float]  # seconds in which Blender goes on by itself
 
@@ -42,7 +42,6 @@ def play(seen: dict[str, Any]) -> Wait:
 
     bpy.context.scene.legorize.settings.width = 48
     yield from click_button(seen)
-    screenshot("2-running")
     started = time.monotonic()
     yield from wait_until(lambda: not running())
     seen["seconds"] = time.monotonic() - started
@@ -50,15 +49,17 @@ def play(seen: dict[str, Any]) -> Wait:
     frame_all(area)
     yield 1.0
     seen["after"] = scene_content(sample)
-    screenshot("3-bricks")
+    screenshot("2-bricks")
 
     yield from press("Z", ctrl=True)
     yield 1.0
     seen["undone"] = scene_content(sample)
-    screenshot("4-undone")
+    screenshot("3-undone")
 
-    bpy.context.scene.legorize.settings.width = 200
+    bpy.context.scene.legorize.settings.width = 160
     yield from click_button(seen)
+    yield 0.4
+    screenshot("4-running")
     yield from press("ESC")
     started = time.monotonic()
     yield from wait_until(lambda: not running())

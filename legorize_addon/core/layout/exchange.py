@@ -1,24 +1,29 @@
 """Better bricks by exchange: lay one placement, let the bricks in its way give up cells.
 
 A move lays a placement and takes away every brick that it cuts. Where such a
-brick leaves must cells behind, they have to fit exactly under one brick again;
-the move counts if the bricks laid cost less than those taken away. Moves that
-do not touch the same bricks or cells are made together.
+brick leaves must cells behind, one brick covers them again, or, if that is
+allowed, several; the move counts if the bricks laid cost less than those taken
+away. Moves that do not touch the same bricks or cells are made together.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
 from ..model import Floats, Mask
+from .greedy import cover
 from .problem import Problem
 from .shapes import Index, pattern_bits
 
 _PASSES: Final = 4
 """Rounds of moves against the smallest bricks; later ones find next to nothing."""
+
+_NOTHING: Final = -1
+_SEVERAL: Final = -2
+"""Instead of the row of a placement: none is needed, more than one is."""
 
 _LEAST_GAIN: Final = 1e-6
 """Bricks that a move has to save; keeps rounding errors from going in circles."""
@@ -61,6 +66,7 @@ def exchange(
     rng: np.random.Generator,
     *,
     reward: Floats | None = None,
+    patch: float = np.inf,
 ) -> Index:
     """Make the moves that pay, one round.
 
@@ -76,6 +82,9 @@ def exchange(
         Decides between moves of the same gain.
     reward : (n_moves,) float64 array, optional
         Bricks that a move is worth besides what it saves.
+    patch : float
+        What to reckon, in bricks, where the rest of a cut brick needs several;
+        infinite to make no such moves.
 
     Returns
     -------
@@ -83,9 +92,9 @@ def exchange(
         Rows of the placements that lie there now; `chosen` itself if no move pays.
     """
     moves = _Moves.of(problem, chosen, offered)
-    rest, rest_cost = _rest(problem, chosen, moves)
+    rests = _Rests.of(problem, chosen, moves, patch)
     loss = problem.cost[offered] + np.bincount(
-        moves.of_cut, weights=rest_cost - problem.cost[chosen[moves.brick]], minlength=len(offered)
+        moves.of_cut, weights=rests.cost - problem.cost[chosen[moves.brick]], minlength=len(offered)
     )
     gain = -loss if reward is None else reward - loss
     gain[gain <= _LEAST_GAIN] = 0
@@ -95,8 +104,18 @@ def exchange(
     cut = made[moves.of_cut]
     staying = np.ones(len(chosen), dtype=bool)
     staying[moves.brick[cut]] = False
-    laid = rest[cut]
-    return np.concatenate([chosen[staying], offered[made], laid[laid >= 0]])
+    laid = rests.row[cut]
+    patched = _patched(problem, rests.cell[(cut & (rests.row == _SEVERAL))[rests.of_cell]], rng)
+    return np.concatenate([chosen[staying], offered[made], laid[laid >= 0], patched])
+
+
+def _patched(problem: Problem, cells: Index, rng: np.random.Generator) -> Index:
+    """Cover the must cells among those given, with bricks that lie on no others."""
+    inside = np.zeros(len(problem.must), dtype=bool)
+    inside[cells] = True
+    found = problem.placements
+    rows = np.flatnonzero(found.totals(inside) == found.size)
+    return rows[cover(replace(problem, placements=found.take(rows), cost=problem.cost[rows]), rng)]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -132,36 +151,57 @@ class _Moves:
         return cls(cell, of_cell, free, cut_brick, of_cut)
 
 
-def _rest(problem: Problem, chosen: Index, moves: _Moves) -> tuple[Index, Floats]:
-    """Find for each cut the placement that covers what is left of the brick.
+@dataclass(frozen=True, slots=True, eq=False)
+class _Rests:
+    """What is left of each brick that a move cuts.
 
-    Returns
-    -------
+    Attributes
+    ----------
     row : (n_cuts,) intp array
-        The placement, -1 where no must cell is left over.
+        The placement that covers it, ``_NOTHING`` where no must cell is left
+        over, ``_SEVERAL`` where no single placement does.
     cost : (n_cuts,) float64 array
-        Its cost, 0 where nothing is left over, infinite where nothing fits.
+        Its cost, in bricks.
+    cell, of_cell : (n_entries,) intp arrays
+        Cells left over, and the cut that each belongs to.
     """
-    cut_rows = chosen[moves.brick]
-    cells = problem.placements.cells[problem.placements.entries(cut_rows)]
-    of_cell = np.repeat(np.arange(len(cut_rows)), problem.placements.size[cut_rows])
-    n_cells = len(problem.must)
-    taken = np.sort(moves.of_cell * n_cells + moves.cell)
-    wanted = moves.of_cut[of_cell] * n_cells + cells
-    left = taken[np.minimum(np.searchsorted(taken, wanted), len(taken) - 1)] != wanted
-    needed = left & problem.must[cells]
-    done = np.bincount(of_cell[needed], minlength=len(cut_rows)) == 0
-    # first all that is left, then only what must be covered: may cells can be dropped
-    rows = np.stack([_fitting(problem, cells, of_cell, kept, len(cut_rows)) for kept in (left, needed)])
-    costs = np.where(rows >= 0, problem.cost[rows], np.inf)
-    best = costs.argmin(axis=0)
-    cut = np.arange(len(cut_rows))
-    return np.where(done, -1, rows[best, cut]), np.where(done, 0.0, costs[best, cut])
+
+    row: Index
+    cost: Floats
+    cell: Index
+    of_cell: Index
+
+    @classmethod
+    def of(cls, problem: Problem, chosen: Index, moves: _Moves, patch: float) -> _Rests:
+        """Find for each cut the placement that covers what is left of the brick."""
+        cut_rows = chosen[moves.brick]
+        cell = problem.placements.cells[problem.placements.entries(cut_rows)]
+        of_cell = np.repeat(np.arange(len(cut_rows)), problem.placements.size[cut_rows])
+        n_cells = len(problem.must)
+        taken = np.sort(moves.of_cell * n_cells + moves.cell)
+        wanted = moves.of_cut[of_cell] * n_cells + cell
+        left = taken[np.minimum(np.searchsorted(taken, wanted), len(taken) - 1)] != wanted
+        cell, of_cell = cell[left], of_cell[left]
+        needed = problem.must[cell]
+        # first all that is left, then only what must be covered: may cells can be dropped
+        rows = np.stack(
+            [
+                _fitting(problem, cell, of_cell, len(cut_rows)),
+                _fitting(problem, cell[needed], of_cell[needed], len(cut_rows)),
+            ]
+        )
+        costs = np.where(rows >= 0, problem.cost[rows], patch)
+        best = costs.argmin(axis=0)
+        row, cost = (np.take_along_axis(each, best[None], axis=0)[0] for each in (rows, costs))
+        done = np.bincount(of_cell[needed], minlength=len(cut_rows)) == 0
+        row[row < 0] = _SEVERAL
+        row[done], cost[done] = _NOTHING, 0
+        return cls(row, cost, cell, of_cell)
 
 
-def _fitting(problem: Problem, cells: Index, group: Index, kept: Mask, n_groups: int) -> Index:
-    """Return for each group of cells the placement that covers exactly the kept ones, -1 where there is none."""
-    at, group = problem.corner[cells[kept]], group[kept]
+def _fitting(problem: Problem, cell: Index, group: Index, n_groups: int) -> Index:
+    """Return for each group of cells the placement that covers exactly these, -1 where there is none."""
+    at = problem.corner[cell]
     corner = np.full((n_groups, 3), np.iinfo(np.int16).max, dtype=np.intp)
     for axis in range(3):
         np.minimum.at(corner[:, axis], group, at[:, axis])

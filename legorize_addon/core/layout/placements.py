@@ -78,7 +78,19 @@ class Placements:
 
     def through(self, marked: Mask) -> Index:
         """Return the rows of the placements that cover a marked cell, ascending."""
-        return np.unique(np.searchsorted(self.start, np.flatnonzero(marked[self.cells]), side="right") - 1)
+        rows: Index = np.unique(np.searchsorted(self.start, np.flatnonzero(marked[self.cells]), side="right") - 1)
+        return rows
+
+    def take(self, rows: Index) -> Placements:
+        """Return the placements of the given rows, ascending."""
+        return Placements(
+            shape=self.shape[rows],
+            corner=self.corner[rows],
+            colour=self.colour[rows],
+            cells=self.cells[self.entries(rows)],
+            start=np.append(0, np.cumsum(self.size[rows])),
+            key=self.key[rows],
+        )
 
     def find(self, shape: Whole, corner: Whole) -> Index:
         """Look placements up.

@@ -87,30 +87,43 @@ def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Ma
     """
     cells = sheets.cells
     needed = sheets.must.reshape(-1)[cells]
-    held = np.zeros(len(cells), dtype=bool)
-    cost = 1 + _SINGLE * (found.size == 1) + _OPTIONAL * found.totals(~needed)
-    for plane in (sheets.level, sheets.level + sheets.height + 1):
-        held |= ((owner[plane] != NOBODY) | must[plane]).reshape(-1)[cells]
-        cost -= _BRIDGE * _bridged(found, among, _seams(owner[plane])[:, cells])
-    cost += _HANGING * (found.totals(held) == 0)
+    around = np.stack([sheets.level, sheets.level + sheets.height + 1])
+    held = ((owner[around] != NOBODY) | must[around]).any(axis=0).reshape(-1)[cells]
+    cost = (
+        1
+        + _SINGLE * (found.size == 1)
+        + _HANGING * (found.totals(held) == 0)
+        + _OPTIONAL * found.totals(~needed)
+        - _BRIDGE * _bridged(found, among, _seams(owner[around])[:, cells])
+    )
     sheet, y, x = np.unravel_index(cells, sheets.colour.shape)
     return Problem(sheets, among, found, needed, np.stack([x, y, sheet], axis=1), cost)
 
 
-def _seams(owner: Rows) -> Mask:
-    """Tell where two bricks meet, between each cell and the next along x and along y, shape (2, n)."""
-    seams = np.zeros((2, *owner.shape), dtype=bool)
+def _seams(owner: Rows) -> NDArray[np.int8]:
+    """Count where two bricks meet, beyond each cell along x and along y, in planes given for below and above.
+
+    Parameters
+    ----------
+    owner : (2, n_sheets, n_y, n_x) int32 array
+        Brick below and above each cell.
+
+    Returns
+    -------
+    (2, n_sheets * n_y * n_x) int8 array
+        Seams beyond the cell along x and along y: 0, 1 or 2.
+    """
     there = owner > NOBODY
-    seams[0, ..., :-1] = (owner[..., :-1] != owner[..., 1:]) & there[..., :-1] & there[..., 1:]
-    seams[1, :, :-1] = (owner[:, :-1] != owner[:, 1:]) & there[:, :-1] & there[:, 1:]
+    seams = np.zeros((2, *owner.shape[1:]), dtype=np.int8)
+    seams[0, ..., :-1] = ((owner[..., :-1] != owner[..., 1:]) & there[..., :-1] & there[..., 1:]).sum(axis=0)
+    seams[1, :, :-1] = ((owner[:, :, :-1] != owner[:, :, 1:]) & there[:, :, :-1] & there[:, :, 1:]).sum(axis=0)
     return seams.reshape(2, -1)
 
 
-def _bridged(found: Placements, among: Shapes, seams: Mask) -> NDArray[np.int64]:
+def _bridged(found: Placements, among: Shapes, seams: NDArray[np.int8]) -> NDArray[np.int64]:
     """Count the seams inside each placement, given those beyond each cell along x and y."""
     size = among.size
     first = np.cumsum(size) - size
     within = np.arange(len(found.cells)) + np.repeat(first[found.shape] - found.start[:-1], found.size)
-    inside = (among.inner[0, within] & seams[0, found.cells]).astype(np.int8)
-    inside += among.inner[1, within] & seams[1, found.cells]
+    inside = among.inner[0, within] * seams[0, found.cells] + among.inner[1, within] * seams[1, found.cells]
     return segment_sums(inside, found.start[1:])

@@ -27,8 +27,12 @@ from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
 from .table import bricks_of, gathered
 
-_ROUNDS: Final = 3
+_ROUNDS: Final = 8
 """Most rounds of joining; each joins neighbours of neighbours."""
+
+_PATCH: Final = 2.5
+"""What to reckon, in bricks, for the rest of a cut brick that needs several. Such
+moves may leave loose bricks themselves, so they are tried when nothing else helps."""
 
 _JOIN: Final = 3.5
 """What it is worth to join two components, in bricks."""
@@ -71,6 +75,7 @@ def connect_loose(
         Covers the same must cells with no more floating bricks than before.
     """
     links = connect(bricks, catalogue)
+    patch = np.inf
     for number in range(_ROUNDS):
         if not links.n_floating:
             break
@@ -78,14 +83,17 @@ def connect_loose(
         cells = _Cells.of(bricks, links, must)
         tried = gathered(
             [
-                _joined(bricks.take(np.isin(bricks.part, among.part)), sheets, among, cells, rng)
+                _joined(bricks.take(np.isin(bricks.part, among.part)), sheets, among, cells, patch, rng)
                 for sheets, among in work
             ]
         )
         tried_links = connect(tried, catalogue)
-        if tried_links.n_floating >= links.n_floating:
+        if tried_links.n_floating < links.n_floating:
+            bricks, links, patch = tried, tried_links, np.inf
+        elif patch == _PATCH:
             break
-        bricks, links = tried, tried_links
+        else:
+            patch = _PATCH
     return bricks
 
 
@@ -120,7 +128,9 @@ class _Cells:
         return cls(owner, label, must)
 
 
-def _joined(bricks: Bricks, sheets: Sheets, among: Shapes, cells: _Cells, rng: np.random.Generator) -> Bricks:
+def _joined(
+    bricks: Bricks, sheets: Sheets, among: Shapes, cells: _Cells, patch: float, rng: np.random.Generator
+) -> Bricks:
     """Offer joining bricks once, in the sheets of one height that a floating component reaches."""
     labels = np.stack([cells.label[sheets.level + plate] for plate in (0, sheets.height + 1, 1)])
     floating = (labels > 0).any(axis=0) & (sheets.colour != COLOUR_EMPTY)
@@ -139,7 +149,7 @@ def _joined(bricks: Bricks, sheets: Sheets, among: Shapes, cells: _Cells, rng: n
     corner[:, 2] = np.searchsorted(sheets.level, corner[:, 2])
     row = found.find(among.rows_of(bricks.part[here], bricks.turn[here]), corner)
     offered, reward = _offers(found, at, _OFFERS * len(bricks), rng)
-    chosen = exchange(problem, row[row >= 0], offered, rng, reward=reward)
+    chosen = exchange(problem, row[row >= 0], offered, rng, reward=reward, patch=patch)
     return gathered([bricks.take(np.delete(np.arange(len(bricks)), here[row >= 0])), bricks_of(problem, chosen)])
 
 

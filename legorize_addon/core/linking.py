@@ -1,0 +1,166 @@
+"""Which segment of a cut follows which: over shared edges, and over the gaps of open meshes.
+
+References
+----------
+Paper, section "Colour trajectory" (linking of the segments).
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from .model import Floats, Ints, Mask
+from .slicing import Slices
+
+_GAPS: Final = (2.0, 8.0)
+"""Open ends this near to each other, in mm, are joined before a chain is closed on itself."""
+
+_DIGIT: Final = 16
+"""Bits of a digit: numpy sorts numbers of 16 bits in linear time."""
+
+
+def successors(faces: NDArray[np.int32], slices: Slices) -> Ints:
+    """Return the segment after each segment, -1 where the mesh has no neighbour.
+
+    Two triangles that share an edge are cut there by the same planes, and the
+    segments of a triangle that cross one edge come plane after plane: so whole
+    runs of segments follow whole runs, and no coordinates are compared. Where
+    more than two triangles share an edge, those that pass it upwards and those
+    that pass it downwards are paired in the order of their numbers.
+
+    Parameters
+    ----------
+    faces : (n_f, 3) int32 array
+        Faces of the mesh that was cut.
+    slices : Slices
+
+    Returns
+    -------
+    (n,) int64 array
+    """
+    if len(slices) == 0:
+        return np.zeros(0, dtype=np.int64)
+    exits, enters = slices.half_edges(slices.exit), slices.half_edges(slices.enter)
+    up, down = _run_starts(exits), _run_starts(enters)
+    # keys of edges: an exit rises from its first corner to its second, an entry falls
+    corners = faces.ravel().astype(np.int64)
+    n = int(corners.max()) + 1
+    first, second = corners[exits[up]], corners[_next_corner(exits[up])]
+    third, fourth = corners[enters[down]], corners[_next_corner(enters[down])]
+    partner = _partners(first * n + second, fourth * n + third)
+    size = np.diff(up, append=len(slices))
+    following = np.arange(len(slices)) + (down[partner] - up).repeat(size)
+    following[(partner < 0).repeat(size)] = -1
+    return following
+
+
+def _run_starts(values: Ints) -> Ints:
+    """Return where a new value begins in a sequence."""
+    return np.flatnonzero(np.diff(values, prepend=-1))
+
+
+def _next_corner(half: Ints) -> Ints:
+    return half + np.where(half % 3 == 2, -2, 1)
+
+
+def _partners(left: Ints, right: Ints) -> Ints:
+    """Return the index of the equal key in the other array, each taken once and in order, -1 for none."""
+    left_order, right_order = _sorting(left), _sorting(right)
+    left, right = left[left_order], right[right_order]
+    partner = np.full(len(left), -1, dtype=np.int64)
+    if np.array_equal(left, right):
+        partner[left_order] = right_order
+        return partner
+    # the k-th of the equal keys on one side takes the k-th on the other
+    rank = np.arange(len(left)) - np.searchsorted(left, left)
+    place = np.searchsorted(right, left) + rank
+    hit = np.flatnonzero(place < len(right))
+    hit = hit[right[place[hit]] == left[hit]]
+    partner[left_order[hit]] = right_order[place[hit]]
+    return partner
+
+
+def _sorting(key: Ints) -> Ints:
+    """Return the stable order of numbers that are not negative, digit by digit."""
+    n_bits = int(key.max(initial=1)).bit_length()
+    return np.lexsort([(key >> shift).astype(np.uint16) for shift in range(0, n_bits, _DIGIT)])
+
+
+def matched_ends(slices: Slices, following: Ints) -> tuple[Ints, Ints]:
+    """Choose which open chain goes on where another one breaks off.
+
+    Nearest pairs within one slice are joined first, up to 2 and then 8 mm; what
+    is left closes on itself.
+
+    Parameters
+    ----------
+    slices : Slices
+    following : (n,) int64 array
+        Segment after each, -1 for an open end.
+
+    Returns
+    -------
+    tail, head : (k,) int64 arrays
+        The last segment before a gap and the first one after it.
+    """
+    tail = np.flatnonzero(following < 0)
+    preceded = np.zeros(len(slices), dtype=bool)
+    preceded[following[following >= 0]] = True
+    head = np.flatnonzero(~preceded)
+    match = np.full(len(tail), -1, dtype=np.int64)
+    if len(tail) == 0:
+        return tail, head
+    ends, starts = slices.ends(tail), slices.starts(head)
+    for gap in _GAPS:
+        # slices apart by more than a gap, so that nothing is near across them
+        lift = 4 * gap * np.arange(len(slices.heights))
+        _match_nearest(
+            np.column_stack([ends, lift[slices.slice[tail]]]),
+            np.column_stack([starts, lift[slices.slice[head]]]),
+            match,
+            gap,
+        )
+    _close_on_itself(following, tail, head, match)
+    return tail, head[match]
+
+
+def _match_nearest(ends: Floats, starts: Floats, match: Ints, gap: float) -> None:
+    """Join ends and starts that are nearest to each other, again and again until none is within the gap."""
+    while True:
+        open_end, open_start = np.flatnonzero(match < 0), np.flatnonzero(_unmatched(match))
+        if len(open_end) == 0:
+            return
+        forth, near = cKDTree(starts[open_start]).query(ends[open_end], distance_upper_bound=gap)
+        back, _ = cKDTree(ends[open_end]).query(starts[open_start], distance_upper_bound=gap)
+        within = np.flatnonzero(np.isfinite(forth))
+        if len(within) == 0:
+            return
+        # by distance, not by number: of several ends equally near to a start the first one takes it
+        mutual = within[forth[within] == back[near[within]]]
+        start, chosen = np.unique(near[mutual], return_index=True)
+        match[open_end[mutual[chosen]]] = open_start[start]
+
+
+def _unmatched(match: Ints) -> Mask:
+    free = np.ones(len(match), dtype=bool)
+    free[match[match >= 0]] = False
+    return free
+
+
+def _close_on_itself(following: Ints, tail: Ints, head: Ints, match: Ints) -> None:
+    """Join the end of every chain that is still open to its own start."""
+    last = following.copy()
+    done = match >= 0
+    last[tail[done]] = head[match[done]]
+    last[tail[~done]] = tail[~done]
+    # every step doubles how far a segment looks ahead, until it sees the end of its chain
+    for _ in range(len(following).bit_length()):
+        last = last.take(last)
+    number = np.empty(len(following), dtype=np.int64)
+    number[tail] = np.arange(len(tail))
+    free = np.flatnonzero(_unmatched(match))
+    match[number[last[head[free]]]] = free

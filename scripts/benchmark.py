@@ -1,0 +1,110 @@
+"""Measure Legorize against references, in the same run on the same machine.
+
+::
+
+    python scripts/benchmark.py slicing  [MESH ...] [--out DIR]   against trimesh and shapely
+    python scripts/benchmark.py units    [MESH ...] [--out DIR]   against trimesh, the exact rule, dense sampling
+    python scripts/benchmark.py pipeline [MESH ...] [--out DIR]   every stage, every result
+    python scripts/benchmark.py judge    [MESH ...] --judge DIR   an external judge, on our bricks and on a peer's
+
+Without a mesh the bundled sample is measured; ``--models DIR`` takes all model
+files of a folder. Blender is not needed, the packages of the dependency group
+``checks`` are. Tables are printed as Markdown and written as CSV and JSON.
+Times are CPU seconds of all threads, the least of several runs; compare only
+those of one run, and trust the ratios more than the seconds.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+ROOT: Final = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT))
+
+from legorize_addon.core.errors import LegorizeError  # noqa: E402 - found through the line above
+from scripts.benchmarks import judge, pipeline, slicing, units  # noqa: E402
+from scripts.benchmarks.meshes import models_in  # noqa: E402
+from scripts.benchmarks.tables import Table, write  # noqa: E402
+
+SAMPLE: Final = ROOT / "assets" / "sample.glb"
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run one benchmark and return the exit status."""
+    options = parser().parse_args(arguments)
+    try:
+        tables = measured(options)
+    except LegorizeError as error:
+        print(error, file=sys.stderr)
+        return 1
+    write(options.out, options.command, tables)
+    for table in tables:
+        print(table.markdown())
+    return 0
+
+
+def measured(options: argparse.Namespace) -> list[Table]:
+    """Return the tables of the chosen benchmark."""
+    paths = [*options.meshes, *(models_in(options.models) if options.models else ())] or [SAMPLE]
+    if options.command == "slicing":
+        return slicing.measure(
+            paths,
+            width=options.width,
+            triangles=options.triangles,
+            planes=options.planes,
+            repeats=options.repeats,
+        )
+    if options.command == "units":
+        return units.measure(
+            paths, width=options.width, triangles=options.triangles, points=options.points, repeats=options.repeats
+        )
+    if options.command == "pipeline":
+        return pipeline.measure(paths, widths=options.widths, repeats=options.repeats)
+    return judge.measure(paths, judge=options.judge, out=options.out, width=options.width, ldr_dir=options.ldr_dir)
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    made = argparse.ArgumentParser(description="Measure Legorize against references.")
+    commands = made.add_subparsers(dest="command", required=True)
+    for name, text, width, repeats in (
+        ("slicing", "slices with loops, colours and areas", 48, 3),
+        ("units", "unit bricks with their colours", 100, 3),
+        ("pipeline", "every stage on every model", None, 1),
+        ("judge", "an external judge", 48, None),
+    ):
+        command = commands.add_parser(name, help=text, description=text)
+        command.add_argument("meshes", metavar="MESH", type=Path, nargs="*", help="model file")
+        command.add_argument("--models", metavar="DIR", type=Path, help="folder with model files")
+        command.add_argument("--out", metavar="DIR", type=Path, default=ROOT / "out" / "benchmark", help="for results")
+        if width is not None:
+            command.add_argument("--width", type=int, default=width, help="studs (default: %(default)s)")
+        if repeats is not None:
+            command.add_argument("--repeats", type=int, default=repeats, help="runs (default: %(default)s)")
+        add_options(name, command)
+    return made
+
+
+def add_options(name: str, command: argparse.ArgumentParser) -> None:
+    """Add what only one of the benchmarks takes."""
+    counts = {"type": int, "nargs": "+"}
+    text = "about how many triangles to subdivide to, 0 for none (default: %(default)s)"
+    if name == "slicing":
+        command.add_argument("--triangles", **counts, default=[0, 94_000, 1_500_000], help=text)
+        command.add_argument("--planes", **counts, default=[50, 100, 200], help="(default: %(default)s)")
+    elif name == "units":
+        command.add_argument("--triangles", **counts, default=[0, 94_000], help=text)
+        command.add_argument("--points", type=int, default=2_000_000, help="of the dense sampling")
+    elif name == "pipeline":
+        command.add_argument("--widths", **counts, default=[24, 48, 96], help="studs (default: %(default)s)")
+    else:
+        command.add_argument("--judge", metavar="DIR", type=Path, required=True, help="judge.py and peer_voxels.py")
+        command.add_argument("--ldr-dir", metavar="DIR", type=Path, help="NAME/model.ldr made by scripts/legorize.py")
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,92 @@
+"""Settings refuse what is out of range, in one sentence that names the number and the limits."""
+
+from __future__ import annotations
+
+from dataclasses import FrozenInstanceError, fields
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.errors import SettingsError
+from legorize_addon.core.settings import Settings, choices, setting_type
+
+ENTRIES = {entry.name: entry for entry in fields(Settings)}
+NUMBERS = [name for name, entry in ENTRIES.items() if setting_type(entry) in (int, float)]
+WORDS = [name for name, entry in ENTRIES.items() if choices(entry)]
+
+
+def refusal(name, value) -> str:
+    """Return the sentence that refuses a value."""
+    with pytest.raises(SettingsError) as refused:
+        Settings(**{name: value})
+    return str(refused.value)
+
+
+@pytest.mark.parametrize("name", ENTRIES)
+def test_every_setting_is_told_to_the_user(name):
+    """A text of one sentence, a group, and for numbers both limits around the default."""
+    entry = ENTRIES[name]
+    assert entry.metadata["text"].endswith(".")
+    assert entry.metadata["group"]
+    if name in NUMBERS:
+        assert entry.metadata["low"] <= entry.default <= entry.metadata["high"]
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_limits_are_allowed_and_what_lies_beyond_is_refused(name):
+    """Both limits are good values; the next number beyond is refused with the number, the limits and a full stop."""
+    low, high = ENTRIES[name].metadata["low"], ENTRIES[name].metadata["high"]
+    assert getattr(Settings(**{name: low}), name) == low
+    assert getattr(Settings(**{name: high}), name) == high
+    whole = setting_type(ENTRIES[name]) is int
+    for beyond in (low - 1, high + 1) if whole else (np.nextafter(low, -np.inf), np.nextafter(high, np.inf)):
+        assert refusal(name, beyond) == f"{name} is {beyond}: choose a value from {low} to {high}."
+
+
+@pytest.mark.parametrize("name", [name for name in NUMBERS if setting_type(ENTRIES[name]) is float])
+def test_real_numbers_may_be_whole_but_never_nan_or_infinite(name):
+    """A whole number is a real one; what is not a finite number is refused."""
+    whole = int(ENTRIES[name].metadata["high"])
+    assert getattr(Settings(**{name: whole}), name) == whole
+    for value in (np.nan, np.inf, -np.inf):
+        assert refusal(name, value).startswith(f"{name} is ")
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "kind"),
+    [
+        ("width", 4.0, "int"),
+        ("width", True, "int"),
+        ("width", "48", "int"),
+        ("width", None, "int"),
+        ("scale", "10", "float"),
+        ("scale", True, "float"),
+        ("hollow", 1, "bool"),
+        ("hollow", "yes", "bool"),
+        ("palette", 4, "str"),
+    ],
+)
+def test_values_of_another_type_are_refused(name, value, kind):
+    """Nothing is converted behind the user's back."""
+    assert refusal(name, value) == f"{name} is {value!r}: give it a value of type {kind}."
+
+
+@pytest.mark.parametrize("name", WORDS)
+def test_words_are_those_listed(name):
+    """Each listed word is allowed, and another one is refused with the list."""
+    words = choices(ENTRIES[name])
+    assert all(getattr(Settings(**{name: word}), name) == word for word in words)
+    assert refusal(name, "else") == f"{name} is 'else': choose one of {', '.join(words)}."
+    assert refusal(name, None).endswith(".")
+
+
+def test_settings_cannot_be_changed():
+    """Settings are fixed once made."""
+    with pytest.raises(FrozenInstanceError):
+        Settings().width = 3  # type: ignore[misc]
+
+
+def test_what_is_not_a_word_has_no_choices():
+    """Only settings of listed words have choices."""
+    assert WORDS
+    assert all(not choices(entry) for name, entry in ENTRIES.items() if name not in WORDS)

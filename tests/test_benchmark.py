@@ -1,0 +1,198 @@
+"""The benchmark: what it reads, what it would find wrong, and every command once on a small box."""
+
+from __future__ import annotations
+
+import csv
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+trimesh = pytest.importorskip("trimesh", reason="benchmarks need the dependency group checks")
+pytest.importorskip("shapely", reason="benchmarks need the dependency group checks")
+Image = pytest.importorskip("PIL.Image", reason="benchmarks need pillow")
+
+from legorize_addon.core.errors import BuildError, MeshError  # noqa: E402 - after the packages that may be missing
+from legorize_addon.core.settings import Settings  # noqa: E402
+from legorize_addon.core.slicing import slice_mesh  # noqa: E402
+from legorize_addon.core.trajectories import link_loops  # noqa: E402
+from scripts import benchmark  # noqa: E402
+from scripts.benchmarks import clock, judge, meshes, slicing  # noqa: E402
+from scripts.benchmarks.tables import Table  # noqa: E402
+
+RED, BLUE = (180, 0, 0), (30, 90, 168)
+JUDGED = {
+    "parts": 1, "collision_cells": 0, "unread_parts": 0, "mirrored": False, "surface_to_brick_mean": 0.3,
+    "surface_lost_share": 0.0, "volume_ratio": 1.0, "colour_error_mean": 8.0, "colour_error_floor": 7.0,
+    "colour_wrong_share": 0.0, "components": 1, "floating_bricks": 0,
+}  # fmt: skip
+
+
+@pytest.fixture
+def box(tmp_path: Path) -> Path:
+    """Return a file with a box of 2 x 1 x 0.5 m, the half at low x red and the other blue."""
+    body = trimesh.creation.box([2.0, 0.5, 1.0])
+    image = Image.new("RGB", (2, 1))
+    image.putdata([RED, BLUE])
+    uv = np.column_stack([body.vertices[:, 0] / 4 + 0.5, np.full(len(body.vertices), 0.5)])
+    body.visual = trimesh.visual.TextureVisuals(
+        uv, material=trimesh.visual.material.PBRMaterial(baseColorTexture=image)
+    )
+    path = tmp_path / "box.glb"
+    path.write_bytes(body.export(file_type="glb"))
+    return path
+
+
+def test_glb_stands_upright_in_mm(box: Path) -> None:
+    """The y axis of the file becomes z, metres become mm, and the image keeps its bytes."""
+    mesh = meshes.read_mesh(box)
+    np.testing.assert_allclose(np.ptp(mesh.vertices, axis=0), [2000, 1000, 500])
+    assert [tuple(texel) for texel in mesh.images[0][0].tolist()] == [RED, BLUE]
+
+
+def test_colour_factor_is_linear(tmp_path: Path) -> None:
+    """A glTF factor of one half is half the light: sRGB 188, not 128."""
+    body = trimesh.creation.box([1.0, 1.0, 1.0])
+    material = trimesh.visual.material.PBRMaterial(baseColorFactor=[0.5, 0.5, 0.5, 1.0])
+    body.visual = trimesh.visual.TextureVisuals(np.zeros((8, 2)), material=material)
+    (tmp_path / "grey.glb").write_bytes(body.export(file_type="glb"))
+    assert meshes.read_mesh(tmp_path / "grey.glb").images[0].tolist() == [[[188, 188, 188]]]
+
+
+def test_colours_of_vertices_are_refused(tmp_path: Path) -> None:
+    """What the reader does not know is said, not painted grey."""
+    body = trimesh.creation.box([1.0, 1.0, 1.0])
+    body.visual.vertex_colors = np.arange(32).reshape(8, 4).astype(np.uint8)
+    body.export(tmp_path / "painted.ply")
+    with pytest.raises(MeshError, match="coloured by its vertices"):
+        meshes.read_mesh(tmp_path / "painted.ply")
+
+
+def test_subdivided_mesh_is_the_same_surface(box: Path) -> None:
+    """Quartering keeps area and volume, and image coordinates stay tied to places."""
+    mesh = meshes.read_mesh(box)
+    fine = meshes.subdivided(mesh, 1000)
+    assert len(fine.faces) == 12 * 4**3
+    coarse, finer = meshes.as_trimesh(mesh), meshes.as_trimesh(fine)
+    assert finer.area == pytest.approx(coarse.area)
+    assert finer.volume == pytest.approx(coarse.volume)
+    np.testing.assert_allclose(fine.uvs[..., 0], fine.vertices[fine.faces][..., 0] / 4000 + 0.5)
+
+
+def test_wrong_area_is_found(box: Path) -> None:
+    """Areas agree with the reference's, and one that is off by a millionth shows."""
+    model = meshes.prepared(box, Settings(width=20))
+    trajectories = link_loops(model.mesh, slice_mesh(model.mesh, slicing.even_heights(model.mesh, 4)), model.surface)
+    areas = trajectories.areas()
+    assert slicing.area_error(trajectories, areas) < slicing.AREA_ERROR
+    assert slicing.area_error(trajectories, areas * (1 + 1e-6)) == pytest.approx(1e-6)
+
+
+def test_open_loop_is_found(box: Path) -> None:
+    """A segment that ends beside the next one's start leaves a gap of that width."""
+    mesh = meshes.prepared(box, Settings(width=20)).mesh
+    slices = slice_mesh(mesh, slicing.even_heights(mesh, 4))
+    assert slicing.widest_gap(mesh, slices) == 0
+    torn = slices.segments.copy()
+    torn[3, 1, 0] += 0.25
+    assert slicing.widest_gap(mesh, replace(slices, segments=torn)) == pytest.approx(0.25)
+
+
+def test_heights_of_vertices_are_vertices(box: Path) -> None:
+    """Planes through vertices lie exactly on some, and never at the two ends."""
+    mesh = meshes.subdivided(meshes.read_mesh(box), 1000)
+    heights = slicing.vertex_heights(mesh, 5)
+    assert 0 < len(heights) <= 5
+    assert np.isin(heights, mesh.vertices[:, 2]).all()
+    assert mesh.vertices[:, 2].min() < heights.min() <= heights.max() < mesh.vertices[:, 2].max()
+
+
+def test_least_time_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two functions take turns, and of each the fastest turn counts."""
+    order: list[str] = []
+    ticks = iter([0, 5, 5, 7, 7, 10, 10, 16])
+    monkeypatch.setattr(clock.time, "process_time", lambda: next(ticks))
+    assert clock.least_seconds(lambda: order.append("a"), lambda: order.append("b"), repeats=2) == [3, 2]
+    assert order == ["a", "b", "a", "b"]
+
+
+def test_table_marks_missed_goals() -> None:
+    """Only a goal that is missed is bold; what does not exist is a dash."""
+    lines = Table("t", "T", ({"name": "x", "ratio": 12.3456, "met": False, "closed": False, "limit": None},)).markdown()
+    assert "| x | 12.35 | **no** | no | – |" in lines  # noqa: RUF001 - a dash
+
+
+def run(tmp_path: Path, *arguments: object) -> dict[str, list[dict[str, object]]]:
+    """Run a benchmark and return its tables, of each of which there is a CSV file with as many rows."""
+    assert benchmark.main([*map(str, arguments), "--out", str(tmp_path / "out")]) == 0
+    tables = json.loads((tmp_path / "out" / f"{arguments[0]}.json").read_text())["tables"]
+    for name, rows in tables.items():
+        with (tmp_path / "out" / f"{name}.csv").open(newline="") as file:
+            assert len(list(csv.DictReader(file))) == len(rows)
+    return tables
+
+
+def test_slicing_command(box: Path, tmp_path: Path) -> None:
+    """Rows for every number of triangles and planes; all loops of a box are closed and right."""
+    tables = run(tmp_path, "slicing", box, "--triangles", 0, 200, "--planes", 3, 5, "--repeats", 1)
+    assert [(row["triangles"], row["planes"]) for row in tables["slicing_speed"]] == [
+        (12, 3),
+        (12, 5),
+        (192, 3),
+        (192, 5),
+    ]
+    assert all(row["met"] for row in tables["slicing_checks"])
+
+
+def test_units_command(box: Path, tmp_path: Path) -> None:
+    """A box that fills its cells is exact, and all of its cells have the colour that dense sampling finds."""
+    tables = run(tmp_path, "units", box, "--width", 16, "--points", 100_000, "--triangles", 0, "--repeats", 1)
+    [occupancy] = tables["units_occupancy"]
+    assert occupancy["differing"] == 0
+    # 16 x 8 studs and 32 mm high: the fourth layer is a third full
+    assert occupancy["exact_cells"] == 16 * 8 * 3
+    assert [row["rule"] for row in tables["units_colours"]] == ["likeness", "longest"]
+    assert all(row["visible_equal"] == 1 for row in tables["units_colours"])
+
+
+def test_pipeline_command(box: Path, tmp_path: Path) -> None:
+    """One row a width; the seconds of the stages add up."""
+    tables = run(tmp_path, "pipeline", box, "--widths", 8, 16)
+    assert [row["studs"] for row in tables["pipeline_results"]] == [8, 16]
+    for row in tables["pipeline_times"]:
+        stages = [
+            row[name] for name in ("mesh", "colours", "slicing", "trajectories", "unit bricks", "hollowing", "layout")
+        ]
+        assert sum(stages) == pytest.approx(row["total_s"])
+
+
+def test_judge_command_keeps_what_it_knows_of_the_peer(box: Path, tmp_path: Path) -> None:
+    """Judge and peer are run as programs; the peer only if there is no judgement of it yet."""
+    folder = tmp_path / "judge"
+    folder.mkdir()
+    judging = f"import sys, pathlib\npathlib.Path(sys.argv[5]).write_text({json.dumps(JUDGED)!r})\n"
+    (folder / "judge.py").write_text(judging)
+    (folder / "peer_voxels.py").write_text("import sys\nopen(sys.argv[3], 'a').write('x')\n")
+    for _ in range(2):
+        tables = run(tmp_path, "judge", box, "--judge", folder, "--width", 8)
+    assert [row["whose"] for row in tables["judge"]] == ["ours", "peer"]
+    assert (tmp_path / "out" / "peer" / "box-8.ldr").read_text() == "x"
+    [ratios] = tables["judge_ratios"]
+    assert (ratios["sound_met"], ratios["colour_met"], ratios["volume_met"]) == (True, False, True)
+
+
+def test_judge_wants_the_bricks(tmp_path: Path) -> None:
+    """A folder of results without the model is one sentence."""
+    with pytest.raises(BuildError, match=r"has no cow/model\.ldr: run"):
+        judge.found_bricks(tmp_path, "cow")
+    (tmp_path / "cow.ldr").touch()
+    assert judge.found_bricks(tmp_path, "cow").name == "cow.ldr"
+
+
+def test_failed_judge_is_one_sentence(box: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What the judge says last is the end of the sentence; the exit status is 1."""
+    (tmp_path / "judge.py").write_text("raise SystemExit('no such brick')\n")
+    assert benchmark.main(["judge", str(box), "--judge", str(tmp_path), "--width", "8", "--out", str(tmp_path)]) == 1
+    assert capsys.readouterr().err.endswith("judge.py failed on " + str(box) + ": no such brick\n")
