@@ -47,12 +47,38 @@ def sizes(part: Rows, turn: Rows, catalogue: Catalogue) -> NDArray[np.int32]:
 
 
 def positions(bricks: Bricks, catalogue: Catalogue) -> Floats:
-    """Return the middles of the bricks' lower faces in model mm, shape (n, 3) float64."""
+    """Return the middles of the bricks' lower faces, about which they turn.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The table, n rows.
+    catalogue : Catalogue
+        Parts and colours.
+
+    Returns
+    -------
+    (n, 3) float64 array
+        Points in model mm.
+    """
     return (bricks.corner + _half(sizes(bricks.part, bricks.turn, catalogue))) * CELL_SIZE
 
 
 def box_corners(bricks: Bricks, catalogue: Catalogue) -> Floats:
-    """Return the eight corners of each brick's bounding box, studs left out, in model mm, shape (8 n, 3) float64."""
+    """Return the corners of the bricks' bounding boxes, studs left out.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The table, n rows.
+    catalogue : Catalogue
+        Parts and colours.
+
+    Returns
+    -------
+    (8 n, 3) float64 array
+        Eight points a brick in model mm.
+    """
     height = np.array([part.height for part in catalogue.parts])[bricks.part]
     size = np.column_stack([sizes(bricks.part, bricks.turn, catalogue), height])
     unit = np.stack(np.meshgrid([0, 1], [0, 1], [0, 1]), axis=-1).reshape(-1, 3)

@@ -56,7 +56,7 @@ class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
     filename_ext = ".png"
     filter_glob: StringProperty(default="*.png", options={"HIDDEN"})
     samples: IntProperty(
-        name="Samples", description="Light paths a pixel; more is cleaner and slower", default=64, min=1
+        name="Samples", description="Light paths a pixel; more is cleaner and slower", default=24, min=1
     )
     width: IntProperty(name="Width", description="Width of the picture in pixels", default=1280, min=16, max=16384)
     height: IntProperty(name="Height", description="Height of the picture in pixels", default=960, min=16, max=16384)

@@ -146,7 +146,17 @@ def parts_collection(kinds: Sequence[tuple[Part, Colour]], detail: Detail, name:
 
 
 def set_detail(parts: bpy.types.Collection, catalogue: Catalogue, detail: Detail) -> None:
-    """Exchange the meshes of a collection made by :func:`parts_collection`."""
+    """Exchange the meshes of a collection made by :func:`parts_collection`.
+
+    Parameters
+    ----------
+    parts : bpy.types.Collection
+        The collection.
+    catalogue : Catalogue
+        The parts.
+    detail : {"low", "high"}
+        As for :func:`part_loft`.
+    """
     for variant in parts.objects:
         variant.data = part_mesh(catalogue.parts[catalogue.part_row(variant[PART_KEY])], detail)
 

@@ -37,12 +37,12 @@ MARGIN: Final = 0.08
 
 SKY: Final = (0.85, 0.92, 1.0)
 SKY_STRENGTH: Final = 0.4
-GROUND: Final = (0.55, 0.55, 0.55)
+GROUND: Final = (0.62, 0.62, 0.62)
 GROUND_REACH: Final = 400.0
 """Half the side of the ground, in diagonals of the model: the horizon stays out of the picture."""
 
 # direction from which it shines (azimuth from the camera, elevation), strength, size in degrees
-SUNS: Final = ((-50.0, 50.0, 2.2, 10.0), (75.0, 25.0, 0.4, 60.0))
+SUNS: Final = ((-50.0, 50.0, 1.9, 10.0), (75.0, 25.0, 0.3, 60.0))
 
 
 def render_still(
@@ -139,7 +139,7 @@ def _set_up_render(studio: bpy.types.Scene, samples: int, resolution: tuple[int,
     cycles = studio.cycles
     cycles.device = "CPU"
     cycles.samples = samples
-    cycles.max_bounces = 6
+    cycles.max_bounces = 4
     cycles.use_denoising = _set_denoiser(studio)
     studio.view_settings.view_transform = "Standard"
     render = studio.render

@@ -143,7 +143,13 @@ def read_bricks(build: bpy.types.Collection, *, shown_only: bool = False) -> Bri
 def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
     """Remove a build and all that nothing else uses; show its source objects as they were before.
 
-    Objects that a user put into the build's collections move to the scene's collection.
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Scene of the build; objects that a user put into the build's
+        collections move to its collection.
+    build : bpy.types.Collection
+        Collection made by :func:`show_build`.
     """
     state = build[BUILD_KEY]
     for entry in state["sources"].values():
@@ -168,7 +174,7 @@ def builds(scene: bpy.types.Scene) -> list[bpy.types.Collection]:
 def builds_of(scene: bpy.types.Scene, objects: Sequence[bpy.types.Object]) -> list[bpy.types.Collection]:
     """Return the builds that were made of one of the objects or that contain one of them."""
     wanted = set(objects)
-    return [build for build in builds(scene) if wanted & {*sources_of(build), *build.all_objects}]
+    return [build for build in builds(scene) if wanted and wanted & {*sources_of(build), *build.all_objects}]
 
 
 def sources_of(build: bpy.types.Collection) -> list[bpy.types.Object]:

@@ -17,7 +17,17 @@ from .scene import BUILD_KEY, LAYER_KEY, layers_of, point_objects
 
 
 def show_layers(scene: bpy.types.Scene, build: bpy.types.Collection, top: int) -> None:
-    """Show the lowest ``top`` layers of a build and hide those above, in the viewport and in renders."""
+    """Show the lower layers of a build and hide those above, in the viewport and in renders.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Scene whose view layers are changed.
+    build : bpy.types.Collection
+        The build.
+    top : int
+        Number of layers to show, from the lowest.
+    """
     build[BUILD_KEY]["top_layer"] = top
     hidden = {layer: layer[LAYER_KEY] >= top for layer in layers_of(build)}
     for layer, hide in hidden.items():
@@ -52,7 +62,13 @@ def cut_away(build: bpy.types.Collection, direction: tuple[int, int, int], share
 
 @contextmanager
 def readable(objects: Sequence[bpy.types.Object]) -> Iterator[None]:
-    """Show objects while they are read: Blender evaluates no modifiers of hidden ones."""
+    """Show objects while they are read: Blender evaluates no modifiers of hidden ones.
+
+    Parameters
+    ----------
+    objects : sequence of bpy.types.Object
+        Hidden again at the end of the context where they were hidden before.
+    """
     before = [thing.hide_viewport for thing in objects]
     for thing in objects:
         thing.hide_viewport = False

@@ -44,7 +44,7 @@ try:
     from legorize_addon.core.settings import Settings, choices, setting_type
     from legorize_addon.read_mesh import read_objects
     from legorize_addon.render import render_still
-    from legorize_addon.scene import show_build
+    from legorize_addon.scene import builds, clear_build, show_build
 except ModuleNotFoundError as missing:
     print(f"Legorize needs the Python package {missing.name}: install its extension, or the packages.", file=sys.stderr)
     sys.exit(1)
@@ -52,6 +52,8 @@ except ModuleNotFoundError as missing:
 MM_PER_METRE: Final = 1000.0
 SIZES: Final = ("size_by", "width", "height", "scale")
 """Settings that exclude each other; each of the last three also chooses itself in the first."""
+
+SHAPELESS: Final = ("CAMERA", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
 
 class Parser(argparse.ArgumentParser):
@@ -140,15 +142,15 @@ def run(source: Path, out: Path, settings: Settings, *, render: bool, save_blend
 
 
 def failed_checks(facts: dict[str, Any]) -> list[str]:
-    """Return a sentence for each check that a finished model failed."""
+    """Return a line for each check that a finished model failed."""
     connection, colours = facts["connection"], facts["unavailable_part_colours"]
     counts = (
-        (connection["components"] - 1, "The model falls into {} parts too many: its bricks do not all hold together."),
-        (connection["floating"], "{} bricks float: nothing below or above holds them."),
-        (connection["collisions"], "{} cells are claimed by two bricks."),
-        (colours["bricks"], "{} bricks have a colour in which their part was never made."),
+        (connection["components"], 1, "Components that no brick joins to one model: {}."),
+        (connection["floating"], 0, "Bricks that float, held by nothing below or above: {}."),
+        (connection["collisions"], 0, "Cells that more than one brick claims: {}."),
+        (colours["bricks"], 0, "Bricks in a colour in which their part was never made: {}."),
     )
-    return [sentence.format(count) for count, sentence in counts if count > 0]
+    return [sentence.format(count) for count, allowed, sentence in counts if count > allowed]
 
 
 def texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:
@@ -185,6 +187,9 @@ def load(source: Path) -> list[bpy.types.Object]:
     if kind != ".blend":
         for armature in bpy.data.armatures:
             armature.pose_position = "REST"
+    # else the bricks would be legorized, as they have hidden what they were made of
+    for build in list(builds(bpy.context.scene)):
+        clear_build(bpy.context.scene, build)
     return list(rendered(bpy.context.view_layer.layer_collection))
 
 
@@ -205,12 +210,12 @@ def importers() -> dict[str, tuple[Any, dict[str, Any]]]:
 
 
 def rendered(layer: bpy.types.LayerCollection) -> Iterator[bpy.types.Object]:
-    """Yield the objects that a render shows, and show them in the viewport, from which meshes are read."""
+    """Yield the objects whose shape a render shows, and show them in the viewport, from which meshes are read."""
     if layer.exclude or layer.collection.hide_render:
         return
     layer.hide_viewport = layer.collection.hide_viewport = False
     for obj in layer.collection.objects:
-        if not obj.hide_render:
+        if not obj.hide_render and obj.type not in SHAPELESS:
             obj.hide_viewport = False
             obj.hide_set(False)
             yield obj

@@ -91,13 +91,18 @@ def test_wrong_area_is_found(box: Path) -> None:
 
 
 def test_open_loop_is_found(box: Path) -> None:
-    """A segment that ends beside the next one's start leaves a gap of that width."""
-    mesh = meshes.prepared(box, Settings(width=20)).mesh
-    slices = slice_mesh(mesh, slicing.even_heights(mesh, 4))
-    assert slicing.widest_gap(mesh, slices) == 0
-    torn = slices.segments.copy()
-    torn[3, 1, 0] += 0.25
-    assert slicing.widest_gap(mesh, replace(slices, segments=torn)) == pytest.approx(0.25)
+    """A point beside the surface shows by its distance, and a loop that is missing by its triangles."""
+    model = meshes.prepared(box, Settings(width=20))
+    heights = slicing.even_heights(model.mesh, 4)
+    loops = link_loops(model.mesh, slice_mesh(model.mesh, heights), model.surface)
+    assert slicing.left_out(model.mesh, heights, loops) == 0
+    assert slicing.farthest_stray(model.mesh, heights, loops) < slicing.STRAY
+    torn = loops.points.copy()
+    torn[3] -= 0.25 * np.sign(torn[3])
+    stray = slicing.farthest_stray(model.mesh, heights, replace(loops, points=torn))
+    assert 0.25 <= stray <= 0.25 * np.sqrt(2)
+    fewer = replace(loops, face=np.where(loops.edge_loop == 1, -1, loops.face))
+    assert slicing.left_out(model.mesh, heights, fewer) == 8
 
 
 def test_heights_of_vertices_are_vertices(box: Path) -> None:

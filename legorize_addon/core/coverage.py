@@ -20,7 +20,7 @@ from .trajectories import Outline
 from .units import CELL_AREA, STUD
 
 _LEFT: Final = 1e-7
-"""An edge on a grid line belongs to the cell on its left, the inside; in cells."""
+"""An edge this near to a grid line, in cells, belongs to the cell on its left, the inside."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,18 +88,22 @@ def covered(pieces: Pieces, level: Ints, n_levels: int, n_y: int, n_x: int) -> F
     level : (m,) int array
         Slice of each piece.
     n_levels, n_y, n_x : int
+        Size of the grid; loops may leave it.
 
     Returns
     -------
     (n_levels, n_y, n_x) float64 array
         Signed area in mm^2: overlapping bodies add up, cavities subtract.
     """
-    fill = pieces.middle[:, 0] - pieces.cell[:, 0]
-    width = n_x + 1
-    row = (level * n_y + pieces.cell[:, 1]) * width + pieces.cell[:, 0]
-    rise = -pieces.along[:, 1]
+    x, y = pieces.middle.T
+    # beside the grid: what is left of it fills the row from its start on, what is right of it nothing
+    column, line = np.clip(np.floor(x), 0, n_x).astype(np.int64), np.floor(y).astype(np.int64)
+    fill = np.clip(x - column, 0, 1)
+    rise = np.where((line >= 0) & (line < n_y), -pieces.along[:, 1], 0)
+    width = n_x + 2
+    place = (level * n_y + np.clip(line, 0, n_y - 1)) * width + column
     size = n_levels * n_y * width
-    change = np.bincount(row, rise * (1 - fill), size)[:size] + np.bincount(row + 1, rise * fill, size)[:size]
+    change = np.bincount(place, rise * (1 - fill), size) + np.bincount(place + 1, rise * fill, size)
     area: Floats = np.cumsum(change.reshape(n_levels, n_y, width), axis=2)[:, :, :n_x] * CELL_AREA
     return area
 

@@ -44,14 +44,10 @@ def successors(faces: NDArray[np.int32], slices: Slices) -> Ints:
     """
     if len(slices) == 0:
         return np.zeros(0, dtype=np.int64)
-    exits, enters = slices.half_edges(slices.exit), slices.half_edges(slices.enter)
+    half = 3 * slices.face.astype(np.int64)
+    exits, enters = half + slices.exit, half + slices.enter
     up, down = _run_starts(exits), _run_starts(enters)
-    # keys of edges: an exit rises from its first corner to its second, an entry falls
-    corners = faces.ravel().astype(np.int64)
-    n = int(corners.max()) + 1
-    first, second = corners[exits[up]], corners[_next_corner(exits[up])]
-    third, fourth = corners[enters[down]], corners[_next_corner(enters[down])]
-    partner = _partners(first * n + second, fourth * n + third)
+    partner = _partners(_edges(faces, exits[up], falling=False), _edges(faces, enters[down], falling=True))
     size = np.diff(up, append=len(slices))
     following = np.arange(len(slices)) + (down[partner] - up).repeat(size)
     following[(partner < 0).repeat(size)] = -1
@@ -63,8 +59,12 @@ def _run_starts(values: Ints) -> Ints:
     return np.flatnonzero(np.diff(values, prepend=-1))
 
 
-def _next_corner(half: Ints) -> Ints:
-    return half + np.where(half % 3 == 2, -2, 1)
+def _edges(faces: NDArray[np.int32], half: Ints, *, falling: bool) -> Ints:
+    """Return a number for the edge of every half-edge, from its lower and its upper vertex."""
+    corners = faces.ravel()
+    here, there = (corners.take(corner).astype(np.int64) for corner in (half, half + np.where(half % 3 == 2, -2, 1)))
+    lower, upper = (there, here) if falling else (here, there)
+    return lower * (int(faces.max()) + 1) + upper
 
 
 def _partners(left: Ints, right: Ints) -> Ints:
@@ -136,11 +136,11 @@ def _match_nearest(ends: Floats, starts: Floats, match: Ints, gap: float) -> Non
             return
         forth, near = cKDTree(starts[open_start]).query(ends[open_end], distance_upper_bound=gap)
         back, _ = cKDTree(ends[open_end]).query(starts[open_start], distance_upper_bound=gap)
-        within = np.flatnonzero(np.isfinite(forth))
-        if len(within) == 0:
-            return
+        mutual = np.flatnonzero(np.isfinite(forth))
         # by distance, not by number: of several ends equally near to a start the first one takes it
-        mutual = within[forth[within] == back[near[within]]]
+        mutual = mutual[forth[mutual] == back[near[mutual]]]
+        if len(mutual) == 0:
+            return
         start, chosen = np.unique(near[mutual], return_index=True)
         match[open_end[mutual[chosen]]] = open_start[start]
 

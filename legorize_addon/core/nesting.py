@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .loops import loop_areas
 from .model import Floats, Ints, Mask
+from .ranges import ranges
 
-_CHUNK: Final = 1 << 22
-"""Edges tested at a time, to bound the memory."""
+_MOST: Final = 1 << 21
+"""Pairs of loops, or edges, that are looked at together, to bound the memory."""
+
+_OCTAVES: Final = 3
+"""Loops whose widths differ by up to this many factors of two are sorted together."""
 
 
 def loop_parents(points: Floats, loop_start: Ints, loop_slice: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -26,6 +32,7 @@ def loop_parents(points: Floats, loop_start: Ints, loop_slice: NDArray[np.int32]
     Returns
     -------
     (n_loops,) int32 array
+        A forest: no loop is its own ancestor, whatever the loops cross or repeat.
 
     References
     ----------
@@ -36,50 +43,67 @@ def loop_parents(points: Floats, loop_start: Ints, loop_slice: NDArray[np.int32]
         return parent
     low = np.minimum.reduceat(points, loop_start[:-1])
     high = np.maximum.reduceat(points, loop_start[:-1])
-    son, around = _candidates(low, high, loop_slice)
+    # a parent is a larger loop, and of equal ones the first, so that no two can hold each other
+    rank = np.empty(len(parent), dtype=np.int64)
+    rank[np.argsort(-np.abs(loop_areas(points, loop_start)), kind="stable")] = np.arange(len(parent))
+    pairs = list(_boxed(low, high, loop_slice, rank))
+    son, around = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
     inside = _contains(points, loop_start, around, points[loop_start[son]])
     son, around = son[inside], around[inside]
-    # of the loops around a son the one with the smallest box is the nearest: they are nested
-    size = np.prod(high - low, axis=1)
-    order = np.lexsort((size[around], son))
-    nearest = order[np.unique(son[order], return_index=True)[1]]
+    order = np.lexsort((-rank[around], son))
+    nearest = order[np.flatnonzero(np.diff(son[order], prepend=-1))]
     parent[son[nearest]] = around[nearest]
     return parent
 
 
-def _candidates(low: Floats, high: Floats, loop_slice: NDArray[np.int32]) -> tuple[Ints, Ints]:
-    """Return the pairs of loops of one slice where the first one's box lies in the second one's."""
-    order = np.argsort(loop_slice, kind="stable")
-    count = np.bincount(loop_slice)
-    per_loop = count[loop_slice[order]]
-    first = np.repeat(order, per_loop)
-    start = np.repeat((np.cumsum(count) - count)[loop_slice[order]], per_loop)
-    step = np.arange(len(first)) - np.repeat(np.cumsum(per_loop) - per_loop, per_loop)
-    second = order[start + step]
-    boxed = (low[first] >= low[second]).all(axis=1) & (high[first] <= high[second]).all(axis=1)
-    boxed &= first != second
-    return first[boxed], second[boxed]
+def _boxed(low: Floats, high: Floats, loop_slice: NDArray[np.int32], rank: Ints) -> Iterator[tuple[Ints, Ints]]:
+    """Yield pairs of loops of one slice where the first one's box lies in that of the second, a larger one.
+
+    The loops of about one width are sorted along x, all slices in a row: those that
+    may reach over a loop's left side are neighbours there, however many there are.
+    """
+    yield np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64)
+    width = high[:, 0] - low[:, 0]
+    lane = (high[:, 0].max() - low[:, 0].min()) * 4 + 1
+    left = low[:, 0] - low[:, 0].min() + loop_slice * lane
+    # a little more than needed: far from the origin the sums have lost some digits
+    margin = lane * (int(loop_slice.max()) + 1) * 1e-12
+    size = np.frexp(width)[1] // _OCTAVES
+    for number in np.flatnonzero(np.bincount(size - size.min())) + size.min():
+        wide = np.flatnonzero(size == number)
+        wide = wide[np.argsort(left[wide], kind="stable")]
+        first = np.searchsorted(left[wide], left - np.ldexp(1.0, _OCTAVES * (int(number) + 1)) - margin)
+        count = np.searchsorted(left[wide], left + margin, side="right") - first
+        for rows in _blocks(count):
+            row, place = ranges(first[rows], count[rows])
+            son, around = rows[row], wide[place]
+            son, around = (part[rank[around] < rank[son]] for part in (son, around))
+            boxed = (low[son] >= low[around]).all(axis=1) & (high[son] <= high[around]).all(axis=1)
+            yield son[boxed], around[boxed]
+
+
+def _blocks(size: Ints) -> list[Ints]:
+    """Return consecutive rows whose sizes add up to what may be looked at together."""
+    block = np.cumsum(size) // _MOST
+    return np.split(np.arange(len(size)), np.flatnonzero(np.diff(block)) + 1)
 
 
 def _contains(points: Floats, loop_start: Ints, loop: Ints, point: Floats) -> Mask:
     """Return whether each loop has the point inside, by the parity of crossings to its right."""
     inside = np.zeros(len(loop), dtype=bool)
-    size = np.diff(loop_start)[loop]
-    block = np.cumsum(size) // _CHUNK
-    for number in np.unique(block):
-        rows = np.flatnonzero(block == number)
-        inside[rows] = _crossings(points, loop_start, loop[rows], size[rows], point[rows]) % 2 == 1
+    for rows in _blocks(np.diff(loop_start)[loop]):
+        inside[rows] = _crossings(points, loop_start, loop[rows], point[rows]) % 2 == 1
     return inside
 
 
-def _crossings(points: Floats, loop_start: Ints, loop: Ints, size: Ints, point: Floats) -> Ints:
+def _crossings(points: Floats, loop_start: Ints, loop: Ints, point: Floats) -> Ints:
     """Count the edges of each loop that a ray from its point towards +x crosses."""
-    test = np.repeat(np.arange(len(loop)), size)
-    step = np.arange(len(test)) - np.repeat(np.cumsum(size) - size, size)
-    here = points[loop_start[loop][test] + step]
-    there = points[loop_start[loop][test] + np.where(step + 1 == size[test], 0, step + 1)]
-    x, y = point[test].T
-    spans = (here[:, 1] > y) != (there[:, 1] > y)
-    rise = np.where(spans, there[:, 1] - here[:, 1], 1.0)
-    crossing = spans & (here[:, 0] + (y - here[:, 1]) / rise * (there[:, 0] - here[:, 0]) > x)
-    return np.bincount(test, crossing, len(loop)).astype(np.int64)
+    test, edge = ranges(loop_start[loop], np.diff(loop_start)[loop])
+    after = edge + 1
+    last = after == loop_start[loop + 1][test]
+    after[last] = loop_start[loop][test[last]]
+    (x0, y0), (x1, y1), (x, y) = points[edge].T, points[after].T, point[test].T
+    spans = np.flatnonzero((y0 > y) != (y1 > y))
+    x0, y0, x1, y1, x, y = (part[spans] for part in (x0, y0, x1, y1, x, y))
+    right = x0 + (y - y0) / (y1 - y0) * (x1 - x0) > x
+    return np.bincount(test[spans[right]], minlength=len(loop))

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from .mesh import TriangleMesh
 from .model import Floats, Ints, Mask
+from .ranges import ranges
 from .units import BRICK, PLATE, PLATES_PER_BRICK
 
 _HORIZONTAL: Final = 0.999
@@ -30,47 +31,109 @@ _HORIZONTAL: Final = 0.999
 _SHALLOW_SHARE: Final = 0.05
 """Share of a layer's surface that may exceed the cusp height (the 95th percentile)."""
 
-# The local half-edge i of a triangle runs from corner i to corner i + 1. For each
-# pattern of corners above the plane (bit i: corner i is above): the half-edge that
-# goes down through the plane, and the one that comes up. With outward normals the
-# segment from the first to the second has the inside on its left.
-_DOWN: Final = np.array([0, 0, 1, 1, 2, 0, 2, 0])
-_UP: Final = np.array([0, 2, 0, 2, 1, 1, 0, 0])
+# The half-edge i of a triangle runs from corner i to corner i + 1. For each pattern of
+# corners above the plane (bit i: corner i is above): the half-edge that falls through
+# the plane, and the one that rises through it. With outward normals the segment from
+# the first to the second has the inside on its left.
+_FALLS: Final = np.array([0, 0, 1, 1, 2, 0, 2, 0], dtype=np.int8)
+_RISES: Final = np.array([0, 2, 0, 2, 1, 1, 0, 0], dtype=np.int8)
+_NEXT: Final = np.array([1, 2, 0])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Slices:
     """The cut of a mesh by parallel planes, as unordered directed segments.
 
+    A segment runs through a triangle from the half-edge that falls through the
+    plane to the one that rises through it; the inside lies to its left.
+
     Attributes
     ----------
+    mesh : TriangleMesh
+        The mesh that was cut.
+    axis : int
+        Axis across the planes. Their own coordinates are the two axes after it.
     heights : (n_slices,) float64 array
-        Heights of the planes in mm, rising.
-    segments : (n, 2, 2) float64 array
-        Start and end of each segment in mm; the inside lies to the left.
-    uvs : (n, 2, 2) float64 array
-        Image coordinates at start and end.
+        Positions of the planes along the axis in mm, rising.
     slice : (n,) int32 array
-        Plane of each segment.
+        Plane of each segment; the segments of a triangle come together, rising.
     face : (n,) int32 array
-        Triangle of each segment.
-    exit : (n,) int8 array
-        Local half-edge of the triangle through which the segment ends.
-    first : (n_faces,) int64 array
-        ``first[f] + k`` is the segment of triangle f in plane k, where there is one.
+        Triangle of each segment, rising.
+    enter, exit : (n,) int8 arrays
+        Half-edges of the triangle, by their first corner, where the segment starts and ends.
     """
 
+    mesh: TriangleMesh
+    axis: int
     heights: Floats
-    segments: Floats
-    uvs: Floats
     slice: NDArray[np.int32]
     face: NDArray[np.int32]
+    enter: NDArray[np.int8]
     exit: NDArray[np.int8]
-    first: Ints
 
     def __len__(self) -> int:
         """Return the number of segments."""
         return len(self.face)
+
+    @property
+    def segments(self) -> Floats:
+        """Start and end of every segment in mm, shape (n, 2, 2)."""
+        rows = np.arange(len(self))
+        return np.stack([self.starts(rows), self.ends(rows)], axis=1)
+
+    @property
+    def first(self) -> Ints:
+        """Index such that ``first[f] + k`` is the segment of triangle f in plane k, where there is one, (n_f,)."""
+        first = np.zeros(len(self.mesh.faces), dtype=np.int64)
+        start = np.flatnonzero(np.diff(self.face, prepend=-1))
+        first[self.face[start]] = start - self.slice[start]
+        return first
+
+    def starts(self, rows: Ints) -> Floats:
+        """Return where segments start in mm, shape (k, 2)."""
+        return self._points(rows, *self._fall(rows))
+
+    def ends(self, rows: Ints) -> Floats:
+        """Return where segments end in mm, shape (k, 2)."""
+        return self._points(rows, *self._rise(rows))
+
+    def uvs(self, rows: Ints) -> Floats:
+        """Return the image coordinates at start and end of segments, shape (k, 2, 2)."""
+        corner_uvs = self.mesh.uvs.reshape(-1, 2)
+        uvs = np.empty((len(rows), 2, 2))
+        for i, edge in enumerate((self._fall(rows), self._rise(rows))):
+            low, high = (corner_uvs.take(corner, axis=0) for corner in edge)
+            _, _, share = self._met(rows, *edge)
+            uvs[:, i] = low + share[:, None] * (high - low)
+        return uvs
+
+    def _fall(self, rows: Ints) -> tuple[Ints, Ints]:
+        """Return the lower and the upper face corner of the edges through which segments enter."""
+        corner, local = 3 * self.face.take(rows).astype(np.int64), self.enter.take(rows)
+        return corner + _NEXT.take(local), corner + local
+
+    def _rise(self, rows: Ints) -> tuple[Ints, Ints]:
+        """Return the lower and the upper face corner of the edges through which segments leave."""
+        corner, local = 3 * self.face.take(rows).astype(np.int64), self.exit.take(rows)
+        return corner + local, corner + _NEXT.take(local)
+
+    def _met(self, rows: Ints, lower: Ints, upper: Ints) -> tuple[Floats, Floats, Floats]:
+        """Return the lower and upper vertices of edges, and where between them, 0 to 1, they meet the planes."""
+        low, high = (self.mesh.vertices.take(self.mesh.faces.take(corner), axis=0) for corner in (lower, upper))
+        height = self.heights.take(self.slice.take(rows))
+        return low, high, (height - low[:, self.axis]) / (high[:, self.axis] - low[:, self.axis])
+
+    def _points(self, rows: Ints, lower: Ints, upper: Ints) -> Floats:
+        """Return where edges meet the planes.
+
+        Always computed from the lower to the upper vertex, so that the two
+        triangles of an edge find the same point to the last bit.
+        """
+        low, high, share = self._met(rows, lower, upper)
+        points = np.empty((len(rows), 2))
+        for i, axis in enumerate(((self.axis + 1) % 3, (self.axis + 2) % 3)):
+            points[:, i] = low[:, axis] + share * (high[:, axis] - low[:, axis])
+        return points
 
 
 def slice_mesh(mesh: TriangleMesh, heights: Floats, *, axis: int = 2) -> Slices:
@@ -89,47 +152,26 @@ def slice_mesh(mesh: TriangleMesh, heights: Floats, *, axis: int = 2) -> Slices:
     -------
     Slices
     """
-    plane = [(axis + 1) % 3, (axis + 2) % 3]
-    rank = np.searchsorted(heights, mesh.vertices[:, axis], side="right")
-    corner_rank = rank[mesh.faces]
-    lowest = corner_rank.min(axis=1)
-    count = corner_rank.max(axis=1) - lowest
-    first = np.cumsum(count) - count - lowest
-    face = np.repeat(np.arange(len(mesh.faces)), count)
-    level = np.arange(len(face)) - first[face]
-    above = corner_rank[face] > level[:, None]
-    pattern = above @ np.array([1, 2, 4])
-    down, up = _DOWN[pattern], _UP[pattern]
-    ends = [
-        _cross(mesh, heights[level], axis, plane, lower=3 * face + (down + 1) % 3, upper=3 * face + down),
-        _cross(mesh, heights[level], axis, plane, lower=3 * face + up, upper=3 * face + (up + 1) % 3),
-    ]
+    # the number of planes at or below a vertex
+    rank = np.searchsorted(heights, mesh.vertices[:, axis], side="right").astype(np.int32)
+    corners = rank.take(mesh.faces)
+    lowest = np.minimum(np.minimum(corners[:, 0], corners[:, 1]), corners[:, 2])
+    highest = np.maximum(np.maximum(corners[:, 0], corners[:, 1]), corners[:, 2])
+    cut = np.flatnonzero(lowest != highest)
+    corners, lowest, highest = corners.take(cut, axis=0), lowest.take(cut), highest.take(cut)
+    row, level = ranges(lowest.astype(np.int64), (highest - lowest).astype(np.int64))
+    pattern = np.zeros(len(row), dtype=np.int8)
+    for i in range(3):
+        above = corners[:, i].take(row) > level
+        pattern += above.view(np.int8) << np.int8(i)
     return Slices(
+        mesh=mesh,
+        axis=axis,
         heights=heights,
-        segments=np.stack([point for point, _ in ends], axis=1),
-        uvs=np.stack([uv for _, uv in ends], axis=1),
         slice=level.astype(np.int32),
-        face=face.astype(np.int32),
-        exit=up.astype(np.int8),
-        first=first,
-    )
-
-
-def _cross(
-    mesh: TriangleMesh, height: Floats, axis: int, plane: list[int], *, lower: Ints, upper: Ints
-) -> tuple[Floats, Floats]:
-    """Return the points and uvs where the edges between two face corners each meet a height.
-
-    Always computed from the lower to the upper vertex, so that the two triangles
-    of an edge find the same point to the last bit.
-    """
-    corners = mesh.faces.ravel()
-    low, high = mesh.vertices[corners[lower]], mesh.vertices[corners[upper]]
-    share = ((height - low[:, axis]) / (high[:, axis] - low[:, axis]))[:, None]
-    uvs = mesh.uvs.reshape(-1, 2)
-    return (
-        low[:, plane] + share * (high[:, plane] - low[:, plane]),
-        uvs[lower] + share * (uvs[upper] - uvs[lower]),
+        face=cut.take(row).astype(np.int32),
+        enter=_FALLS.take(pattern),
+        exit=_RISES.take(pattern),
     )
 
 
@@ -177,35 +219,37 @@ def adaptive_heights(
 
 def _fine_layers(mesh: TriangleMesh, *, ground: float, n_layers: int, cusp: float, colour: NDArray[np.int16]) -> Mask:
     """Return which layers need three planes, shape (n_layers,)."""
-    corners = mesh.vertices[mesh.faces]
+    corners = mesh.vertices.take(mesh.faces, axis=0)
     z = (corners[:, :, 2] - ground) / BRICK
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = np.linalg.norm(normal, axis=1)
     slope = np.abs(normal[:, 2]) / np.maximum(area, np.finfo(float).tiny)
     flat = slope > _HORIZONTAL
-    low = np.clip(np.floor(z.min(axis=1)).astype(int), 0, n_layers - 1)
-    high = np.clip(np.ceil(z.max(axis=1)).astype(int) - 1, low, n_layers - 1)
-    span = high - low + 1
-    face = np.repeat(np.arange(len(area)), span)
-    layer = np.arange(len(face)) - np.repeat(np.cumsum(span) - span - low, span)
-    weight = (area / span * ~flat)[face]
+    lowest = np.minimum(np.minimum(z[:, 0], z[:, 1]), z[:, 2])
+    highest = np.maximum(np.maximum(z[:, 0], z[:, 1]), z[:, 2])
+    low = np.maximum(np.floor(lowest).astype(np.int64), 0)
+    high = np.minimum(np.ceil(highest).astype(np.int64), n_layers)
+    # no plane cuts a horizontal facet
+    span = np.where(flat, 0, np.maximum(high - low, 0))
+    face, layer = ranges(low, span)
+    weight = (area / np.maximum(span, 1))[face]
     shallow = np.bincount(layer, weight * (BRICK * slope > cusp)[face], n_layers)
-    steps = _steps_inside(z[flat, 0], n_layers)
     surface = np.bincount(layer, weight, n_layers)
+    steps = _steps_inside(lowest[flat], n_layers)
     return (shallow > _SHALLOW_SHARE * surface) | steps | _many_coloured(layer, colour[face], n_layers)
 
 
 def _steps_inside(height: Floats, n_layers: int) -> Mask:
     """Return which layers hold a horizontal facet farther than half a plate from their faces."""
-    rounding = np.abs(height - np.round(height)) > 1 / (2 * PLATES_PER_BRICK)
-    layer = np.clip(np.floor(height[rounding]).astype(int), 0, n_layers - 1)
-    return np.bincount(layer, minlength=n_layers) > 0
+    layer = np.floor(height).astype(np.int64)
+    inside = (np.abs(height - np.round(height)) > 1 / (2 * PLATES_PER_BRICK)) & (layer >= 0) & (layer < n_layers)
+    return np.bincount(layer[inside], minlength=n_layers) > 0
 
 
 def _many_coloured(layer: Ints, colour: NDArray[np.int16], n_layers: int) -> Mask:
     """Return which layers meet facets of more than one colour."""
-    lowest = np.full(n_layers, np.iinfo(np.int16).max, dtype=np.int16)
-    highest = np.full(n_layers, -1, dtype=np.int16)
-    np.minimum.at(lowest, layer, colour)
-    np.maximum.at(highest, layer, colour)
-    return (lowest < 0) | (lowest < highest)
+    met = np.zeros((n_layers, int(colour.max(initial=0)) + 2), dtype=bool)
+    # the first column is for facets of several colours
+    met[layer, colour + 1] = True
+    several: Mask = met[:, 0] | (met[:, 1:].sum(axis=1) > 1)
+    return several

@@ -5,6 +5,10 @@ from __future__ import annotations
 import gc
 import time
 from collections.abc import Callable
+from typing import Final
+
+_LEAST: Final = 1.0
+"""CPU seconds of all turns together: what is fast needs more turns for its least time to be steady."""
 
 
 def least_seconds(*runs: Callable[[], object], repeats: int) -> list[float]:
@@ -17,14 +21,17 @@ def least_seconds(*runs: Callable[[], object], repeats: int) -> list[float]:
     *runs : callable
         Functions without arguments.
     repeats : int
-        Turns, at least one.
+        Turns, at least one; more are taken until the turns together last ``_LEAST``.
 
     Returns
     -------
     list of float
         One for each function.
     """
-    return [min(turns) for turns in zip(*([seconds(run) for run in runs] for _ in range(repeats)), strict=True)]
+    turns: list[list[float]] = []
+    while len(turns) < repeats or sum(map(sum, turns)) < _LEAST:
+        turns.append([seconds(run) for run in runs])
+    return [min(taken) for taken in zip(*turns, strict=True)]
 
 
 def seconds(run: Callable[[], object]) -> float:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from legorize_addon.core.mesh import TriangleMesh
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.slicing import Slices, slice_mesh
-from legorize_addon.core.trajectories import Trajectories, link_loops, linked
+from legorize_addon.core.trajectories import Trajectories, link_loops
 
 from .clock import least_seconds
 from .meshes import Model, as_trimesh, prepared, subdivided
@@ -25,6 +25,9 @@ Floats = NDArray[np.float64]
 
 RATIO: Final = 15.0
 """How many times faster than the reference slicing has to be."""
+
+STRAY: Final = 1e-9
+"""Distance in mm from the surface that is rounding."""
 
 AREA_ERROR: Final = 1e-9
 """Largest relative difference of a loop's area from the reference's."""
@@ -109,9 +112,11 @@ def _cut(model: Model, heights: Floats) -> tuple[Slices, Trajectories, Floats]:
 
 
 def _checked(model: Model, where: str, heights: Floats) -> Row:
-    slices, trajectories, areas = _cut(model, heights)
-    gap = widest_gap(model.mesh, slices)
+    _, trajectories, areas = _cut(model, heights)
+    missing = left_out(model.mesh, heights, trajectories)
+    stray = farthest_stray(model.mesh, heights, trajectories)
     error = area_error(trajectories, areas)
+    closed = trajectories.gaps == 0 or not model.repairs.watertight
     return {
         "model": model.name,
         "planes": where,
@@ -120,32 +125,79 @@ def _checked(model: Model, where: str, heights: Floats) -> Row:
         "n_planes": len(heights),
         "loops": len(areas),
         "gaps_closed": trajectories.gaps,
-        "widest_gap_mm": gap,
+        "left_out": missing,
+        "stray_mm": stray,
         "area_error": error,
-        "met": (trajectories.gaps == 0 or not model.repairs.watertight) and gap == 0 and error <= AREA_ERROR,
+        "met": closed and missing == 0 and stray <= STRAY and error <= AREA_ERROR,
     }
 
 
-def widest_gap(mesh: TriangleMesh, slices: Slices) -> float:
-    """Return the greatest distance between the end of a segment and the start of the one after it.
+def left_out(mesh: TriangleMesh, heights: Floats, trajectories: Trajectories) -> int:
+    """Return how many pairs of a triangle and a plane that meet are in no loop.
 
     Parameters
     ----------
     mesh : TriangleMesh
-    slices : Slices
+    heights : (n,) float64 array
+        Rising. A vertex on a plane counts as above it.
+    trajectories : Trajectories
+
+    Returns
+    -------
+    int
+    """
+    z = mesh.vertices[mesh.faces, 2]
+    above, below = (np.searchsorted(heights, end, side="right") for end in (z.max(axis=1), z.min(axis=1)))
+    real = trajectories.face >= 0
+    level = trajectories.loop_slice[trajectories.edge_loop]
+    found = np.unique(trajectories.face[real].astype(np.int64) * len(heights) + level[real])
+    return int((above - below).sum()) - len(found)
+
+
+def farthest_stray(mesh: TriangleMesh, heights: Floats, trajectories: Trajectories) -> float:
+    """Return how far the ends of any edge lie from the line in which its triangle meets the plane.
+
+    Each edge begins where the one before it ends: if both lie on the lines of
+    their own triangles, the loop follows the surface and closes.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    heights : (n,) float64 array
+    trajectories : Trajectories
 
     Returns
     -------
     float
-        In mm, 0 if all loops close to the last bit. Segments that bridge an
-        opening of the mesh, and where they begin, are not looked at.
+        In mm. Edges that bridge an opening of the mesh are not looked at.
     """
-    outline = linked(mesh.faces, slices)
-    real = outline.face >= 0
-    segment = slices.first[outline.face[real]] + outline.slice[real]
-    ends = np.abs(slices.segments[segment, 1] - outline.ends[real])
-    starts = np.abs(slices.segments[segment, 0] - outline.start[real])
-    return float(max(ends.max(initial=0.0), starts.max(initial=0.0)))
+    real = trajectories.face >= 0
+    height = heights[trajectories.loop_slice[trajectories.edge_loop]][real]
+    start, end = _triangle_cuts(mesh.vertices[mesh.faces[trajectories.face[real]]], height)
+    along = end - start
+    length = np.maximum((along**2).sum(axis=1), np.finfo(float).tiny)
+    farthest = 0.0
+    for points in (trajectories.points[real], trajectories.ends[real]):
+        share = np.clip(((points - start) * along).sum(axis=1) / length, 0, 1)
+        distance = np.linalg.norm(points - start - share[:, None] * along, axis=1)
+        farthest = max(farthest, float(distance.max(initial=0.0)))
+    return farthest
+
+
+def _triangle_cuts(corners: Floats, height: Floats) -> tuple[Floats, Floats]:
+    """Return the two ends of the line in which each triangle, (k, 3, 3), meets the plane at its height."""
+    order = np.argsort(corners[:, :, 2], axis=1)
+    low, middle, high = np.take_along_axis(corners, order[:, :, None], axis=1).transpose(1, 0, 2)
+    lower = height <= middle[:, 2]
+    first = np.where(lower[:, None], low, middle)
+    second = np.where(lower[:, None], middle, high)
+    return _crossing(low, high, height), _crossing(first, second, height)
+
+
+def _crossing(low: Floats, high: Floats, height: Floats) -> Floats:
+    share = (height - low[:, 2]) / (high[:, 2] - low[:, 2])
+    crossing: Floats = low[:, :2] + share[:, None] * (high - low)[:, :2]
+    return crossing
 
 
 def area_error(trajectories: Trajectories, areas: Floats) -> float:

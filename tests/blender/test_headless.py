@@ -176,6 +176,17 @@ def test_picture_and_scene(script: ModuleType, tmp_path: Path, monkeypatch: pyte
     assert "Legorize box" in bpy.data.collections
 
 
+def test_saved_scene_can_be_legorized_again(script: ModuleType, tmp_path: Path) -> None:
+    """A scene that holds a build gives the model of what the build was made of, not of its bricks."""
+    add_box(BOX)
+    first, second = tmp_path / "first", tmp_path / "second"
+    source = save(tmp_path / "box.glb")
+    assert script.main([str(source), "--out", str(first), "--width", "4", "--save-blend"]) == 0
+    assert script.main([str(first / "build.blend"), "--out", str(second), "--width", "4"]) == 0
+    models = [(folder / "model.ldr").read_text().splitlines()[1:] for folder in (first, second)]
+    assert models[0] == models[1]
+
+
 def test_failed_check_is_a_two(script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Of two boxes with a gap between them the upper floats: all is written, the report and stderr say so."""
     add_box((1, 1, 1))

@@ -20,7 +20,7 @@ from ..units import PLATES_PER_BRICK
 from .exchange import fewer_small
 from .greedy import cover
 from .placements import placements
-from .problem import GROUND, pose
+from .problem import GROUND, pose, with_margins
 from .repair import connect_loose
 from .shapes import Rows, Shapes, shapes
 from .sheets import Sheets, split
@@ -70,13 +70,11 @@ def lay(
         There is nothing to build, or a must cell cannot be covered, because no
         part of one cell is made in its colour.
     """
-    must = (grid.cover == Cover.MUST).reshape(-1, *grid.cover.shape[2:])
+    must = with_margins(grid.cover == Cover.MUST, False)
     if not must.any():
         raise BuildError("The model has 0 cells to build: make it larger.")
     codes = np.unique(grid.colour[grid.colour >= 0])
     work = [(each, shapes(catalogue, each.height, codes, filler)) for each in split(grid)]
-    # one plane more below and above, so that every cell has something under and over it
-    must = np.pad(must, ((1, 1), (0, 0), (0, 0)))
     owner = np.full(must.shape, NOBODY, dtype=np.int32)
     owner[: min(int(sheets.level[0]) for sheets, _ in work) + 1] = GROUND
     slab_of_layer = np.cumsum(grid.solid.any(axis=1).sum(axis=(1, 2))) // _SLAB
@@ -89,7 +87,7 @@ def lay(
             for half in (inside & ~odd, inside & odd):
                 if half.any():
                     laid.append(_laid(sheets.take(half), among, owner, must, rng))
-    return connect_loose(gathered(laid), work, must, catalogue, rng, progress)
+    return connect_loose(gathered(laid), grid, work, catalogue, rng, progress)
 
 
 def _laid(sheets: Sheets, among: Shapes, owner: Rows, must: Mask, rng: np.random.Generator) -> Bricks:

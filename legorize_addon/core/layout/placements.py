@@ -78,8 +78,8 @@ class Placements:
 
     def through(self, marked: Mask) -> Index:
         """Return the rows of the placements that cover a marked cell, ascending."""
-        rows: Index = np.unique(np.searchsorted(self.start, np.flatnonzero(marked[self.cells]), side="right") - 1)
-        return rows
+        rows = np.searchsorted(self.start, np.flatnonzero(marked[self.cells]), side="right") - 1
+        return rows[np.diff(rows, prepend=-1) > 0]
 
     def take(self, rows: Index) -> Placements:
         """Return the placements of the given rows, ascending."""

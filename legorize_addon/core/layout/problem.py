@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,8 @@ from ..model import Floats, Mask
 from .placements import Placements, segment_sums
 from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
+
+Cell = TypeVar("Cell", bound=np.generic)
 
 GROUND: Final = NOBODY - 1
 """Owner of the cells under the lowest sheet."""
@@ -59,6 +61,24 @@ class Problem:
         cells = self.placements.cells[self.placements.entries(chosen)]
         owner[cells] = np.repeat(np.arange(len(chosen)), self.placements.size[chosen])
         return owner
+
+
+def with_margins(cells: NDArray[Cell], fill: Any) -> NDArray[Cell]:
+    """Put the plates of a grid one above the other, and an empty plane below and above them.
+
+    Parameters
+    ----------
+    cells : (n_layers, 3, n_y, n_x) array
+        Something about each cell.
+    fill : scalar
+        What holds for empty cells.
+
+    Returns
+    -------
+    (3 * n_layers + 2, n_y, n_x) array
+        Plate z is plane z + 1: every cell has something under and over it.
+    """
+    return np.pad(cells.reshape(-1, *cells.shape[2:]), ((1, 1), (0, 0), (0, 0)), constant_values=fill)
 
 
 def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Mask) -> Problem:

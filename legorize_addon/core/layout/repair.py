@@ -15,20 +15,25 @@ from typing import Final
 
 import numpy as np
 from scipy.ndimage import maximum_filter
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, connect
-from ..model import COLOUR_EMPTY, Bricks, Floats, Mask
+from ..model import COLOUR_ANY, COLOUR_EMPTY, Bricks, Cover, Floats, Mask, UnitGrid
 from ..progress import Progress
 from .exchange import exchange
 from .placements import Placements, placements
-from .problem import GROUND, pose
-from .shapes import Index, Rows, Shapes
+from .problem import GROUND, pose, with_margins
+from .shapes import Index, Plane, Rows, Shapes
 from .sheets import Sheets
 from .table import bricks_of, gathered
 
 _ROUNDS: Final = 8
 """Most rounds of joining; each joins neighbours of neighbours."""
+
+_PROGRESS: Final = 0.95
+"""Share of the floating bricks that a round may leave for another one of its kind to follow."""
 
 _PATCH: Final = 2.5
 """What to reckon, in bricks, for the rest of a cut brick that needs several. Such
@@ -46,8 +51,8 @@ _REACH: Final = 8
 
 def connect_loose(
     bricks: Bricks,
+    grid: UnitGrid,
     work: Sequence[tuple[Sheets, Shapes]],
-    must: Mask,
     catalogue: Catalogue,
     rng: np.random.Generator,
     progress: Progress,
@@ -58,10 +63,10 @@ def connect_loose(
     ----------
     bricks : Bricks
         A model without overlaps.
+    grid : UnitGrid
+        The cells that it covers.
     work : sequence of (Sheets, Shapes)
-        The sheets it lies on, and what may be laid there.
-    must : (n_plates + 2, n_y, n_x) bool array
-        Cells that have to be covered; the first plane is below the lowest plate.
+        The same as sheets, and what may be laid there.
     catalogue : Catalogue
         Whose parts the bricks are.
     rng : numpy.random.Generator
@@ -75,12 +80,15 @@ def connect_loose(
         Covers the same must cells with no more floating bricks than before.
     """
     links = connect(bricks, catalogue)
+    if not links.n_floating:
+        return bricks
+    must, island = with_margins(grid.cover == Cover.MUST, False), _islands(with_margins(grid.colour, COLOUR_EMPTY))
     patch = np.inf
     for number in range(_ROUNDS):
-        if not links.n_floating:
-            break
         progress("connection", number / _ROUNDS)
-        cells = _Cells.of(bricks, links, must)
+        cells = _Cells.of(bricks, links, must, island)
+        if not (cells.label > 0).any():
+            break
         tried = gathered(
             [
                 _joined(bricks.take(np.isin(bricks.part, among.part)), sheets, among, cells, patch, rng)
@@ -88,13 +96,47 @@ def connect_loose(
             ]
         )
         tried_links = connect(tried, catalogue)
-        if tried_links.n_floating < links.n_floating:
-            bricks, links, patch = tried, tried_links, np.inf
-        elif patch == _PATCH:
-            break
-        else:
+        before, after = links.n_floating, tried_links.n_floating
+        if after < before:
+            bricks, links = tried, tried_links
+        if after < _PROGRESS * before:
+            patch = np.inf
+        elif patch == np.inf:
             patch = _PATCH
+        else:
+            break
     return bricks
+
+
+def _islands(colour: Plane) -> Rows:
+    """Find the sets of cells that bricks could hold together, by stacking and by lying across one colour.
+
+    Parameters
+    ----------
+    colour : (n_z, n_y, n_x) int16 array
+        LDraw code, ``COLOUR_ANY`` or ``COLOUR_EMPTY``.
+
+    Returns
+    -------
+    (n_z, n_y, n_x) int32 array
+        The island of each cell, of no meaning in empty ones.
+    """
+    filled = colour != COLOUR_EMPTY
+    number = np.cumsum(filled).reshape(colour.shape) - 1
+    pairs = []
+    for axis in range(3):
+        near, far = (np.moveaxis(colour, axis, 0)[part] for part in (slice(None, -1), slice(1, None)))
+        one, other = (np.moveaxis(number, axis, 0)[part] for part in (slice(None, -1), slice(1, None)))
+        agree = (near != COLOUR_EMPTY) & (far != COLOUR_EMPTY)
+        if axis > 0:
+            agree &= (near == far) | (near == COLOUR_ANY) | (far == COLOUR_ANY)
+        pairs.append(np.stack([one[agree], other[agree]]))
+    one, other = np.concatenate(pairs, axis=1)
+    n_cells = int(np.count_nonzero(filled))
+    graph = coo_array((np.ones(len(one), dtype=bool), (one, other)), shape=(n_cells, n_cells))
+    island = np.zeros(colour.shape, dtype=np.int32)
+    island[filled] = connected_components(graph, directed=False)[1]
+    return island
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -107,7 +149,7 @@ class _Cells:
         Row of the brick, ``NOBODY`` or ``GROUND``.
     label : int32 array
         0 in the ground and where a brick stands, a number for each floating
-        component, -1 where there is no brick.
+        component that could be joined to it, -1 elsewhere.
     must : bool array
         Cells that have to be covered.
     """
@@ -117,12 +159,13 @@ class _Cells:
     must: Mask
 
     @classmethod
-    def of(cls, bricks: Bricks, links: Connection, must: Mask) -> _Cells:
-        """Label the cells of a model."""
+    def of(cls, bricks: Bricks, links: Connection, must: Mask, island: Rows) -> _Cells:
+        """Label the cells of a model, given the islands that it consists of."""
         n_z, n_y, n_x = links.owner.shape
         owner = np.full(must.shape, NOBODY, dtype=np.int32)
         owner[1 : n_z + 1, :n_y, :n_x] = links.owner
         label = np.append(np.where(links.grounded, 0, links.component + 1), -1).astype(np.int32)[owner]
+        label[(label > 0) & ~np.isin(island, np.unique(island[label == 0]))] = -1
         ground = slice(bricks.corner[:, 2].min() + 1)
         owner[ground], label[ground] = GROUND, 0
         return cls(owner, label, must)
@@ -139,7 +182,8 @@ def _joined(
         return bricks
     sheets, labels, floating = sheets.take(reached), labels[:, reached], floating[reached]
     near = maximum_filter(floating, size=(1, 2 * _REACH + 1, 2 * _REACH + 1))
-    found = placements(replace(sheets, must=near & (sheets.must | (labels[2] >= 0) | floating)), among)
+    worthwhile = sheets.must | (cells.owner[sheets.level + 1] > NOBODY) | floating
+    found = placements(replace(sheets, must=near & worthwhile), among)
     problem = pose(sheets, among, found, cells.owner, cells.must)
     at = labels.reshape(3, -1)[:, sheets.cells]
     alone = found.totals(at[:2].max(axis=0) >= 0) == 0

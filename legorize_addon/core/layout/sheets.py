@@ -7,24 +7,13 @@ the plates of one third of it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import label, maximum_filter
 
 from ..model import COLOUR_ANY, COLOUR_EMPTY, Cover, Mask, UnitGrid
 from ..units import PLATES_PER_BRICK
 from .shapes import Index, Plane, Rows
-
-_SPAN: Final = 3
-"""Studs that a brick can be trusted to reach out from what is stacked."""
-
-_LAP: Final = 6
-"""Studs around a cell farther out that become plates: the span and a joint as long."""
-
-_SIDE_BY_SIDE: Final = np.array([[[0, 0, 0]] * 3, [[0, 1, 0], [1, 1, 1], [0, 1, 0]], [[0, 0, 0]] * 3])
-"""Neighbours of a cell in its own layer."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,8 +61,7 @@ def split(grid: UnitGrid) -> list[Sheets]:
     """Split a grid into sheets of bricks and of plates.
 
     Three plates of a column that are all solid and of one colour (cells of any
-    colour agree with every other) become a brick; all other cells are plates,
-    and so are wide slabs one brick thick, which bricks could not hold together.
+    colour agree with every other) become a brick; all other cells are plates.
 
     Parameters
     ----------
@@ -89,7 +77,6 @@ def split(grid: UnitGrid) -> list[Sheets]:
     top = grid.colour.max(axis=1)
     bottom = np.where(grid.colour == COLOUR_ANY, np.iinfo(np.int16).max, grid.colour).min(axis=1)
     brick = grid.solid.all(axis=1) & (bottom >= top)
-    brick &= ~_slabs(brick, grid.solid)
     must = grid.cover == Cover.MUST
     level = np.arange(len(brick) * PLATES_PER_BRICK, dtype=np.int32)
     bricks = Sheets(
@@ -109,37 +96,3 @@ def split(grid: UnitGrid) -> list[Sheets]:
     )
     filled = [each.take((each.colour != COLOUR_EMPTY).any(axis=(1, 2))) for each in (bricks, plates)]
     return [each for each in filled if len(each)]
-
-
-def _slabs(brick: Mask, solid: Mask) -> Mask:
-    """Find slabs one brick thick that reach too far from what could hold their bricks.
-
-    Bricks side by side do not hold each other; three layers of plates do.
-
-    Parameters
-    ----------
-    brick : (n_layers, n_y, n_x) bool array
-        Cells that could be laid as bricks.
-    solid : (n_layers, 3, n_y, n_x) bool array
-        Cells of the model.
-
-    Returns
-    -------
-    (n_layers, n_y, n_x) bool array
-        Cells to lay as plates, the joint with the held bricks included.
-    """
-    stacked = np.zeros_like(brick)
-    stacked[1:] |= solid[:-1, -1]
-    stacked[:-1] |= solid[1:, 0]
-    stacked[solid.any(axis=(1, 2, 3)).argmax()] = True
-    far = brick & ~_widened(brick & stacked, _SPAN)
-    # what does not even touch a stacked brick of its layer stays loose as plates, too
-    area, _ = label(brick, structure=_SIDE_BY_SIDE)
-    slab = np.intersect1d(area[far], area[brick & stacked])
-    return _widened(far & np.isin(area, slab), _LAP) & np.isin(area, slab)
-
-
-def _widened(mask: Mask, reach: int) -> Mask:
-    """Extend each layer by `reach` cells along x and y."""
-    widened: Mask = maximum_filter(mask, size=(1, 2 * reach + 1, 2 * reach + 1))
-    return widened

@@ -1,0 +1,288 @@
+"""The buttons: a model from one click, one sentence when it cannot be, and the scene back on undo."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import bpy
+import numpy as np
+import pytest
+
+import legorize_addon
+from legorize_addon import job, operators
+from legorize_addon.core.catalogue import load_catalogue
+from legorize_addon.core.errors import Cancelled
+from legorize_addon.core.ldraw import read_ldr
+from legorize_addon.core.model import Bricks
+from legorize_addon.core.progress import Progress
+from legorize_addon.core.settings import Settings
+from legorize_addon.core.units import STUD
+from legorize_addon.export_operators import write_whole
+from legorize_addon.properties import current_build
+from legorize_addon.scene import BUILD_KEY, builds, read_bricks
+
+from .bricks import assert_same, content, instances
+
+
+@pytest.fixture(scope="module", autouse=True)
+def addon() -> Iterator[None]:
+    """Register the add-on for the tests of this file."""
+    legorize_addon.register()
+    yield
+    legorize_addon.unregister()
+
+
+@pytest.fixture
+def box() -> bpy.types.Object:
+    """Return a selected box of 2 x 1 x 1 Blender units, to be built 12 studs long."""
+    bpy.ops.mesh.primitive_cube_add(size=1, scale=(2, 1, 1))
+    bpy.context.scene.legorize.settings.width = 12
+    return bpy.context.object
+
+
+def corners() -> np.ndarray:
+    """Return the corners of the box around all instances in Blender units, (2, 3), studs left out."""
+    points = [
+        np.array([vertex.co for vertex in mesh.vertices if vertex.co.z < 9.55]) @ matrix[:3, :3].T + matrix[:3, 3]
+        for mesh, _, matrix in instances()
+    ]
+    return np.array(
+        [np.min([each.min(axis=0) for each in points], axis=0), np.max([each.max(axis=0) for each in points], axis=0)]
+    )
+
+
+@pytest.mark.parametrize("way", ["EXEC_DEFAULT", "INVOKE_DEFAULT"])
+def test_one_click_builds(box, way: str) -> None:
+    """The button gives a model over its source, as long as asked for; the source is hidden, its mesh untouched."""
+    before = np.array([vertex.co for vertex in box.data.vertices])
+    assert bpy.ops.legorize.build(way) == {"FINISHED"}
+    build = current_build(bpy.context.scene)
+    assert build.name == f"Legorize {box.name}"
+    assert build[BUILD_KEY]["summary"]["studs_x"] == 12
+    assert Settings(**build[BUILD_KEY]["settings"].to_dict()) == Settings(width=12)
+    # a stud is 2/12 of a unit here; bricks are whole, and a tenth of a mm narrower on each side
+    stud = 2 / 12
+    np.testing.assert_allclose(corners(), [[-1, -0.5, -0.5], [1, 0.5, 0.5]], atol=1.2 * stud / 2)
+    np.testing.assert_allclose(corners()[:, 0], [-1, 1], atol=0.02 * stud)
+    assert box.hide_viewport
+    np.testing.assert_array_equal([vertex.co for vertex in box.data.vertices], before)
+
+
+def test_scale_of_the_scene_counts(box) -> None:
+    """In a scene in millimetres the original size is that in millimetres; the bricks still lie over the box."""
+    bpy.context.scene.unit_settings.scale_length = 0.001
+    box.scale *= 60
+    settings = bpy.context.scene.legorize.settings
+    settings.size_by, settings.scale = "scale", 10.0
+    bpy.ops.legorize.build()
+    assert current_build(bpy.context.scene)[BUILD_KEY]["summary"]["studs_x"] == 2 * 60 / STUD
+    np.testing.assert_allclose(corners()[:, 0], [-60, 60], atol=0.2)
+
+
+def test_again_takes_its_place(box) -> None:
+    """With the model selected, and with nothing selected, the button builds the same source once more."""
+    bpy.ops.legorize.build()
+    once = content()
+    assert bpy.context.selected_objects == [current_build(bpy.context.scene)[BUILD_KEY]["root"]]
+    bpy.ops.legorize.build()
+    assert content() == once
+    bpy.ops.object.select_all(action="DESELECT")
+    bpy.context.scene.legorize.settings.width = 8
+    bpy.ops.legorize.build()
+    [build] = builds(bpy.context.scene)
+    assert build[BUILD_KEY]["summary"]["studs_x"] == 8
+    assert box.hide_viewport
+
+
+def test_same_click_same_bricks(box) -> None:
+    """Two builds with the same settings are equal to the last brick."""
+    bpy.ops.legorize.build()
+    first = read_bricks(current_build(bpy.context.scene))
+    bpy.ops.legorize.build()
+    assert_same(read_bricks(current_build(bpy.context.scene)), first)
+
+
+def test_several_objects_are_one_model(box) -> None:
+    """All selected objects with a surface make one model; lamps stay what they are."""
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(3, 0, 0))
+    cube = bpy.context.object
+    bpy.ops.object.light_add()
+    lamp = bpy.context.object
+    for thing in (box, cube, lamp):
+        thing.select_set(True)
+    bpy.ops.legorize.build()
+    [build] = builds(bpy.context.scene)
+    assert build.name == f"Legorize {box.name} + {cube.name}"
+    assert [box.hide_viewport, cube.hide_viewport, lamp.hide_viewport] == [True, True, False]
+    np.testing.assert_allclose(corners()[:, 0], [-1, 3.5], atol=0.1)
+
+
+def test_undo_gives_the_scene_back(box) -> None:
+    """One undo takes a build away with all its data; one redo brings it back; then a second build can be undone."""
+    name = box.name
+    bpy.ops.ed.undo_push(message="before")
+    before = content()
+    bpy.ops.legorize.build("EXEC_DEFAULT", True)
+    after = content()
+    bricks = read_bricks(current_build(bpy.context.scene))
+    bpy.ops.ed.undo()
+    assert content() == before
+    assert not bpy.data.objects[name].hide_viewport
+    assert current_build(bpy.context.scene) is None
+    bpy.ops.ed.redo()
+    assert content() == after
+    assert_same(read_bricks(current_build(bpy.context.scene)), bricks)
+    bpy.context.scene.legorize.settings.width = 6
+    bpy.ops.legorize.build("EXEC_DEFAULT", True)
+    bpy.ops.ed.undo()
+    assert_same(read_bricks(current_build(bpy.context.scene)), bricks)
+
+
+def test_undo_brings_a_removed_model_back(box) -> None:
+    """Removing the model can be undone too."""
+    bpy.ops.legorize.build()
+    bricks = read_bricks(current_build(bpy.context.scene))
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.legorize.clear("EXEC_DEFAULT", True)
+    assert current_build(bpy.context.scene) is None
+    bpy.ops.ed.undo()
+    assert_same(read_bricks(current_build(bpy.context.scene)), bricks)
+    assert len(instances()) == len(bricks)
+
+
+def test_clear_leaves_the_source(box) -> None:
+    """Removing the model leaves what was there before, shown again."""
+    before = content()
+    bpy.ops.legorize.build()
+    bpy.ops.legorize.clear()
+    assert content() == before
+    assert not box.hide_viewport
+
+
+def failing(error: Exception):
+    """Return a core that raises an error."""
+
+    def legorize(mesh, settings, progress: Progress) -> None:
+        raise error
+
+    return legorize
+
+
+def test_bad_input_is_one_sentence(box) -> None:
+    """What the user can mend is reported as an error in one sentence, and nothing changes."""
+    box.data.clear_geometry()
+    before = content()
+    with pytest.raises(RuntimeError) as caught:
+        bpy.ops.legorize.build()
+    message = str(caught.value)
+    assert message.startswith("Error: ")
+    assert "Traceback" not in message
+    assert message.strip().endswith(".")
+    assert content() == before
+    assert not box.hide_viewport
+
+
+def test_bad_palette_is_one_sentence(box) -> None:
+    """So is a setting that only the core can judge."""
+    bpy.context.scene.legorize.settings.palette = "4, red"
+    with pytest.raises(RuntimeError, match=r"^Error: [^\n]*\.\n?$"):
+        bpy.ops.legorize.build()
+
+
+def test_a_bug_keeps_its_traceback(box, monkeypatch) -> None:
+    """Anything else than an expected failure comes out as it is."""
+    monkeypatch.setattr(operators, "legorize", failing(ZeroDivisionError("a bug")))
+    with pytest.raises(RuntimeError, match=r"Traceback[\s\S]*ZeroDivisionError: a bug"):
+        bpy.ops.legorize.build()
+
+
+def test_stopping_changes_nothing(box, monkeypatch) -> None:
+    """A run that was stopped leaves the scene alone and is no error."""
+    monkeypatch.setattr(operators, "legorize", failing(Cancelled()))
+    before = content()
+    assert bpy.ops.legorize.build() == {"CANCELLED"}
+    assert content() == before
+    assert not box.hide_viewport
+
+
+def test_buttons_say_why_they_are_grey(box, monkeypatch) -> None:
+    """Each button tells in its tooltip what is missing."""
+    with pytest.raises(RuntimeError, match="Legorize an object first"):
+        bpy.ops.legorize.clear()
+    with pytest.raises(RuntimeError, match="Legorize an object first"):
+        bpy.ops.legorize.export_ldr(filepath="x.ldr")
+    bpy.ops.object.mode_set(mode="EDIT")
+    with pytest.raises(RuntimeError, match="edit mode"):
+        bpy.ops.legorize.build()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.select_all(action="DESELECT")
+    with pytest.raises(RuntimeError, match="Select an object"):
+        bpy.ops.legorize.build()
+    box.select_set(True)
+    work = job.Job(lambda progress: [progress("working", 0.0) for _ in iter(int, 1)])
+    work.start()
+    with pytest.raises(RuntimeError, match="press Esc"):
+        bpy.ops.legorize.build()
+    job.stop()
+    assert operators.LEGORIZE_OT_build.poll(bpy.context)
+
+
+def test_opening_a_file_stops_the_job() -> None:
+    """No thread goes on when its scene is gone; nor when the add-on is switched off."""
+    for leave in (bpy.ops.wm.read_homefile, legorize_addon.unregister):
+        work = job.Job(lambda progress: [progress("working", 0.0) for _ in iter(int, 1)])
+        work.start()
+        leave()
+        assert not work.is_alive()
+    legorize_addon.register()
+
+
+def test_export_reads_back(box, tmp_path) -> None:
+    """The LDraw file holds the bricks of the build, also after opening the saved .blend."""
+    bpy.ops.legorize.build()
+    bricks = read_bricks(current_build(bpy.context.scene))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
+    assert bpy.ops.legorize.export_ldr(filepath=str(tmp_path / "model.ldr")) == {"FINISHED"}
+    text = (tmp_path / "model.ldr").read_bytes().decode()
+    found = read_ldr(text, load_catalogue())
+    assert rows(found) == rows(bricks)
+    assert len(set(rows(bricks))) == len(bricks) > 1
+
+
+def rows(bricks: Bricks) -> list[tuple[int, ...]]:
+    """Return part, colour and corner of each brick, in order."""
+    return sorted(map(tuple, np.column_stack([bricks.part, bricks.colour, bricks.corner]).tolist()))
+
+
+def test_export_where_nobody_can_write(box, tmp_path) -> None:
+    """A path that cannot be written gives a sentence; what was there stays, and nothing is left over."""
+    bpy.ops.legorize.build()
+    (tmp_path / "folder.ldr").mkdir()
+    (tmp_path / "file").write_text("old")
+    for path in (tmp_path / "folder.ldr", tmp_path / "nowhere" / "model.ldr", tmp_path / "file" / "model.ldr"):
+        with pytest.raises(
+            RuntimeError, match=r"^Error: The file .* cannot be written \(.*\): choose another .*\.\n?$"
+        ):
+            bpy.ops.legorize.export_ldr(filepath=str(path))
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["file", "folder.ldr"]
+
+
+def test_files_are_replaced_as_a_whole(tmp_path) -> None:
+    """A file keeps its line ends and its letters, and takes the place of an older one."""
+    path = tmp_path / "text.txt"
+    write_whole(path, "old")
+    write_whole(path, "grün\r\n")
+    assert path.read_bytes() == "grün\r\n".encode()
+    assert [entry.name for entry in tmp_path.iterdir()] == ["text.txt"]
+
+
+def test_picture_button(box, tmp_path) -> None:
+    """The render button writes a picture of the asked size."""
+    bpy.ops.legorize.build()
+    path = tmp_path / "still.png"
+    assert bpy.ops.legorize.render_still(filepath=str(path), samples=1, width=32, height=16) == {"FINISHED"}
+    image = bpy.data.images.load(str(path))
+    assert tuple(image.size) == (32, 16)
+    with pytest.raises(RuntimeError, match="cannot be written"):
+        bpy.ops.legorize.render_still(filepath=str(tmp_path / "nowhere" / "still.png"), samples=1)

@@ -1,0 +1,197 @@
+"""Sheets, shapes and placements: everything that may be laid, and nothing else."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from legorize_addon.core.layout.placements import placements
+from legorize_addon.core.layout.shapes import pattern_bits, shapes
+from legorize_addon.core.layout.sheets import split
+from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Cover
+
+from .cells import CATALOGUE, brick_grid, grid_of, planes
+
+FILLER = 71
+RED, WHITE, SAND_GREEN = 4, 15, 378
+
+
+def shapes_for(grid, height=3):
+    """Return the shapes for the colours of a grid."""
+    return shapes(CATALOGUE, height, np.unique(grid.colour[grid.colour >= 0]), FILLER)
+
+
+def cells_of(found, row):
+    """Return the numbers of the cells that a placement covers."""
+    return found.cells[found.start[row] : found.start[row + 1]]
+
+
+@pytest.mark.parametrize("height", [1, 3])
+def test_there_are_24_shapes(height):
+    """The 12 bricks and the 12 plates have 24 orientations each, all different."""
+    among = shapes(CATALOGUE, height, np.array([RED]), FILLER)
+    assert len(among.part) == 24
+    assert len(np.unique(among.pattern)) == 24
+    assert among.size.sum() == 147
+
+
+def test_inner_edges_of_a_rectangle():
+    """A w x l shape has (w - 1) l + w (l - 1) edges between its own cells, a corner has two."""
+    among = shapes(CATALOGUE, 3, np.array([RED]), FILLER)
+    first = np.cumsum(among.size) - among.size
+    for row, (part, (w, length)) in enumerate(zip(among.part, among.extent, strict=True)):
+        edges = np.count_nonzero(among.inner[:, first[row] : first[row] + among.size[row]])
+        assert edges == (2 if CATALOGUE.parts[part].corner else (w - 1) * length + w * (length - 1))
+
+
+def test_rows_of_finds_part_and_turn():
+    """Each shape is found again by its part and turn."""
+    among = shapes(CATALOGUE, 1, np.array([RED]), FILLER)
+    np.testing.assert_array_equal(among.rows_of(among.part, among.turn), np.arange(24))
+
+
+def test_pattern_bits_are_different():
+    """The 64 cells of the field have 64 different bits."""
+    y, x = np.divmod(np.arange(64), 8)
+    assert len(np.unique(pattern_bits(x, y))) == 64
+
+
+def test_hidden_parts_take_the_filler_or_what_there_is():
+    """Parts that nobody sees get the filler colour where it is made, and always one that exists."""
+    for filler in (FILLER, SAND_GREEN):
+        among = shapes(CATALOGUE, 3, np.array([RED]), filler)
+        assert CATALOGUE.exists_in(among.part, among.hidden).all()
+        made = CATALOGUE.exists_in(among.part, filler)
+        assert (among.hidden[made] == filler).all()
+    assert not made.all()
+
+
+@pytest.mark.parametrize(("n_y", "n_x"), [(1, 1), (3, 9), (8, 8), (12, 5)])
+def test_number_of_placements_in_a_rectangle(n_y, n_x):
+    """A shape of w x l fits (n_x - w + 1)(n_y - l + 1) times into a rectangle of one colour."""
+    grid = brick_grid(np.full((1, n_y, n_x), RED))
+    among = shapes_for(grid)
+    found = placements(split(grid)[0], among)
+    fits = np.maximum([n_x, n_y] - among.extent + 1, 0).prod(axis=1)
+    np.testing.assert_array_equal(np.bincount(found.shape, minlength=24), fits)
+
+
+grids = st.integers(0, 2**32 - 1)
+
+
+def random_grid(seed, shape=(2, 5, 6)):
+    """Return whole bricks at random: empty, any colour or one of three, must or may."""
+    rng = np.random.default_rng(seed)
+    colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, COLOUR_ANY, RED, WHITE, SAND_GREEN], shape)
+    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST, Cover.MUST], shape))
+    return brick_grid(colour, cover)
+
+
+@given(grids)
+@settings(max_examples=30)
+def test_same_as_trying_every_place(seed):
+    """The placements of two sheets are exactly those found by trying every shape in every cell."""
+    grid = random_grid(seed)
+    among = shapes_for(grid)
+    (sheets,) = split(grid)
+    found = placements(sheets, among)
+    expected = set()
+    for sheet, row, y, x in product(range(len(sheets)), range(24), range(5), range(6)):
+        places = among.cells[row] + [x, y]
+        if (places >= [6, 5]).any():
+            continue
+        colours = set(sheets.colour[sheet, places[:, 1], places[:, 0]].tolist())
+        fixed = colours - {COLOUR_ANY}
+        must = sheets.must[sheet, places[:, 1], places[:, 0]].any()
+        code = fixed.pop() if fixed else int(among.hidden[row])
+        if not fixed and code != COLOUR_EMPTY and must and CATALOGUE.exists_in(among.part[row], code):
+            expected.add((sheet, row, x, y, code))
+    listed = [
+        (int(sheet), int(row), int(x), int(y), int(code))
+        for row, (x, y, sheet), code in zip(found.shape, found.corner, found.colour, strict=True)
+    ]
+    assert len(listed) == len(set(listed))
+    assert set(listed) == expected
+    assert (np.diff(found.key) > 0).all()
+
+
+@given(grids)
+@settings(max_examples=20)
+def test_cells_are_those_of_the_shape(seed):
+    """The cells of a placement are the shape's, moved to its corner, in the numbering of the sheets."""
+    grid = random_grid(seed)
+    among = shapes_for(grid)
+    (sheets,) = split(grid)
+    found = placements(sheets, among)
+    sheet, y, x = np.unravel_index(sheets.cells, sheets.colour.shape)
+    for row in range(0, len(found), 7):
+        cells = cells_of(found, row)
+        np.testing.assert_array_equal(
+            np.stack([x, y], axis=1)[cells], among.cells[found.shape[row]] + found.corner[row, :2]
+        )
+        assert (sheet[cells] == found.corner[row, 2]).all()
+
+
+def test_lookups():
+    """Placements are found by shape and corner, by the cells they cover, and summed over."""
+    found = placements(split(random_grid(1))[0], shapes_for(random_grid(1)))
+    rows = np.arange(len(found))
+    np.testing.assert_array_equal(found.find(found.shape, found.corner), rows)
+    assert found.find(np.array([0]), np.array([[99, 0, 0]])).tolist() == [-1]
+    marked = np.zeros(found.cells.max() + 1, bool)
+    marked[::5] = True
+    totals = [np.count_nonzero(marked[cells_of(found, row)]) for row in rows]
+    assert found.totals(marked).tolist() == totals
+    np.testing.assert_array_equal(found.through(marked), np.flatnonzero(totals))
+    some = np.array([3, 5, 8])
+    np.testing.assert_array_equal(
+        found.take(some).cells, np.concatenate([cells_of(found, row) for row in some])
+    )
+
+
+def test_only_parts_that_exist():
+    """A part that is not made in a colour is not offered in it, though it would fit."""
+    part = CATALOGUE.part_row("3007")
+    missing = int(CATALOGUE.codes[~CATALOGUE.exists[part]][0])
+    grid = brick_grid(np.full((1, 2, 8), missing))
+    among = shapes_for(grid)
+    found = placements(split(grid)[0], among)
+    assert len(found) > 0
+    assert part not in among.part[found.shape]
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_every_cell_lies_in_one_sheet(seed):
+    """Bricks and plates together hold every plate cell once, with its colour, and bricks are all they can be."""
+    rng = np.random.default_rng(seed)
+    colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, WHITE], (3, 1, 4, 4))
+    colour = np.where(rng.random((3, 3, 4, 4)) < 0.2, rng.choice([COLOUR_EMPTY, RED], (3, 3, 4, 4)), colour)
+    grid = grid_of(colour)
+    times = np.zeros(planes(grid.colour).shape, int)
+    for sheets in split(grid):
+        for level, code in zip(sheets.level, sheets.colour, strict=True):
+            filled = code != COLOUR_EMPTY
+            assert filled.any()
+            for plate in range(level, level + sheets.height):
+                times[plate] += filled
+                assert np.isin(planes(grid.colour)[plate][filled], [COLOUR_ANY, *np.unique(code[filled])]).all()
+                free = planes(grid.colour)[plate] == COLOUR_ANY
+                assert (free | (planes(grid.colour)[plate] == code) | ~filled).all()
+    np.testing.assert_array_equal(times, planes(grid.solid).astype(int))
+
+
+def test_three_equal_plates_are_a_brick():
+    """Columns of one colour are bricks, columns with a gap or two colours are plates."""
+    colour = np.full((1, 3, 1, 4), RED)
+    colour[0, 2, 0, 1] = COLOUR_EMPTY
+    colour[0, 1, 0, 2] = WHITE
+    colour[0, :2, 0, 3] = COLOUR_ANY
+    bricks, plates = split(grid_of(colour))
+    assert (bricks.height, plates.height) == (3, 1)
+    assert bricks.colour[0, 0].tolist() == [RED, COLOUR_EMPTY, COLOUR_EMPTY, RED]
+    assert plates.level.tolist() == [0, 1, 2]
+    assert np.count_nonzero(plates.must) == np.count_nonzero(plates.colour != COLOUR_EMPTY) + 6
