@@ -63,16 +63,17 @@ def _boxed(low: Floats, high: Floats, loop_slice: NDArray[np.int32], rank: Ints)
     may reach over a loop's left side are neighbours there, however many there are.
     """
     yield np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64)
-    width = high[:, 0] - low[:, 0]
-    lane = (high[:, 0].max() - low[:, 0].min()) * 4 + 1
-    left = low[:, 0] - low[:, 0].min() + loop_slice * lane
-    # a little more than needed: far from the origin the sums have lost some digits
-    margin = lane * (int(loop_slice.max()) + 1) * 1e-12
-    size = np.frexp(width)[1] // _OCTAVES
+    extent = float(high[:, 0].max() - low[:, 0].min())
+    # slices lie apart by more than any loop is wide
+    left = low[:, 0] - low[:, 0].min() + loop_slice * (4 * extent + 1)
+    # a little more than needed: far from the start of the row sums have lost some digits
+    margin = 1e-12 * float(left.max())
+    size = np.frexp(high[:, 0] - low[:, 0])[1] // _OCTAVES
     for number in np.flatnonzero(np.bincount(size - size.min())) + size.min():
         wide = np.flatnonzero(size == number)
         wide = wide[np.argsort(left[wide], kind="stable")]
-        first = np.searchsorted(left[wide], left - np.ldexp(1.0, _OCTAVES * (int(number) + 1)) - margin)
+        widest = min(extent, float(np.ldexp(1.0, _OCTAVES * (int(number) + 1))))
+        first = np.searchsorted(left[wide], left - widest - margin)
         count = np.searchsorted(left[wide], left + margin, side="right") - first
         for rows in _blocks(count):
             row, place = ranges(first[rows], count[rows])

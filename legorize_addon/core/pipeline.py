@@ -6,16 +6,17 @@ import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .catalogue import load_catalogue
+from .catalogue import Catalogue, load_catalogue
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .connection import Connection, connect
 from .errors import SettingsError
-from .grid import fit_grid
+from .grid import Grid, fit_grid
 from .hollowing import hollow
 from .layout import lay
 from .mesh import Repairs, TriangleMesh, repair, scaled
@@ -110,70 +111,89 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     palette = chosen_palette(settings.palette, catalogue)
     rng = np.random.default_rng(settings.seed)
     timings: dict[str, float] = {}
+    stage = partial(_stage, progress=progress, timings=timings)
 
-    with _stage("mesh", progress, timings):
+    with stage("mesh"):
         mesh, repairs = repair(mesh)
         scale = model_scale(mesh, settings)
         mesh = scaled(mesh, scale)
         check_size(mesh)
-    with _stage("colours", progress, timings):
-        surface = surface_colours(
-            mesh,
-            catalogue,
-            # one to one, more dominant colours than brick colours cannot be told apart
-            n_colours=min(settings.colours, len(palette)) if settings.one_to_one else settings.colours,
-            sampling=settings.sampling,
-            palette=palette,
-            one_to_one=settings.one_to_one,
-            rng=rng,
-        )
-    with _stage("slicing", progress, timings):
+    with stage("colours"):
+        surface = _surface(mesh, settings, palette, catalogue, rng)
+    with stage("slicing"):
         frame = fit_grid(mesh, symmetric=settings.symmetric)
-        heights, layer, _ = adaptive_heights(
-            mesh,
-            ground=float(frame.origin[2]),
-            n_layers=frame.n_layers,
-            cusp=settings.cusp,
-            colour=surface.of_faces(mesh),
-        )
-        slices = slice_mesh(mesh, heights)
-    with _stage("trajectories", progress, timings):
+        slices, layer = _slices(mesh, surface, frame, settings)
+    with stage("trajectories"):
         trajectories = link_loops(mesh, slices, surface, chord_deviation=settings.chord_deviation)
-    with _stage("unit bricks", progress, timings):
+    with stage("unit bricks"):
         grid = unit_bricks(
             mesh,
             trajectories,
             surface,
             frame,
             layer=layer,
-            heights=heights,
+            heights=slices.heights,
             keep_thin=settings.keep_thin,
             longest=settings.cell_colour == "longest",
             one_surface=repairs.watertight and repairs.patches == 1,
             catalogue=catalogue,
         )
         _check_any(grid, mesh)
-    with _stage("hollowing", progress, timings):
+    with stage("hollowing"):
         shell = hollow(grid, shell=settings.shell if settings.hollow else None)
-    with _stage("layout", progress, timings):
+    with stage("layout"):
         bricks = lay(shell, catalogue, rng=rng, progress=progress)
         connection = connect(bricks, catalogue)
+    notes = (*repairs.sentences(), *_remarks(connection))
     return Build(
-        settings=settings,
-        mesh=mesh,
-        repairs=repairs,
-        scale=scale,
-        surface=surface,
-        slices=slices,
-        trajectories=trajectories,
-        layer=layer,
-        grid=grid,
-        hollow=shell,
-        bricks=bricks,
-        connection=connection,
-        notes=(*repairs.sentences(), *_remarks(connection)),
-        timings=timings,
+        settings,
+        mesh,
+        repairs,
+        scale,
+        surface,
+        slices,
+        trajectories,
+        layer,
+        grid,
+        shell,
+        bricks,
+        connection,
+        notes,
+        timings,
     )
+
+
+def _surface(
+    mesh: TriangleMesh,
+    settings: Settings,
+    palette: NDArray[np.int16],
+    catalogue: Catalogue,
+    rng: np.random.Generator,
+) -> SurfaceColours:
+    """Return the brick colours of all texels; one to one, no more of them than the palette has."""
+    return surface_colours(
+        mesh,
+        catalogue,
+        n_colours=min(settings.colours, len(palette)) if settings.one_to_one else settings.colours,
+        sampling=settings.sampling,
+        palette=palette,
+        one_to_one=settings.one_to_one,
+        rng=rng,
+    )
+
+
+def _slices(
+    mesh: TriangleMesh, surface: SurfaceColours, frame: Grid, settings: Settings
+) -> tuple[Slices, NDArray[np.int32]]:
+    """Return the cut of the mesh at adaptive heights, and the layer of every slice."""
+    heights, layer, _ = adaptive_heights(
+        mesh,
+        ground=float(frame.origin[2]),
+        n_layers=frame.n_layers,
+        cusp=settings.cusp,
+        colour=surface.of_faces(mesh),
+    )
+    return slice_mesh(mesh, heights), layer
 
 
 def model_scale(mesh: TriangleMesh, settings: Settings) -> float:

@@ -132,6 +132,13 @@ def horizontal_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid) 
     )
 
 
+def surface_area(samples: SurfaceSamples, shape: tuple[int, int, int]) -> Floats:
+    """Return the surface in every cell in mm^2, (n_layers, n_y, n_x) float64."""
+    cell = np.ravel_multi_index(tuple(samples.cell.T), shape)
+    area: Floats = np.bincount(cell, samples.area, int(np.prod(shape))).reshape(shape)
+    return area
+
+
 def face_normals(mesh: TriangleMesh) -> Floats:
     """Return the outward normals in cells along layer, y and x, not of unit length, (n_f, 3)."""
     corners = mesh.vertices[mesh.faces]

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from .bridges import bridging_cells
 from .catalogue import Catalogue
 from .cell_colours import likeliest_colours
 from .colours import SurfaceColours
@@ -26,7 +27,7 @@ from .eight_neighbours import longest_colours
 from .grid import Grid
 from .mesh import TriangleMesh
 from .model import COLOUR_ANY, COLOUR_EMPTY, Cover, Floats, Mask, Role, UnitGrid
-from .samples import horizontal_samples, trajectory_samples
+from .samples import horizontal_samples, surface_area, trajectory_samples
 from .thin_features import thin_cells
 from .trajectories import Trajectories
 from .units import CELL_AREA, PLATES_PER_BRICK
@@ -83,6 +84,7 @@ def unit_bricks(
     )
     if keep_thin:
         solid |= thin_cells(samples, solid)
+        solid |= bridging_cells(solid, surface_area(samples, grid.shape))
     air = outer_air(solid)
     seen = visible(solid, air)
     colour = np.full(grid.shape, COLOUR_EMPTY, dtype=np.int16)

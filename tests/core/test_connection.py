@@ -77,9 +77,7 @@ def test_a_corner_holds_nothing_in_its_missing_cell(turn):
 
 def test_plates_and_tall_bricks_connect_at_their_own_heights():
     """A plate carries at plate 1, a tall brick at plate 9."""
-    links = connect(
-        table(("3024", 0, 0, 0), ("14716", 0, 0, 1), ("3024", 0, 0, 10), ("3024", 0, 0, 12)), CATALOGUE
-    )
+    links = connect(table(("3024", 0, 0, 0), ("14716", 0, 0, 1), ("3024", 0, 0, 10), ("3024", 0, 0, 12)), CATALOGUE)
     assert links.pairs.tolist() == [[0, 1], [1, 2]]
     assert links.grounded.tolist() == [True, True, True, False]
 

@@ -84,9 +84,7 @@ def test_shell_equals_the_four_cases_in_both_directions(solid):
         here = padded[layer]
         for other in (padded[layer - 1], padded[layer + 1]):
             shell[layer] |= contour(here) | (here & ~other) | (contour(other) & here)
-    np.testing.assert_array_equal(
-        hollow(bricks_of(solid), shell=1).cover[:, 1] == Cover.MUST, shell[1:-1, 1:-1, 1:-1]
-    )
+    np.testing.assert_array_equal(hollow(bricks_of(solid), shell=1).cover[:, 1] == Cover.MUST, shell[1:-1, 1:-1, 1:-1])
 
 
 @given(st.integers(0, 2**20), st.integers(1, 2))

@@ -83,7 +83,7 @@ def split(grid: UnitGrid) -> list[Sheets]:
         height=PLATES_PER_BRICK,
         level=level[::PLATES_PER_BRICK],
         colour=np.where(brick, top, np.int16(COLOUR_EMPTY)),
-        must=must.any(axis=1),
+        must=must.any(axis=1) & brick,
         role=grid.role.min(axis=1),
     )
     plane = (-1, *brick.shape[1:])
@@ -91,7 +91,7 @@ def split(grid: UnitGrid) -> list[Sheets]:
         height=1,
         level=level,
         colour=np.where(brick[:, None], np.int16(COLOUR_EMPTY), grid.colour).reshape(plane),
-        must=must.reshape(plane),
+        must=(must & ~brick[:, None]).reshape(plane),
         role=grid.role.reshape(plane),
     )
     filled = [each.take((each.colour != COLOUR_EMPTY).any(axis=(1, 2))) for each in (bricks, plates)]

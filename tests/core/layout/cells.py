@@ -22,7 +22,9 @@ def grid_of(colour, cover=None, role=None):
 
 def brick_grid(colour, cover=None):
     """Return a grid of whole bricks, given (n_layers, n_y, n_x) arrays."""
-    return grid_of(*(None if each is None else np.repeat(np.asarray(each)[:, None], 3, axis=1) for each in (colour, cover)))
+    return grid_of(
+        *(None if each is None else np.repeat(np.asarray(each)[:, None], 3, axis=1) for each in (colour, cover))
+    )
 
 
 def planes(cells):

@@ -1,0 +1,88 @@
+"""Holding loose bricks: joins are found where cells allow them, and nothing is lost."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from legorize_addon.core.connection import connect
+from legorize_addon.core.layout.repair import connect_loose
+from legorize_addon.core.layout.shapes import shapes
+from legorize_addon.core.layout.sheets import split
+from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Bricks, Cover
+from legorize_addon.core.progress import silent
+
+from .cells import CATALOGUE, assert_covers, brick_grid
+
+RED, WHITE = 4, 15
+
+
+def held(bricks, grid, seed=0):
+    """Return the bricks after the repair."""
+    codes = np.unique(grid.colour[grid.colour >= 0])
+    work = [(sheets, shapes(CATALOGUE, sheets.height, codes, 71)) for sheets in split(grid)]
+    return connect_loose(bricks, grid, work, CATALOGUE, np.random.default_rng(seed), silent)
+
+
+def singles(grid):
+    """Return every must cell as a brick of its own, in red where the colour is free."""
+    layer, y, x = np.nonzero(grid.cover[:, 0] == Cover.MUST)
+    n = len(x)
+    colour = grid.colour[layer, 0, y, x]
+    return Bricks(
+        np.full(n, CATALOGUE.part_row("3005"), np.int16),
+        np.stack([x, y, 3 * layer], axis=1).astype(np.int32),
+        np.zeros(n, np.uint8),
+        np.where(colour == COLOUR_ANY, RED, colour).astype(np.int16),
+        np.zeros(n, np.uint8),
+        np.zeros(n, np.int16),
+        (layer).astype(np.int32),
+    )
+
+
+def test_a_hanging_column_is_joined_to_a_standing_one():
+    """A column that ends above the ground, laid in bricks of one cell, gets a brick across to its neighbour."""
+    colour = np.full((4, 1, 2), RED)
+    colour[0, 0, 1] = COLOUR_EMPTY
+    grid = brick_grid(colour)
+    before = singles(grid)
+    assert connect(before, CATALOGUE).n_floating == 3
+    assert assert_covers(held(before, grid), grid).n_floating == 0
+
+
+def test_a_wide_roof_is_tied_from_below():
+    """Bricks of a roof that touch nothing are held by bricks in the optional layer below them."""
+    colour = np.full((3, 6, 24), COLOUR_EMPTY)
+    cover = np.full(colour.shape, Cover.EMPTY)
+    colour[:, :, 0], cover[:, :, 0] = COLOUR_ANY, Cover.MUST
+    colour[2], cover[2] = RED, Cover.MUST
+    colour[1, :, 1:], cover[1, :, 1:] = COLOUR_ANY, Cover.MAY
+    grid = brick_grid(colour, cover)
+    before = singles(grid)
+    after = held(before, grid)
+    assert connect(before, CATALOGUE).n_floating == 6 * 23
+    assert assert_covers(after, grid).n_floating < 6
+
+
+def test_what_cannot_be_joined_is_left_alone():
+    """A column of another colour that ends above the ground floats, and no brick is changed for it."""
+    colour = np.full((3, 1, 2), RED)
+    colour[:, 0, 1] = [COLOUR_EMPTY, WHITE, WHITE]
+    grid = brick_grid(colour)
+    before = singles(grid)
+    assert held(before, grid) is before
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=25)
+def test_repair_keeps_the_cover(seed):
+    """Whatever is joined, must cells stay covered once, and no more bricks float than before."""
+    rng = np.random.default_rng(seed)
+    colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, RED, WHITE], (4, 6, 6))
+    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST, Cover.MUST], colour.shape))
+    colour[0, 0, 0], cover[0, 0, 0] = RED, Cover.MUST
+    grid = brick_grid(colour, cover)
+    before = singles(grid)
+    links = assert_covers(held(before, grid), grid)
+    assert links.n_floating <= connect(before, CATALOGUE).n_floating
