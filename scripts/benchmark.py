@@ -20,7 +20,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
@@ -91,7 +91,7 @@ def parser() -> argparse.ArgumentParser:
 
 def add_options(name: str, command: argparse.ArgumentParser) -> None:
     """Add what only one of the benchmarks takes."""
-    counts = {"type": int, "nargs": "+"}
+    counts: dict[str, Any] = {"type": int, "nargs": "+"}
     text = "about how many triangles to subdivide to, 0 for none (default: %(default)s)"
     if name == "slicing":
         command.add_argument("--triangles", **counts, default=[0, 94_000, 1_500_000], help=text)

@@ -203,5 +203,5 @@ def paint_wing(colour: Ints, where: Mask, forward: Floats, up: Floats) -> None:
 
 def paint_eye(colour: Ints, where: Mask, forward: Floats, up: Floats) -> None:
     """Give the head two big round eyes."""
-    colour[where & (np.hypot(forward - 13.2, up - 39) < 3.4)] = NUMBER["white"]
-    colour[where & (np.hypot(forward - 13.6, up - 39) < 1.9)] = NUMBER["black"]
+    colour[where & (np.hypot(forward - 13.2, up - 38.6) < 3.4)] = NUMBER["white"]
+    colour[where & (np.hypot(forward - 13.7, up - 38.6) < 2)] = NUMBER["black"]

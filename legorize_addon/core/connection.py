@@ -132,6 +132,7 @@ def _owners(brick: Rows, columns: Rows, heights: Rows) -> tuple[Rows, int]:
     base = np.ravel_multi_index(tuple(columns[:, ::-1].T), tuple(shape))
     cells = np.repeat(base, heights) + above * (shape[1] * shape[2])
     claimant = np.repeat(brick, heights)
+    # where bricks collide anyone may have written last: who does not find himself there has lost
     flat[cells] = claimant
     lost = flat[cells] != claimant
     np.minimum.at(flat, cells[lost], claimant[lost])
@@ -141,6 +142,7 @@ def _owners(brick: Rows, columns: Rows, heights: Rows) -> tuple[Rows, int]:
 def _contacts(lower: Rows, upper: Rows, n: int) -> tuple[Rows, Rows]:
     """Count the studs of each pair of a lower and an upper brick."""
     touching = (upper != NOBODY) & (upper != lower)
+    # one number a pair, so that equal pairs are counted by a sort
     key = lower[touching].astype(np.int64) * n + upper[touching]
     pair, studs = np.unique(key, return_counts=True)
     return np.stack(np.divmod(pair, max(n, 1)), axis=1).astype(np.int32), studs.astype(np.int32)

@@ -6,6 +6,7 @@ cavity: none of these must give its colour to a brick that stands in front.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -26,39 +27,83 @@ _CELL: Final = np.array([1.2, 1.0, 1.0])
 _TIE: Final = 1e-12
 """Squared distances nearer than this are equal: the first cell keeps the point."""
 
+_MARGIN: Final = 4
+"""Fine cells of air around the grid on every side."""
+
 _STEPS: Final = 5
 """Marks along a piece of trajectory, so that none of its fine cells is missed."""
 
 
-def reached_by_air(samples: SurfaceSamples, shape: tuple[int, int, int]) -> Mask:
-    """Return the samples that the air around the model reaches.
+@dataclass(frozen=True, slots=True, eq=False)
+class OuterAir:
+    """The space around a surface, on a lattice of half studs and plates.
 
-    The surface is drawn into a lattice of half studs and closed over its pin
-    holes; a sample is reached if it lies within two fine cells of the outer air.
-    Crevices narrower than a stud count as closed: the bricks close them as well.
+    Crevices and holes narrower than a stud are closed: the bricks close them as well.
+
+    Attributes
+    ----------
+    free : (n_z, n_y, n_x) bool array
+        Fine cells that the air reaches, up to one fine cell from the surface.
+    fine : (3,) int array
+        Fine cells to a unit cell along layer, y and x.
+    """
+
+    free: Mask
+    fine: Ints
+
+    def reaches(self, samples: SurfaceSamples) -> Mask:
+        """Return the samples within two fine cells of the free ones, shape (n,)."""
+        near: Mask = _grown(_grown(self.free))[_fine_cells(samples.place, self.fine, self.free.shape)]
+        return near
+
+    def fills(self, shape: tuple[int, int, int]) -> Mask:
+        """Return the unit cells that are mostly air, right up to the surface, shape (n_layers, n_y, n_x)."""
+        layers, rows, columns = shape
+        inner = tuple(slice(_MARGIN, -_MARGIN) for _ in shape)
+        cells = _grown(self.free)[inner].reshape(layers, self.fine[0], rows, self.fine[1], columns, self.fine[2])
+        filled: Mask = cells.mean(axis=(1, 3, 5)) > 0.5
+        return filled
+
+
+def air_around(samples: SurfaceSamples, shape: tuple[int, int, int], *, on_ground: bool) -> OuterAir:
+    """Find out where the air around a surface gets to.
 
     Parameters
     ----------
     samples : SurfaceSamples
     shape : tuple of int
         Unit cells along layer, y and x.
+    on_ground : bool
+        Whether the ground stops the air, so that an open underside counts as closed.
 
     Returns
     -------
-    (n,) bool array
+    OuterAir
     """
     fine = _FINE if np.prod(np.array(shape) * _FINE) < _FINE_LIMIT else np.ones(3, dtype=int)
-    margin = 4
-    drawn = np.zeros(np.array(shape) * fine + 2 * margin, dtype=bool)
+    drawn = np.zeros(np.array(shape) * fine + 2 * _MARGIN, dtype=bool)
     pieces = samples.along.any(axis=1)
-    drawn[_fine_cells(samples.place[~pieces], fine, drawn.shape, margin)] = True
+    drawn[_fine_cells(samples.place[~pieces], fine, drawn.shape)] = True
     for share in (np.arange(_STEPS) + 0.5) / _STEPS - 0.5:
         place = samples.place[pieces] + share * samples.along[pieces]
-        drawn[_fine_cells(place, fine, drawn.shape, margin)] = True
-    label, _ = ndimage.label(~_grown(drawn))
-    air = _grown(_grown(label == label[0, 0, 0]))
-    reached: Mask = air[_fine_cells(samples.place, fine, drawn.shape, margin)]
-    return reached
+        drawn[_fine_cells(place, fine, drawn.shape)] = True
+    drawn = _grown(drawn)
+    if on_ground:
+        drawn[:_MARGIN] = True
+    label, _ = ndimage.label(~drawn)
+    return OuterAir(label == label[-1, 0, 0], fine)
+
+
+def reached_by_air(samples: SurfaceSamples, shape: tuple[int, int, int]) -> Mask:
+    """Return the samples that the air around the model reaches, shape (n,).
+
+    Parameters
+    ----------
+    samples : SurfaceSamples
+    shape : tuple of int
+        Unit cells along layer, y and x.
+    """
+    return air_around(samples, shape, on_ground=False).reaches(samples)
 
 
 def _grown(mask: Mask) -> Mask:
@@ -72,8 +117,8 @@ def _grown(mask: Mask) -> Mask:
     return grown
 
 
-def _fine_cells(place: Floats, fine: Ints, shape: tuple[int, ...], margin: int) -> tuple[Ints, ...]:
-    cell = np.floor(place * fine).astype(np.int64) + margin
+def _fine_cells(place: Floats, fine: Ints, shape: tuple[int, ...]) -> tuple[Ints, ...]:
+    cell = np.floor(place * fine).astype(np.int64) + _MARGIN
     return tuple(np.clip(cell, 0, np.array(shape) - 1).T)
 
 

@@ -137,6 +137,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
             longest=settings.cell_colour == "longest",
             one_surface=repairs.watertight and repairs.patches == 1,
             catalogue=catalogue,
+            closed=repairs.watertight,
         )
         _check_any(grid, mesh)
     with stage("hollowing"):

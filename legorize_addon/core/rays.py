@@ -11,17 +11,22 @@ from .mesh import TriangleMesh
 from .model import Floats, Ints, Mask
 from .ranges import ranges
 
+_NEAR: Final = 1e-9
+"""A ray this near to an edge, in pitches, meets it."""
+
 _MARGIN: Final = 1e-6
-"""How far beside a triangle, in pitches, lattice points are still tested exactly."""
+"""Triangles that rays see no wider than this, in pitches, are upright; lattice points this far beside are tested."""
+
+_SAME: Final = 1e-3
+"""Hits on an edge are one if their heights differ by no more than this, in pitches."""
 
 
 def vertical_hits(mesh: TriangleMesh, *, corner: Floats, pitch: float) -> tuple[NDArray[np.int64], Floats, Floats]:
     """Find where vertical rays through the lattice's cell centres meet the triangles.
 
-    A ray exactly through an edge or a vertex counts as infinitesimally beside it,
-    so that it meets one of the triangles there and not several or none. The side
-    of an edge is computed alike for both of its triangles: a ray can be lost only
-    within rounding of a vertex. Upright triangles are met by no ray.
+    A ray through an edge or a vertex meets all triangles there, so that none is
+    lost between them, left or right; but hits of surface that faces the same way
+    count once. Upright triangles are met by no ray.
 
     Parameters
     ----------
@@ -43,37 +48,42 @@ def vertical_hits(mesh: TriangleMesh, *, corner: Floats, pitch: float) -> tuple[
     flat = (mesh.vertices[:, :2] - corner) / pitch - 0.5
     corners = flat.take(mesh.faces, axis=0)
     doubled = _cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    triangles = np.flatnonzero(doubled)
-    row, point = _lattice_points(corners.take(triangles, axis=0))
-    face = triangles[row]
-    # the twice areas of the triangles that the point makes with the sides, as shares: barycentric
-    sides = [_cross(corners[face, i - 2] - point, corners[face, i - 1] - point) for i in range(3)]
-    inside = np.ones(len(face), dtype=bool)
-    for i, side in enumerate(sides):
-        inside &= _on_left(side, corners[face, i - 1] - corners[face, i - 2], doubled[face])
-    face, weight = face[inside], np.stack([side[inside] for side in sides], axis=1)
-    weight /= doubled[face, None]
+    reach = np.maximum(np.ptp(corners[:, :, 0], axis=1), np.ptp(corners[:, :, 1], axis=1))
+    triangles = np.flatnonzero(np.abs(doubled) > _MARGIN * reach)
+    row, place = _lattice_points(corners.take(triangles, axis=0))
+    weight, least = _weights(corners.take(triangles, axis=0), row, place)
+    met = least >= -_NEAR
+    face, place, weight, on_edge = triangles[row[met]], place[met], weight[met], least[met] <= _NEAR
     points = np.einsum("ki,kij->kj", weight, mesh.vertices[mesh.faces[face]])
     uvs = np.einsum("ki,kij->kj", weight, mesh.uvs[face])
-    return face, points, uvs
+    once = ~_repeated(place, points[:, 2] / pitch, doubled[face] > 0, on_edge)
+    return face[once], points[once], uvs[once]
 
 
-def _on_left(side: Floats, along: Floats, doubled: Floats) -> Mask:
-    """Return whether points lie on the inner side of a side of their triangles.
+def _weights(corners: Floats, row: Ints, place: Floats) -> tuple[Floats, Floats]:
+    """Return the barycentric coordinates of points in triangles, and how far inside their sides they lie."""
+    doubled = _cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[row]
+    weight = np.empty((len(row), 3))
+    least = np.full(len(row), np.inf)
+    for i in range(3):
+        start, end = corners[row, i - 2], corners[row, i - 1]
+        # the twice areas of the triangles that the point makes with the sides
+        side = _cross(start - place, end - place)
+        weight[:, i] = side / doubled
+        along = end - start
+        least = np.minimum(least, side * np.sign(doubled) / np.hypot(along[:, 0], along[:, 1]))
+    return weight, least
 
-    Parameters
-    ----------
-    side : (k,) float64 array
-        Twice the signed area that the point makes with the side.
-    along : (k, 2) float64 array
-        From the start of the side to its end.
-    doubled : (k,) float64 array
-        Twice the signed area of the triangle.
-    """
-    # a point on the line is moved by an infinitesimal along x, and by its square along y
-    moved = np.where(along[:, 1] != 0, -along[:, 1], along[:, 0])
-    left: Mask = np.where(side != 0, side, moved) * np.sign(doubled) > 0
-    return left
+
+def _repeated(place: Floats, height: Floats, upwards: Mask, on_edge: Mask) -> Mask:
+    """Return the hits on edges that repeat another one of the same ray, height and way of facing."""
+    rows = np.flatnonzero(on_edge)
+    rows = rows[np.lexsort((height[rows], upwards[rows], place[rows, 0], place[rows, 1]))]
+    before, after = rows[:-1], rows[1:]
+    same = (place[before] == place[after]).all(axis=1) & (upwards[before] == upwards[after])
+    repeated = np.zeros(len(place), dtype=bool)
+    repeated[after] = same & (height[after] - height[before] <= _SAME)
+    return repeated
 
 
 def _lattice_points(corners: Floats) -> tuple[Ints, Floats]:

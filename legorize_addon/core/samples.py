@@ -1,8 +1,9 @@
 """The surface as samples: where, facing which way, how much of it, in which colour.
 
-Pieces of trajectories stand for the upright surface, vertical rays for the level
-one. Their areas are the surface's projections on upright and level planes, so
-that together they weigh every slope fairly.
+Pieces of trajectories stand for the upright part of the surface, vertical rays
+for the level part. On a slope, of unit normal n, the pieces see the share
+|n_xy| of the area and the rays the share |n_z|; weighted by the same shares
+again they add up to the area itself.
 """
 
 from __future__ import annotations
@@ -94,13 +95,14 @@ def trajectory_samples(
     real = np.flatnonzero(face >= 0)
     face, slice_ = face[real], level[pieces.edge[real]]
     z = (heights[slice_] - grid.origin[2]) / BRICK
+    upright = np.sqrt(1 - level_shares(mesh) ** 2)[face]
     thickness = BRICK / np.bincount(layer, minlength=grid.n_layers)[layer[slice_]]
     return SurfaceSamples(
         place=np.column_stack([z, pieces.middle[real][:, ::-1]]),
         along=np.column_stack([np.zeros(len(real)), pieces.along[real][:, ::-1]]),
         cell=np.column_stack([layer[slice_].astype(np.int64), pieces.cell[real][:, ::-1]]),
         normal=face_normals(mesh)[face],
-        area=pieces.length[real] * thickness,
+        area=pieces.length[real] * thickness * upright,
         colour=trajectories.colour[pieces.edge[real]],
     )
 
@@ -127,7 +129,7 @@ def horizontal_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid) 
         along=np.zeros_like(place),
         cell=cell,
         normal=face_normals(mesh)[face],
-        area=np.full(len(face), pitch * pitch),
+        area=pitch * pitch * level_shares(mesh)[face],
         colour=surface.at(mesh.face_image[face], uvs),
     )
 
@@ -137,6 +139,15 @@ def surface_area(samples: SurfaceSamples, shape: tuple[int, int, int]) -> Floats
     cell = np.ravel_multi_index(tuple(samples.cell.T), shape)
     area: Floats = np.bincount(cell, samples.area, int(np.prod(shape))).reshape(shape)
     return area
+
+
+def level_shares(mesh: TriangleMesh) -> Floats:
+    """Return |n_z| of the unit normals, 1 for level faces and 0 for upright or empty ones, (n_f,)."""
+    corners = mesh.vertices[mesh.faces]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1)
+    share: Floats = np.minimum(np.abs(normal[:, 2]) / np.maximum(length, np.finfo(float).tiny), 1)
+    return share
 
 
 def face_normals(mesh: TriangleMesh) -> Floats:

@@ -17,12 +17,24 @@ from .samples import SurfaceSamples
 _LEAST_AREA: Final = 12.0
 """Surface in mm^2, of both sides together, for which a brick is added."""
 
-_CORNERS: Final = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, 8).T
+_GAP_AREA: Final = 32.0
+"""Surface in mm^2 for which a gap between two bricks is filled: half of a cell's side."""
+
 _AROUND: Final = np.array([step for step in np.ndindex(3, 3, 3) if step != (1, 1, 1)]) - 1
+_CUBE: Final = np.array(list(np.ndindex(2, 2, 2)))
+_SQUARE: Final = _CUBE[:4]
+_COLUMN: Final = _CUBE[[0, 4]]
+_LINES: Final = (_COLUMN, _CUBE[[0, 2]], _CUBE[[0, 1]])
+"""The cells on both sides of a place along each axis."""
 
 
 def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
     """Return cells to add so that no surface is lost.
+
+    Surface is kept by a brick of its own layer within half a stud, by one above
+    or below within half a layer where it is level, and by the thick parts of the
+    model within half a cell in any direction. So walls stand on themselves,
+    layer by layer, while the edges of a massive body get nothing added.
 
     Parameters
     ----------
@@ -34,26 +46,78 @@ def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
     (n_layers, n_y, n_x) bool array
     """
     known = solid.copy()
-    lost = np.arange(len(samples.area))
+    level = np.abs(samples.normal[:, 0]) > np.abs(samples.normal[:, 1:]).max(axis=1)
+    lost = np.flatnonzero(~_near(samples.place, _thick(solid), _CUBE))
     while True:
-        lost = lost[~_near(samples.place[lost], known)]
+        lost = lost[~_kept(samples.place[lost], level[lost], known)]
         cell, area = _lost_area(samples.cell[lost], samples.area[lost], known.shape)
         enough = area >= _LEAST_AREA
         if not enough.any():
-            return known & ~solid
-        best = _local_maxima(cell[enough], area[enough], known.shape)
-        known.ravel()[best] = True
+            break
+        known.ravel()[_local_maxima(cell[enough], area[enough], known.shape)] = True
+    _fill_gaps(samples, known)
+    return known & ~solid
 
 
-def _near(place: Floats, known: Mask) -> Mask:
-    """Return whether each place lies in a known cell or within half a cell of one."""
+def _thick(solid: Mask) -> Mask:
+    """Return the cells that lie in a full cube of eight."""
+    cubes = np.ones(tuple(n - 1 for n in solid.shape), dtype=bool)
+    corners = [tuple(slice(c, n - 1 + c) for c, n in zip(corner, solid.shape, strict=True)) for corner in _CUBE]
+    for corner in corners:
+        cubes &= solid[corner]
+    thick = np.zeros_like(solid)
+    for corner in corners:
+        thick[corner] |= cubes
+    return thick
+
+
+def _kept(place: Floats, level: Mask, known: Mask) -> Mask:
+    """Return the places that bricks of their own layer, or for level surface those above or below, stand for."""
+    middle = np.floor(place) + 0.5
+    kept = _near(np.column_stack([middle[:, 0], place[:, 1:]]), known, _SQUARE)
+    kept[level] |= _near(np.column_stack([place[level, 0], middle[level, 1:]]), known, _COLUMN)
+    return kept
+
+
+def _near(place: Floats, known: Mask, steps: Ints) -> Mask:
+    """Return whether a known cell is among those at some steps from each place, half a cell back.
+
+    With the steps of a cube: whether one lies within half a cell. A coordinate in
+    the middle of a cell with no step along it looks at that cell alone.
+    """
     padded = np.pad(known, 1)
     base = np.clip(np.floor(place - 0.5).astype(np.int64) + 1, 0, np.array(padded.shape) - 2)
     flat = base @ np.array(padded.strides)
     near = np.zeros(len(place), dtype=bool)
-    for step in _CORNERS @ np.array(padded.strides):
+    for step in steps @ np.array(padded.strides):
         near |= padded.ravel()[flat + step]
     return near
+
+
+def _fill_gaps(samples: SurfaceSamples, known: Mask) -> None:
+    """Fill cells between two known ones that hold much surface which no brick before or behind it stands for.
+
+    The bricks beside a gap of one cell are near to all the surface in it, each to
+    a half, and would leave a hole in a wall.
+    """
+    axis = np.argmax(np.abs(samples.normal), axis=1)
+    middle = np.floor(samples.place) + 0.5
+    for each, steps in enumerate(_LINES):
+        facing = axis == each
+        across = middle[facing]
+        across[:, each] = samples.place[facing, each]
+        lost = np.flatnonzero(facing)[~_near(across, known, steps)]
+        cell, area = _lost_area(samples.cell[lost], samples.area[lost], known.shape)
+        for other in {0, 1, 2} - {each}:
+            known.ravel()[cell[(area >= _GAP_AREA) & _between(known, other).ravel()[cell]]] = True
+
+
+def _between(known: Mask, axis: int) -> Mask:
+    """Return the cells whose two neighbours along an axis are known."""
+    beside = np.zeros_like(known)
+    moved = np.moveaxis(known, axis, 0)
+    np.moveaxis(beside, axis, 0)[1:-1] = moved[:-2] & moved[2:]
+    return beside
 
 
 def _lost_area(cell: Ints, area: Floats, shape: tuple[int, ...]) -> tuple[Ints, Floats]:

@@ -24,6 +24,7 @@ from .cell_colours import likeliest_colours
 from .colours import SurfaceColours
 from .coverage import covered, cut_at_grid
 from .eight_neighbours import longest_colours
+from .exposure import air_around
 from .grid import Grid
 from .mesh import TriangleMesh
 from .model import COLOUR_ANY, COLOUR_EMPTY, Cover, Floats, Mask, Role, UnitGrid
@@ -48,6 +49,7 @@ def unit_bricks(
     longest: bool,
     one_surface: bool,
     catalogue: Catalogue,
+    closed: bool = True,
 ) -> UnitGrid:
     """Turn trajectories into unit bricks.
 
@@ -69,6 +71,10 @@ def unit_bricks(
     one_surface : bool
         Whether the mesh is a single closed surface, all of which can be seen.
     catalogue : Catalogue
+    closed : bool, optional
+        Whether the mesh is watertight. Into an open one the air is let in, by
+        every opening of a stud or more that does not face the ground: a vehicle
+        whose windows are open stays hollow.
 
     Returns
     -------
@@ -82,6 +88,8 @@ def unit_bricks(
     samples = trajectory_samples(mesh, trajectories, pieces, level, layer, heights, grid).joined(
         horizontal_samples(mesh, surface, grid)
     )
+    if not closed:
+        solid &= ~air_around(samples, grid.shape, on_ground=True).fills(grid.shape)
     if keep_thin:
         solid |= thin_cells(samples, solid)
         solid |= bridging_cells(solid, surface_area(samples, grid.shape))

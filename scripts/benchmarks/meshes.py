@@ -165,16 +165,17 @@ def _uvs(body: trimesh.Trimesh) -> Floats:
 
 def _image(body: trimesh.Trimesh, *, linear_factor: bool) -> Bytes:
     """Return the image of a body, times the colour factor of its material, rows from the bottom."""
-    if body.visual.kind in ("vertex", "face"):
+    visual: Any = body.visual
+    if visual.kind in ("vertex", "face"):
         raise MeshError("A mesh coloured by its vertices or faces cannot be measured: give it a material or an image.")
-    if body.visual.kind is None:
+    if visual.kind is None:
         return np.full((1, 1, 3), _GREY, dtype=np.uint8)
-    material = body.visual.material
+    material = visual.material
     factor = _factor(material)
     if not linear_factor:
         factor = _linear(factor)
     image = getattr(material, "baseColorTexture", getattr(material, "image", None))
-    if image is None or body.visual.uv is None:
+    if image is None or visual.uv is None:
         return _bytes(factor).reshape(1, 1, 3)
     # light is multiplied, not bytes
     table = _bytes(_linear(np.arange(256) / 255)[:, None] * factor)

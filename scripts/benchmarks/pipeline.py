@@ -55,7 +55,7 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int], repeats: int) -> li
             builds = (legorize(mesh, Settings(width=width)) for _ in range(repeats))
             build = min(builds, key=lambda each: sum(each.timings.values()))
             yardstick = _voxels(build.mesh)
-            start = {"model": path.stem, "studs": width}
+            start: Row = {"model": path.stem, "studs": width}
             times.append(start | _times(build, len(mesh.faces), width, yardstick))
             results.append(start | _results(build, load_catalogue()))
     allowed = ", ".join(f"{limit:g} s at {width} studs" for width, limit in LIMITS.items())

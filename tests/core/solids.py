@@ -1,4 +1,4 @@
-"""Small meshes with known properties, and measures of meshes, for the tests of repairing."""
+"""Small meshes with known properties, and measures of meshes."""
 
 from __future__ import annotations
 
@@ -86,6 +86,31 @@ def moebius(n=24) -> TriangleMesh:
     lower_next, upper_next = np.append(lower[1:], upper[0]), np.append(upper[1:], lower[0])
     faces = [np.column_stack([lower, lower_next, upper]), np.column_stack([lower_next, upper_next, upper])]
     return mesh_of(vertices.reshape(-1, 3), np.concatenate(faces))
+
+
+def tube(outer=40.0, inner=30.0, height=48.0, n=64, centre=(0, 0, 0)) -> TriangleMesh:
+    """Make an upright pipe of n sides."""
+    turn = np.arange(n) * 2 * np.pi / n
+    ring = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    vertices = np.concatenate([np.insert(r * ring, 2, z, axis=1) for r in (outer, inner) for z in (0, height)])
+    here, after = np.arange(n), (np.arange(n) + 1) % n
+    # outside up, over the rim, inside down, and back below
+    rings = np.array([0, n, 3 * n, 2 * n])
+    sides = [(low + here, low + after, high + after, high + here) for low, high in zip(rings, np.roll(rings, -1))]
+    faces = [np.column_stack(corners) for a, b, c, d in sides for corners in ((a, b, c), (a, c, d))]
+    return mesh_of(np.add(vertices, centre), np.concatenate(faces))
+
+
+def walls(*paths, height=10.0) -> TriangleMesh:
+    """Make an upright wall along every path of points (x, y); it begins and ends where its path does."""
+    return joined(*(_wall(np.asarray(path, dtype=np.float64), height) for path in paths))
+
+
+def _wall(path, height) -> TriangleMesh:
+    vertices = np.concatenate([np.insert(path, 2, z, axis=1) for z in (0, height)])
+    a, up = np.arange(len(path) - 1), len(path)
+    faces = [np.column_stack([a, a + 1, a + 1 + up]), np.column_stack([a, a + 1 + up, a + up])]
+    return mesh_of(vertices, np.concatenate(faces))
 
 
 def volume(mesh: TriangleMesh) -> float:

@@ -102,6 +102,7 @@ def exchange(
         return chosen
     made = _independent(moves, gain, len(chosen), rng)
     cut = made[moves.of_cut]
+    # made moves cut different bricks, so all of their rests can be laid
     staying = np.ones(len(chosen), dtype=bool)
     staying[moves.brick[cut]] = False
     laid = rests.row[cut]
@@ -178,6 +179,7 @@ class _Rests:
         cell = problem.placements.cells[problem.placements.entries(cut_rows)]
         of_cell = np.repeat(np.arange(len(cut_rows)), problem.placements.size[cut_rows])
         n_cells = len(problem.must)
+        # a cell of a cut brick is left if the move that cuts it does not take it
         taken = np.sort(moves.of_cell * n_cells + moves.cell)
         wanted = moves.of_cut[of_cell] * n_cells + cell
         left = taken[np.minimum(np.searchsorted(taken, wanted), len(taken) - 1)] != wanted

@@ -69,6 +69,7 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
     chosen = [live.rows[:0]]
     while len(live.rows):
         score = live.totals(_prices(live, problem.must, price_of_best)[live.cells]) + merit[live.rows]
+        # the tie makes all keys different: on every cell there is one winner
         won = live.winners(score * n_ties + tie[live.rows], len(covered))
         chosen.append(live.rows[won])
         covered[live.cells[np.repeat(won, live.size)]] = True
@@ -138,6 +139,7 @@ def _neighbourly(live: _Live, must: Mask) -> Amounts:
     The reward of the cell and the punishment of its neighbours cancel out in a
     placement that covers them all.
     """
+    # two cells are neighbours if the brick of two cells still fits there
     pairs = live.cells[np.repeat(live.size == 2, live.size)].reshape(-1, 2)
     one, other = np.concatenate([pairs, pairs[:, ::-1]]).T
     n_neighbours = np.bincount(one, minlength=len(must))

@@ -83,6 +83,7 @@ def lay(
         progress("layout", float(np.mean(slab_of_layer < slab)))
         for sheets, among in work:
             inside = slab_of_layer[sheets.level // PLATES_PER_BRICK] == slab
+            # sheets of one half do not touch: they are laid at once
             odd = sheets.level // sheets.height % 2 == 1
             for half in (inside & ~odd, inside & odd):
                 if half.any():
@@ -98,6 +99,7 @@ def _laid(sheets: Sheets, among: Shapes, owner: Rows, must: Mask, rng: np.random
     _check_covered(sheets, problem.must & (covering == NOBODY))
     here = np.full(sheets.colour.shape, NOBODY, dtype=np.int32)
     here.reshape(-1)[sheets.cells] = covering
+    # bricks and plates of a layer share its planes
     for plate in range(1, sheets.height + 1):
         planes = owner[sheets.level + plate]
         owner[sheets.level + plate] = np.where(sheets.colour == COLOUR_EMPTY, planes, here)

@@ -162,10 +162,12 @@ def placements(sheets: Sheets, among: Shapes) -> Placements:
     shape = np.repeat(np.arange(len(found), dtype=np.uint8), [len(places) for places, _ in found])
     place = np.concatenate([places for places, _ in found])
     colour = np.concatenate([colours for _, colours in found])
+    # sixteen bits: numpy then sorts by radix, in linear time
     order = np.argsort((place // planes.extent).astype(np.uint16), kind="stable")
     shape, place, colour = shape[order], place[order], colour[order]
     code = np.where(colour < 0, among.hidden[shape], np.append(among.codes, np.int16(COLOUR_ANY))[colour])
     cells, start = planes.covered(shape, place, among)
+    # the padding lies on the far sides, so places count from the corner of the sheet
     sheet, within = np.divmod(place, planes.extent)
     y, x = np.divmod(within, planes.stride)
     corner = np.stack([x, y, sheet], axis=1).astype(np.int32)
@@ -227,6 +229,7 @@ class _Planes:
             for plane, merge in ((self.least, np.minimum), (self.most, np.maximum), (self.must, np.maximum))
         )
         places = np.flatnonzero((least >= most) & (must > 0))
+        # all colours under the shape agree: this is the one, or -1, the last column
         colours = most[places]
         exists = made[colours]
         return places[exists], colours[exists]

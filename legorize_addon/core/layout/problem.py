@@ -21,7 +21,7 @@ GROUND: Final = NOBODY - 1
 
 _SINGLE: Final = 1.0
 _HANGING: Final = 2.0
-_BRIDGE: Final = 0.06
+_BRIDGE: Final = 0.12
 _OPTIONAL: Final = 0.004
 """What a placement costs besides itself, in bricks: being a 1 x 1; having nothing
 below and nothing above; each seam of the layers below and above that it lies
@@ -107,6 +107,7 @@ def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Ma
     """
     cells = sheets.cells
     needed = sheets.must.reshape(-1)[cells]
+    # bricks that lie there already, and cells that will be built
     around = np.stack([sheets.level, sheets.level + sheets.height + 1])
     held = ((owner[around] != NOBODY) | must[around]).any(axis=0).reshape(-1)[cells]
     cost = (

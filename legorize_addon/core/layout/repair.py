@@ -1,10 +1,10 @@
-"""Hold loose bricks: join components that float to the rest by exchanging bricks.
+"""Hold loose bricks: join components to the main one by exchanging bricks.
 
 Bricks lie in columns of cells: whatever is stacked is connected. So two
 components can be joined only by a brick across columns of both. Such bricks are
-offered to :func:`~.exchange.exchange` with a reward, in all sheets that a
-floating component reaches; free cells of the second row, under a wide roof or
-over a wide floor, count as part of the columns that end there.
+offered to :func:`~.exchange.exchange` with a reward, in all sheets that a loose
+component reaches; free cells of the second row, under a wide roof or over a
+wide floor, count as part of the columns that end there.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _ROUNDS: Final = 8
 """Most rounds of joining; each joins neighbours of neighbours."""
 
 _PROGRESS: Final = 0.95
-"""Share of the floating bricks that a round may leave for another one of its kind to follow."""
+"""Share of the loose bricks that a round may leave for another one of its kind to follow."""
 
 _PATCH: Final = 2.5
 """What to reckon, in bricks, for the rest of a cut brick that needs several. Such
@@ -42,11 +42,11 @@ moves may leave loose bricks themselves, so they are tried when nothing else hel
 _JOIN: Final = 3.5
 """What it is worth to join two components, in bricks."""
 
-_OFFERS: Final = 2
-"""Placements tried in a round, for each brick of the model."""
+_OFFERS: Final = (4096, 2)
+"""Most placements tried in a round: so many, or so many for each brick of the model."""
 
 _REACH: Final = 8
-"""Studs around a floating component in which bricks may change."""
+"""Studs around a loose component in which bricks may change."""
 
 
 def connect_loose(
@@ -57,7 +57,7 @@ def connect_loose(
     rng: np.random.Generator,
     progress: Progress,
 ) -> Bricks:
-    """Join what floats to what stands, as far as a few rounds of exchanges can.
+    """Join what is loose to the rest, as far as a few rounds of exchanges can.
 
     Parameters
     ----------
@@ -77,18 +77,18 @@ def connect_loose(
     Returns
     -------
     Bricks
-        Covers the same must cells with no more floating bricks than before.
+        Covers the same must cells, with no more loose and no more floating
+        bricks than before.
     """
     links = connect(bricks, catalogue)
-    if not links.n_floating:
+    if links.n_components <= 1:
         return bricks
     must, island = with_margins(grid.cover == Cover.MUST, False), _islands(with_margins(grid.colour, COLOUR_EMPTY))
-    patch = np.inf
+    cells, patch = _Cells.of(links, must, island), np.inf
     for number in range(_ROUNDS):
-        progress("connection", number / _ROUNDS)
-        cells = _Cells.of(bricks, links, must, island)
-        if not (cells.label > 0).any():
+        if not cells.n_loose:
             break
+        progress("connection", number / _ROUNDS)
         tried = gathered(
             [
                 _joined(bricks.take(np.isin(bricks.part, among.part)), sheets, among, cells, patch, rng)
@@ -96,9 +96,10 @@ def connect_loose(
             ]
         )
         tried_links = connect(tried, catalogue)
-        before, after = links.n_floating, tried_links.n_floating
-        if after < before:
-            bricks, links = tried, tried_links
+        tried_cells = _Cells.of(tried_links, must, island)
+        before, after = cells.n_loose, tried_cells.n_loose
+        if after < before and tried_links.n_floating <= links.n_floating:
+            bricks, links, cells = tried, tried_links, tried_cells
         if after < _PROGRESS * before:
             patch = np.inf
         elif patch == np.inf:
@@ -148,57 +149,72 @@ class _Cells:
     owner : int32 array
         Row of the brick, ``NOBODY`` or ``GROUND``.
     label : int32 array
-        0 in the ground and where a brick stands, a number for each floating
-        component that could be joined to it, -1 elsewhere.
+        0 in the main component of each island, a number for each loose
+        component, -1 where there is no brick.
     must : bool array
         Cells that have to be covered.
+    n_loose : int
+        Bricks in loose components.
     """
 
     owner: Rows
     label: Rows
     must: Mask
+    n_loose: int
 
     @classmethod
-    def of(cls, bricks: Bricks, links: Connection, must: Mask, island: Rows) -> _Cells:
+    def of(cls, links: Connection, must: Mask, island: Rows) -> _Cells:
         """Label the cells of a model, given the islands that it consists of."""
         n_z, n_y, n_x = links.owner.shape
         owner = np.full(must.shape, NOBODY, dtype=np.int32)
         owner[1 : n_z + 1, :n_y, :n_x] = links.owner
-        label = np.append(np.where(links.grounded, 0, links.component + 1), -1).astype(np.int32)[owner]
-        label[(label > 0) & ~np.isin(island, np.unique(island[label == 0]))] = -1
-        ground = slice(bricks.corner[:, 2].min() + 1)
-        owner[ground], label[ground] = GROUND, 0
-        return cls(owner, label, must)
+        built = owner != NOBODY
+        home = np.zeros(len(links.component), dtype=np.int32)
+        home[owner[built]] = island[built]
+        loose = _loose(links, home)
+        label = np.append(np.where(loose, links.component + 1, 0), -1).astype(np.int32)[owner]
+        owner[: built.any(axis=(1, 2)).argmax()] = GROUND
+        return cls(owner, label, must, int(np.count_nonzero(loose)))
+
+
+def _loose(links: Connection, island: Rows) -> Mask:
+    """Tell which bricks are not in the main component of their island: the largest one, on the ground if any is."""
+    component, first, size = np.unique(links.component, return_index=True, return_counts=True)
+    order = np.lexsort((size, links.grounded[first], island[first]))
+    main = np.append(np.diff(island[first][order]) > 0, True)
+    return ~np.isin(links.component, component[order[main]])
 
 
 def _joined(
     bricks: Bricks, sheets: Sheets, among: Shapes, cells: _Cells, patch: float, rng: np.random.Generator
 ) -> Bricks:
-    """Offer joining bricks once, in the sheets of one height that a floating component reaches."""
+    """Offer joining bricks once, in the sheets of one height that a loose component reaches."""
     labels = np.stack([cells.label[sheets.level + plate] for plate in (0, sheets.height + 1, 1)])
-    floating = (labels > 0).any(axis=0) & (sheets.colour != COLOUR_EMPTY)
-    reached = floating.any(axis=(1, 2))
+    loose = (labels > 0).any(axis=0) & (sheets.colour != COLOUR_EMPTY)
+    reached = loose.any(axis=(1, 2))
     if not reached.any():
         return bricks
-    sheets, labels, floating = sheets.take(reached), labels[:, reached], floating[reached]
-    near = maximum_filter(floating, size=(1, 2 * _REACH + 1, 2 * _REACH + 1))
-    worthwhile = sheets.must | (cells.owner[sheets.level + 1] > NOBODY) | floating
+    sheets, labels, loose = sheets.take(reached), labels[:, reached], loose[reached]
+    near = maximum_filter(loose, size=(1, 2 * _REACH + 1, 2 * _REACH + 1))
+    worthwhile = sheets.must | (cells.owner[sheets.level + 1] > NOBODY) | loose
     found = placements(replace(sheets, must=near & worthwhile), among)
     problem = pose(sheets, among, found, cells.owner, cells.must)
     at = labels.reshape(3, -1)[:, sheets.cells]
+    # what touches nothing above or below would be loose itself
     alone = found.totals(at[:2].max(axis=0) >= 0) == 0
     problem = replace(problem, cost=problem.cost + _JOIN * alone)
     here = np.flatnonzero(np.isin(bricks.corner[:, 2], sheets.level))
     corner = bricks.corner[here]
     corner[:, 2] = np.searchsorted(sheets.level, corner[:, 2])
+    # bricks out of reach are not found and stay as they are
     row = found.find(among.rows_of(bricks.part[here], bricks.turn[here]), corner)
-    offered, reward = _offers(found, at, _OFFERS * len(bricks), rng)
+    offered, reward = _offers(found, at, max(_OFFERS[0], _OFFERS[1] * len(bricks)), rng)
     chosen = exchange(problem, row[row >= 0], offered, rng, reward=reward, patch=patch)
     return gathered([bricks.take(np.delete(np.arange(len(bricks)), here[row >= 0])), bricks_of(problem, chosen)])
 
 
 def _offers(found: Placements, labels: Rows, most: int, rng: np.random.Generator) -> tuple[Index, Floats]:
-    """Choose placements that could hold floating components.
+    """Choose placements that could hold loose components.
 
     Parameters
     ----------
@@ -214,7 +230,7 @@ def _offers(found: Placements, labels: Rows, most: int, rng: np.random.Generator
     Returns
     -------
     row : (n_moves,) intp array
-        Placements through or next to floating components.
+        Placements through or next to loose components.
     reward : (n_moves,) float64 array
         What the components that each joins are worth.
     """

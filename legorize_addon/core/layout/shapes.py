@@ -99,6 +99,7 @@ def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shap
     part = np.array([row for row, _ in oriented], dtype=np.int16)
     codes = np.unique(codes)
     made = catalogue.exists_in(part[:, None], codes)
+    # argmax finds the first colour in which a part is made
     anywhere = catalogue.exists[part]
     in_filler = catalogue.exists_in(part, filler)
     return Shapes(

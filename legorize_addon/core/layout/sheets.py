@@ -76,6 +76,7 @@ def split(grid: UnitGrid) -> list[Sheets]:
     """
     top = grid.colour.max(axis=1)
     bottom = np.where(grid.colour == COLOUR_ANY, np.iinfo(np.int16).max, grid.colour).min(axis=1)
+    # free colours are -1 at the top and the greatest at the bottom: they never disagree
     brick = grid.solid.all(axis=1) & (bottom >= top)
     must = grid.cover == Cover.MUST
     level = np.arange(len(brick) * PLATES_PER_BRICK, dtype=np.int32)

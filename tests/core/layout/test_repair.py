@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -10,6 +12,7 @@ from legorize_addon.core.connection import connect
 from legorize_addon.core.layout.repair import connect_loose
 from legorize_addon.core.layout.shapes import shapes
 from legorize_addon.core.layout.sheets import split
+from legorize_addon.core.layout.table import gathered
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Bricks, Cover
 from legorize_addon.core.progress import silent
 
@@ -55,14 +58,19 @@ def test_a_wide_roof_is_tied_from_below():
     """Bricks of a roof that touch nothing are held by bricks in the optional layer below them."""
     colour = np.full((3, 6, 24), COLOUR_EMPTY)
     cover = np.full(colour.shape, Cover.EMPTY)
-    colour[:, :, 0], cover[:, :, 0] = COLOUR_ANY, Cover.MUST
-    colour[2], cover[2] = RED, Cover.MUST
+    colour[:2, :, 0], cover[:2, :, 0] = RED, Cover.MUST
     colour[1, :, 1:], cover[1, :, 1:] = COLOUR_ANY, Cover.MAY
+    walls = singles(brick_grid(colour, cover))
+    colour[2], cover[2] = RED, Cover.MUST
+    corner = [[x, y, 6] for x in range(0, 24, 4) for y in range(0, 6, 2)]
+    roof = walls.take(np.zeros(len(corner), np.intp))
+    part = np.full(len(corner), CATALOGUE.part_row("3001"), np.int16)
+    before = gathered([walls, replace(roof, part=part, corner=np.array(corner, np.int32))])
     grid = brick_grid(colour, cover)
-    before = singles(grid)
-    after = held(before, grid)
-    assert connect(before, CATALOGUE).n_floating == 6 * 23
-    assert assert_covers(after, grid).n_floating < 6
+    assert assert_covers(before, grid).n_floating == 15
+    after = assert_covers(held(before, grid), grid)
+    assert after.n_floating == 0
+    assert after.n_components < connect(before, CATALOGUE).n_components
 
 
 def test_what_cannot_be_joined_is_left_alone():
@@ -72,6 +80,14 @@ def test_what_cannot_be_joined_is_left_alone():
     grid = brick_grid(colour)
     before = singles(grid)
     assert held(before, grid) is before
+
+
+def test_bricks_on_the_ground_are_joined_too():
+    """Two bricks side by side on the ground, one component of cells, become one component of bricks."""
+    grid = brick_grid(np.full((2, 1, 4), RED))
+    before = singles(grid)
+    assert connect(before, CATALOGUE).n_components == 4
+    assert assert_covers(held(before, grid), grid).n_components == 1
 
 
 @given(st.integers(0, 2**32 - 1))
