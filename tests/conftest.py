@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import atexit
 import os
 import tempfile
 
@@ -13,5 +12,9 @@ settings.load_profile("repeatable")
 
 # read when bpy is imported, which no test module does before this file
 _resources = tempfile.TemporaryDirectory(prefix="legorize-tests-")
-atexit.register(_resources.cleanup)
 os.environ["BLENDER_USER_RESOURCES"] = _resources.name
+
+
+def pytest_unconfigure() -> None:
+    """Clear up here, since a run with Blender may end without the interpreter's own exit."""
+    _resources.cleanup()

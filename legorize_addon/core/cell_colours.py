@@ -15,6 +15,7 @@ from scipy.spatial import cKDTree
 
 from .catalogue import Catalogue
 from .colour_difference import ciede2000, lab_from_srgb
+from .colours import SurfaceColours
 from .exposure import nearest_faces, reached_by_air
 from .model import COLOUR_ANY, Floats, Ints, Mask
 from .samples import SurfaceSamples
@@ -24,7 +25,12 @@ Codes = NDArray[np.int16]
 
 
 def likeliest_colours(
-    samples: SurfaceSamples, solid: Mask, air: Mask, seen: Mask, catalogue: Catalogue, *, one_surface: bool
+    samples: SurfaceSamples,
+    solid: Mask,
+    air: Mask,
+    seen: Mask,
+    catalogue: Catalogue,
+    surface: SurfaceColours | None = None,
 ) -> Codes:
     """Return for every visible cell the colour most like all the surface on its outer faces.
 
@@ -39,21 +45,47 @@ def likeliest_colours(
     solid, air, seen : (n_layers, n_y, n_x) bool arrays
         Cells of the model, of the air around it, and those to colour.
     catalogue : Catalogue
-    one_surface : bool
-        Whether the mesh is a single closed surface, all of which can be seen.
+    surface : SurfaceColours, optional
+        The texels that the bricks' colours stand for, to compare with these
+        themselves.
 
     Returns
     -------
     (n_seen,) int16 array
         LDraw codes in the order of ``np.nonzero(seen)``.
     """
-    reached = 1.0 if one_surface else reached_by_air(samples, solid.shape)
+    reached = reached_by_air(samples, solid.shape)
     cell = nearest_faces(samples.place, solid, air)
     codes, votes = counted(cell, samples.colour, samples.area * reached, seen)
-    lab = lab_from_srgb(catalogue.rgb[[catalogue.colour_row(int(code)) for code in codes]])
-    difference = votes @ ciede2000(lab[:, None], lab[None])
+    difference = votes @ colour_differences(codes, catalogue, surface)
     # a colour that the cell does not have at all is never chosen
     return chosen(codes, votes, np.where(votes > 0, -difference, -np.inf), seen)
+
+
+def colour_differences(codes: Codes, catalogue: Catalogue, surface: SurfaceColours | None) -> Floats:
+    """Return how different what takes one brick colour looks from each brick colour.
+
+    Orange fur that has to become brown bricks may be nearer to red than brown
+    is, so texels are compared where they are known.
+
+    Parameters
+    ----------
+    codes : (k,) int16 array
+        LDraw codes, each that of a texel where there is a surface.
+    catalogue : Catalogue
+    surface : SurfaceColours or None
+        None compares the bricks with each other.
+
+    Returns
+    -------
+    (k, k) float64 array
+        CIEDE2000: row by what takes the code, column by the brick.
+    """
+    bricks = lab_from_srgb(catalogue.rgb[[catalogue.colour_row(int(code)) for code in codes]])
+    if surface is None or len(codes) == 0:
+        return ciede2000(bricks[:, None], bricks[None])
+    centres = ciede2000(lab_from_srgb(surface.centres)[:, None], bricks[None])
+    return np.stack([centres[surface.codes == code].mean(axis=0) for code in codes])
 
 
 def counted(cell: Ints, colour: Codes, weight: Floats, seen: Mask) -> tuple[Codes, Floats]:

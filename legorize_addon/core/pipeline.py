@@ -135,7 +135,6 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
             heights=slices.heights,
             keep_thin=settings.keep_thin,
             longest=settings.cell_colour == "longest",
-            one_surface=repairs.watertight and repairs.patches == 1,
             catalogue=catalogue,
             closed=repairs.watertight,
         )

@@ -47,7 +47,6 @@ def unit_bricks(
     heights: Floats,
     keep_thin: bool,
     longest: bool,
-    one_surface: bool,
     catalogue: Catalogue,
     closed: bool = True,
 ) -> UnitGrid:
@@ -68,8 +67,6 @@ def unit_bricks(
     longest : bool
         Colour by the greatest trajectory length, as the paper does, instead of
         by likeness to all the surface of a cell.
-    one_surface : bool
-        Whether the mesh is a single closed surface, all of which can be seen.
     catalogue : Catalogue
     closed : bool, optional
         Whether the mesh is watertight. Into an open one the air is let in, by
@@ -100,7 +97,7 @@ def unit_bricks(
     if longest:
         colour[seen] = longest_colours(trajectories, pieces, samples, solid, seen)
     else:
-        colour[seen] = likeliest_colours(samples, solid, air, seen, catalogue, one_surface=one_surface)
+        colour[seen] = likeliest_colours(samples, solid, air, seen, catalogue, surface)
     return _unit_grid(colour, grid.origin)
 
 

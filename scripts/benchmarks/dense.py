@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from legorize_addon.core.catalogue import Catalogue
+from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.cell_colours import chosen, counted, likeliest_colours
 from legorize_addon.core.colours import SurfaceColours
 from legorize_addon.core.coverage import Pieces
@@ -73,11 +73,9 @@ def _barycentric(count: int, rng: np.random.Generator) -> Floats:
     return np.stack([1 - root, root * (1 - b), root * b], axis=1)
 
 
-def dense_likeliest(
-    samples: SurfaceSamples, solid: Mask, seen: Mask, catalogue: Catalogue, *, one_surface: bool
-) -> Codes:
+def dense_likeliest(samples: SurfaceSamples, solid: Mask, seen: Mask, surface: SurfaceColours) -> Codes:
     """Return the colours by the default rule, (n_seen,)."""
-    return likeliest_colours(samples, solid, outer_air(solid), seen, catalogue, one_surface=one_surface)
+    return likeliest_colours(samples, solid, outer_air(solid), seen, load_catalogue(), surface)
 
 
 def dense_longest(

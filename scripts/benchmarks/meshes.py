@@ -50,11 +50,6 @@ class Model:
     surface: SurfaceColours
     repairs: Repairs
 
-    @property
-    def one_surface(self) -> bool:
-        """Whether the mesh is a single closed surface."""
-        return self.repairs.watertight and self.repairs.patches == 1
-
 
 def models_in(folder: Path) -> list[Path]:
     """Return the model files of a folder and its folders, by name."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.coverage import Pieces, covered_area, cut_at_grid
 from legorize_addon.core.grid import Grid, fit_grid
+from legorize_addon.core.model import COLOUR_EMPTY
 from legorize_addon.core.samples import SurfaceSamples, horizontal_samples, trajectory_samples
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.slicing import adaptive_heights, slice_mesh
@@ -68,8 +69,15 @@ class Cut:
             self.model.mesh, self.trajectories, self.pieces, level, self.layer, self.heights, self.frame
         )
 
-    def bricks(self, *, keep_thin: bool, longest: bool) -> Codes:
+    def bricks(self, *, longest: bool = False) -> Codes:
         """Return the colour of each unit brick, (n_layers, n_y, n_x)."""
+        return self._bricks(keep_thin=True, longest=longest, closed=self.model.repairs.watertight)
+
+    def half_covered(self) -> Mask:
+        """Return the cells that the half-area rule alone fills, nothing kept or aired beside it."""
+        return self._bricks(keep_thin=False, longest=True, closed=True) != COLOUR_EMPTY
+
+    def _bricks(self, *, keep_thin: bool, longest: bool, closed: bool) -> Codes:
         grid = unit_bricks(
             self.model.mesh,
             self.trajectories,
@@ -79,15 +87,10 @@ class Cut:
             heights=self.heights,
             keep_thin=keep_thin,
             longest=longest,
-            one_surface=self.model.one_surface,
+            closed=closed,
             catalogue=load_catalogue(),
         )
         return grid.colour[:, 0]
-
-    def solid(self, *, keep_thin: bool) -> Mask:
-        """Return the occupied cells, (n_layers, n_y, n_x)."""
-        occupied: Mask = self.bricks(keep_thin=keep_thin, longest=False) != -2
-        return occupied
 
 
 def measure(paths: Sequence[Path], *, width: int, triangles: Sequence[int], points: int, repeats: int) -> list[Table]:
@@ -146,7 +149,7 @@ def cut_for_grid(model: Model, settings: Settings) -> Cut:
 def _speed(model: Model, settings: Settings, repeats: int) -> Row:
     """Time unit bricks from the repaired mesh; Algorithm 1 on the images, which the reference lacks, stands beside."""
     ours, theirs = least_seconds(
-        lambda: cut_for_grid(model, settings).bricks(keep_thin=settings.keep_thin, longest=False),
+        lambda: cut_for_grid(model, settings).bricks(),
         partial(filled_voxels, as_trimesh(model.mesh), PLATE),
         repeats=repeats,
     )
@@ -167,9 +170,10 @@ def filled_voxels(mesh: trimesh.Trimesh, pitch: float) -> trimesh.voxel.VoxelGri
 
 
 def _occupancy(cut: Cut) -> Row:
-    """Count cells that differ from the half-area rule; what is added for thin surface is counted by itself."""
+    """Count cells that differ from the exact rule; what is kept or left out on purpose is counted by itself."""
     exact = exact_solid(cut)
-    solid = cut.solid(keep_thin=False)
+    solid = cut.half_covered()
+    built = cut.bricks() != COLOUR_EMPTY
     differing = int((solid != exact).sum())
     return {
         "model": cut.model.name,
@@ -180,7 +184,8 @@ def _occupancy(cut: Cut) -> Row:
         "share_of_grid": differing / exact.size,
         "share_of_model": differing / int(exact.sum()),
         "met": differing <= OCCUPANCY * int(exact.sum()),
-        "thin_cells_added": int((cut.solid(keep_thin=True) & ~solid).sum()),
+        "kept_though_thin": int((built & ~solid).sum()),
+        "left_to_the_air": int((solid & ~built).sum()),
     }
 
 
@@ -199,19 +204,19 @@ def exact_solid(cut: Cut) -> Mask:
 
 def _colours(cut: Cut, points: int) -> list[Row]:
     """Compare the colours of all visible cells, rule by rule."""
-    model, catalogue = cut.model, load_catalogue()
-    solid = cut.solid(keep_thin=True)
+    model = cut.model
+    solid = cut.bricks() != COLOUR_EMPTY
     seen = visible(solid, outer_air(solid))
     samples = dense_samples(model.mesh, model.surface, cut.frame, points)
     dense = {
-        "likeness": dense_likeliest(samples, solid, seen, catalogue, one_surface=model.one_surface),
+        "likeness": dense_likeliest(samples, solid, seen, model.surface),
         "longest": dense_longest(samples, cut.trajectories, cut.pieces, cut.passed, solid, seen),
     }
     return [_agreement(cut, rule, colours, seen) for rule, colours in dense.items()]
 
 
 def _agreement(cut: Cut, rule: str, dense: Codes, seen: Mask) -> Row:
-    equal = cut.bricks(keep_thin=True, longest=rule == "longest")[seen] == dense
+    equal = cut.bricks(longest=rule == "longest")[seen] == dense
     crossed = np.zeros(seen.shape, dtype=bool)
     crossed[tuple(cut.passed.cell.T)] = True
     on_trajectory = crossed[seen]
@@ -230,7 +235,7 @@ def _agreement(cut: Cut, rule: str, dense: Codes, seen: Mask) -> Row:
 def _points(model: Model, settings: Settings, deviation: float) -> Row:
     """Count the points that stand for the surface; the rays for level surface are counted by themselves."""
     cut = cut_for_grid(model, replace(settings, chord_deviation=deviation))
-    solid = cut.solid(keep_thin=False)
+    solid = cut.bricks() != COLOUR_EMPTY
     voxels = int(visible(solid, outer_air(solid)).sum())
     points, rays = len(cut.trajectories.points), len(horizontal_samples(model.mesh, model.surface, cut.frame).area)
     return {

@@ -96,7 +96,10 @@ def tube(outer=40.0, inner=30.0, height=48.0, n=64, centre=(0, 0, 0)) -> Triangl
     here, after = np.arange(n), (np.arange(n) + 1) % n
     # outside up, over the rim, inside down, and back below
     rings = np.array([0, n, 3 * n, 2 * n])
-    sides = [(low + here, low + after, high + after, high + here) for low, high in zip(rings, np.roll(rings, -1))]
+    sides = [
+        (low + here, low + after, high + after, high + here)
+        for low, high in zip(rings, np.roll(rings, -1), strict=True)
+    ]
     faces = [np.column_stack(corners) for a, b, c, d in sides for corners in ((a, b, c), (a, c, d))]
     return mesh_of(np.add(vertices, centre), np.concatenate(faces))
 

@@ -181,6 +181,7 @@ def test_brick_colours_stand_for_themselves():
     np.testing.assert_array_equal(brick_colours(catalogue.rgb, catalogue, palette=catalogue.codes), catalogue.codes)
 
 
+@settings(max_examples=40)
 @given(arrays(np.uint8, (5, 3)), st.booleans())
 def test_codes_come_from_the_palette(centres, one_to_one):
     """Any colours become codes of the palette, and different ones where that is asked for."""
@@ -192,6 +193,7 @@ def test_codes_come_from_the_palette(centres, one_to_one):
         assert len(set(codes.tolist())) == len(centres)
 
 
+@settings(max_examples=40)
 @given(arrays(np.uint8, (4, 3)))
 def test_nearest_brick_colour_by_ciede2000(centres):
     """Without black, the brick colour is the one that looks most alike."""

@@ -150,7 +150,9 @@ def test_longer_stretch_gives_its_colour(blue, code):
     """A brick whose stretch of wall is blue for more than half is blue, however much red there is on its top."""
     mesh = prism([[8, 8], [24, 8], [24 + blue, 8], [48, 8], [48, 40], [8, 40]])
     corners = mesh.vertices[mesh.faces]
-    stretch = (corners[..., 1].max(axis=1) == 8) & (np.abs(corners[..., 0] - 24 - blue / 2).max(axis=1) < blue / 2 + 1e-9)
+    stretch = (corners[..., 1].max(axis=1) == 8) & (
+        np.abs(corners[..., 0] - 24 - blue / 2).max(axis=1) < blue / 2 + 1e-9
+    )
     colour = cells(on_grid(painted(mesh, np.where(stretch, 1, 4)), 7, 6).bricks(longest=True))[0]
     assert colour[1, 3] == code
     assert set(colour[1, [1, 2, 4, 5]].tolist()) == {4}

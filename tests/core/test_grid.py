@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.coverage import covered_area
@@ -47,6 +47,7 @@ def first_layer(mesh: TriangleMesh, grid: Grid) -> np.ndarray:
     return area.mean(axis=0)
 
 
+@settings(max_examples=40)
 @given(st.tuples(sides, sides, sides), st.tuples(places, places, places), st.booleans())
 def test_grid_holds_the_mesh_with_a_free_rim(size, place, symmetric):
     """On every side at least one whole cell stays free; no layer is without the model."""
@@ -83,6 +84,7 @@ def test_size_follows_the_scale_factor(k):
     np.testing.assert_array_equal(np.diff(np.flatnonzero(half.any(axis=0))), 1)
 
 
+@settings(max_examples=40)
 @given(st.tuples(sides, sides), st.tuples(places, places))
 def test_symmetric_grid_has_the_middle_on_a_border_or_a_cell_centre(size, place):
     """The model's middle is the grid's; as many cells as the model is studs wide, even or odd."""
@@ -96,6 +98,7 @@ def test_symmetric_grid_has_the_middle_on_a_border_or_a_cell_centre(size, place)
     np.testing.assert_array_equal((np.array([grid.n_x, grid.n_y]) - np.round(wide))[clear] % 2, 0)
 
 
+@settings(max_examples=40)
 @given(st.tuples(st.floats(170, 500), sides))
 def test_literal_grid_starts_at_the_enlarged_rectangle(size):
     """Without symmetry cells begin at the corner of B; small models get one cell more in front of it."""
@@ -106,6 +109,7 @@ def test_literal_grid_starts_at_the_enlarged_rectangle(size):
     assert (corner[1] - grid.origin[1]) / STUD == pytest.approx(round((corner[1] - grid.origin[1]) / STUD), abs=1e-9)
 
 
+@settings(max_examples=40)
 @given(st.tuples(places, places, places), st.booleans())
 def test_grid_moves_with_the_mesh(way, symmetric):
     """Where the model stands in the world does not matter."""
@@ -156,6 +160,7 @@ def test_flat_undersides_stay_where_they_are(name):
     assert fit_grid(mesh, symmetric=True).origin[2] == pytest.approx(123.4)
 
 
+@settings(max_examples=40)
 @given(st.floats(1, 90), st.floats(1, 90), st.floats(20, 200))
 def test_at_most_one_brick_is_sunk(radius, width, height):
     """Whatever the underside, less than one brick is lost, in whole plates; all above stays in the grid."""

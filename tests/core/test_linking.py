@@ -65,7 +65,9 @@ def test_order_of_faces_does_not_matter():
     """Shuffled faces and corners give the same loops."""
     mesh = CLOSED["torus"]
     rng = np.random.default_rng(2)
-    faces = np.array([np.roll(face, turn) for face, turn in zip(mesh.faces, rng.integers(0, 3, len(mesh.faces)), strict=True)])
+    faces = np.array(
+        [np.roll(face, turn) for face, turn in zip(mesh.faces, rng.integers(0, 3, len(mesh.faces)), strict=True)]
+    )
     assert middle_loops(mesh_of(mesh.vertices, rng.permutation(faces))) == middle_loops(mesh)
 
 
@@ -130,7 +132,7 @@ def test_hole_in_a_wall_is_closed_straight():
     side = np.flatnonzero((cube.vertices[cube.faces][..., 0] == 10).all(axis=1))[0]
     outline = linked(cube.faces, slice_mesh(without(cube, side), np.array([4.0])))
     assert (outline.face < 0).sum() == 1
-    assert set(middle_loops(without(cube, side))[0]) == {point for point in middle_loops(cube)[0]}
+    assert set(middle_loops(without(cube, side))[0]) == set(middle_loops(cube)[0])
 
 
 @pytest.mark.parametrize(("gap", "together"), [(1.9, True), (7.9, True), (8.1, False)])

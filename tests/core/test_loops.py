@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -28,7 +30,7 @@ def cycles(following) -> list[list[int]]:
 def test_random_permutation_falls_into_its_cycles(following):
     """The order is that of a walk: cycle after cycle, each from its lowest element."""
     order, start = ordered_loops(np.array(following, dtype=np.int64))
-    found = [order[a:b].tolist() for a, b in zip(start[:-1], start[1:], strict=True)]
+    found = [order[a:b].tolist() for a, b in itertools.pairwise(start)]
     assert found == cycles(following)
     assert len(order) == len(following)
 

@@ -5,17 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.samples import SurfaceSamples, face_normals, inner_cells
+from legorize_addon.core.samples import SurfaceSamples, face_normals, inner_cells, surface_area
 from legorize_addon.core.units import BRICK, STUD
 from tests.core.solids import area, box, mesh_of, sphere, without
 from tests.core.textured import cells, cylinder, painted, split_at_x, stages
 
 
 def upright_and_level(mesh) -> tuple[float, float]:
-    """Return the exact area of a mesh as projected on upright and on level planes."""
+    """Return how much of a mesh's area is upright and how much level, each face shared by its normal squared."""
     corners = mesh.vertices[mesh.faces]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
-    return float(np.hypot(normal[:, 0], normal[:, 1]).sum()), float(np.abs(normal[:, 2]).sum())
+    size = np.linalg.norm(normal, axis=1)
+    return float(((normal[:, :2] ** 2).sum(axis=1) / size).sum()), float((normal[:, 2] ** 2 / size).sum())
 
 
 @pytest.mark.parametrize("cusp", [0.1, 9.6])
@@ -48,13 +49,27 @@ def test_ray_on_a_common_edge_hits_once():
     assert count.max() == 2
 
 
-def test_slope_of_a_ball_is_weighed_by_both_projections():
-    """Trajectories and rays together weigh a ball as its projections on upright and level planes do."""
-    mesh = sphere(24, 100.0)
+@pytest.mark.parametrize("stretch", [0.4, 1.0, 2.0])
+def test_slopes_weigh_their_area(stretch):
+    """Trajectories and rays together weigh a ball, flattened or stretched, by its area on every slope."""
+    ball = sphere(24, 100.0)
+    mesh = mesh_of(ball.vertices * [1, 1, stretch], ball.faces)
     built = stages(mesh, cusp=0.1)
     upright, level = upright_and_level(mesh)
+    assert upright + level == pytest.approx(area(mesh))
     assert built.steep().area.sum() == pytest.approx(upright, rel=0.01)
     assert built.level().area.sum() == pytest.approx(level, rel=0.01)
+
+
+def test_surface_of_a_cell_is_that_of_its_samples():
+    """The surface of all cells is that of all samples, and lies in the cells that they are in."""
+    built = stages(sphere(12, 40.0))
+    samples = built.steep().joined(built.level())
+    found = surface_area(samples, built.grid.shape)
+    assert found.shape == built.grid.shape
+    assert found.sum() == pytest.approx(samples.area.sum())
+    cell = samples.cell[samples.area.argmax()]
+    assert found[tuple(cell)] == pytest.approx(samples.area[(samples.cell == cell).all(axis=1)].sum())
 
 
 def test_samples_lie_on_the_surface_and_face_outwards():
@@ -110,7 +125,9 @@ def test_face_normals_point_along_the_box():
     axis = np.abs(middle).argmax(axis=1)
     rows = np.arange(len(normal))
     np.testing.assert_array_equal((normal != 0).sum(axis=1), 1)
-    np.testing.assert_allclose(normal[rows, axis], np.sign(middle[rows, axis]) * 100 / np.array([BRICK, STUD, STUD])[axis])
+    np.testing.assert_allclose(
+        normal[rows, axis], np.sign(middle[rows, axis]) * 100 / np.array([BRICK, STUD, STUD])[axis]
+    )
 
 
 def hand_made(cell, normal) -> SurfaceSamples:

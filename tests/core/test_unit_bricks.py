@@ -14,7 +14,19 @@ from legorize_addon.core.mesh import TriangleMesh, scaled
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Cover, Role
 from legorize_addon.core.unit_bricks import half_covered, outer_air, visible
 from tests.core.solids import box, joined, mesh_of, sphere, volume
-from tests.core.textured import blob, cells, cylinder, hollow_box, painted, rgb_of, split_at_x, stages, table, textured, torus
+from tests.core.textured import (
+    blob,
+    cells,
+    cylinder,
+    hollow_box,
+    painted,
+    rgb_of,
+    split_at_x,
+    stages,
+    table,
+    textured,
+    torus,
+)
 
 CELL = 8 * 8 * 9.6
 """Volume of a unit brick in mm^3."""

@@ -79,7 +79,9 @@ def torus(radius=48.0, thickness=20.0, n=96, m=32) -> TriangleMesh:
     reach = radius + thickness * np.cos(around)
     vertices = np.stack([reach * np.cos(along), reach * np.sin(along), thickness * np.sin(around)], axis=-1)
     row = np.arange(n * m).reshape(n, m)
-    a, b, c, d = (each.ravel() for each in (row, np.roll(row, -1, 0), np.roll(row, (-1, -1), (0, 1)), np.roll(row, -1, 1)))
+    a, b, c, d = (
+        each.ravel() for each in (row, np.roll(row, -1, 0), np.roll(row, (-1, -1), (0, 1)), np.roll(row, -1, 1))
+    )
     faces = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
     return mesh_of(vertices.reshape(-1, 3), faces)
 
@@ -106,7 +108,9 @@ def blob(n=24, radius=200.0, size=128, seed=3) -> TriangleMesh:
     axis = np.abs(corners.mean(axis=1)).argmax(axis=1)
     sign = corners[rows, 0, axis]
     across = (axis[:, None] + [1, 2]) % 3
-    flat = np.stack([corners[rows, :, across[:, k]] for k in (0, 1)], axis=-1) / np.abs(corners[rows, :, axis])[..., None]
+    flat = (
+        np.stack([corners[rows, :, across[:, k]] for k in (0, 1)], axis=-1) / np.abs(corners[rows, :, axis])[..., None]
+    )
     side = (2 * axis + (sign > 0))[:, None]
     # half a texel from the rim of its square, so that no neighbour's colour comes in
     uvs = 0.5 + flat * (0.5 - 0.5 / size)
@@ -140,7 +144,7 @@ class Stages:
     layer: np.ndarray
     trajectories: Trajectories
 
-    def bricks(self, *, keep_thin=True, longest=False, one_surface=False) -> UnitGrid:
+    def bricks(self, *, keep_thin=True, longest=False) -> UnitGrid:
         """Make the unit bricks."""
         return unit_bricks(
             self.mesh,
@@ -151,21 +155,20 @@ class Stages:
             heights=self.heights,
             keep_thin=keep_thin,
             longest=longest,
-            one_surface=one_surface,
             catalogue=load_catalogue(),
         )
 
     def pieces(self) -> tuple[Pieces, np.ndarray]:
         """Cut the trajectories at the grid; return the pieces and the slice of every edge."""
         loops = self.trajectories
-        return cut_at_grid(loops.points, loops.ends, self.grid.origin[:2]), loops.loop_slice[loops.edge_loop].astype(int)
+        return cut_at_grid(loops.points, loops.ends, self.grid.origin[:2]), loops.loop_slice[loops.edge_loop].astype(
+            int
+        )
 
     def steep(self) -> SurfaceSamples:
         """Sample the trajectories."""
         pieces, level = self.pieces()
-        return trajectory_samples(
-            self.mesh, self.trajectories, pieces, level, self.layer, self.heights, self.grid
-        )
+        return trajectory_samples(self.mesh, self.trajectories, pieces, level, self.layer, self.heights, self.grid)
 
     def level(self) -> SurfaceSamples:
         """Sample the level surface."""
