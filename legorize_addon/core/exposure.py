@@ -15,8 +15,8 @@ from scipy import ndimage
 from .model import Floats, Ints, Mask
 from .samples import SurfaceSamples
 
-_FINE: Final = np.array([3, 2, 2])
-"""Fine cells to a unit cell along layer, y and x: a plate and half a stud."""
+_FINE: Final = np.array([2, 2, 2])
+"""Fine cells to a unit cell along layer, y and x."""
 
 _FINE_LIMIT: Final = 80_000_000
 """Fine cells beyond which unit cells are used instead, to bound the memory."""
@@ -36,7 +36,7 @@ _STEPS: Final = 5
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OuterAir:
-    """The space around a surface, on a lattice of half studs and plates.
+    """The space around a surface, on a lattice of half studs and half bricks.
 
     Crevices and holes narrower than a stud are closed: the bricks close them as well.
 

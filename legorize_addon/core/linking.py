@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 from .model import Floats, Ints, Mask
 from .slicing import Slices
 
-_GAPS: Final = (2.0, 8.0)
+_GAP: Final = 8.0
 """Open ends this near to each other, in mm, are joined before a chain is closed on itself."""
 
 _DIGIT: Final = 16
@@ -93,8 +93,8 @@ def _sorting(key: Ints) -> Ints:
 def matched_ends(slices: Slices, following: Ints) -> tuple[Ints, Ints]:
     """Choose which open chain goes on where another one breaks off.
 
-    Nearest pairs within one slice are joined first, up to 2 and then 8 mm; what
-    is left closes on itself.
+    Within a slice the nearest pair is joined first, then the nearest of those that
+    are left, and so on up to 8 mm; what is left closes on itself.
 
     Parameters
     ----------
@@ -114,28 +114,23 @@ def matched_ends(slices: Slices, following: Ints) -> tuple[Ints, Ints]:
     match = np.full(len(tail), -1, dtype=np.int64)
     if len(tail) == 0:
         return tail, head
-    ends, starts = slices.ends(tail), slices.starts(head)
-    for gap in _GAPS:
-        # slices apart by more than a gap, so that nothing is near across them
-        lift = 4 * gap * np.arange(len(slices.heights))
-        _match_nearest(
-            np.column_stack([ends, lift[slices.slice[tail]]]),
-            np.column_stack([starts, lift[slices.slice[head]]]),
-            match,
-            gap,
-        )
+    # slices apart by more than a gap, so that nothing is near across them
+    lift = 4 * _GAP * np.arange(len(slices.heights))
+    ends = np.column_stack([slices.ends(tail), lift[slices.slice[tail]]])
+    starts = np.column_stack([slices.starts(head), lift[slices.slice[head]]])
+    _match_nearest(ends, starts, match)
     _close_on_itself(following, tail, head, match)
     return tail, head[match]
 
 
-def _match_nearest(ends: Floats, starts: Floats, match: Ints, gap: float) -> None:
-    """Join ends and starts that are nearest to each other, again and again until none is within the gap."""
+def _match_nearest(ends: Floats, starts: Floats, match: Ints) -> None:
+    """Join ends and starts that are nearest to each other, again and again until all are too far apart."""
     while True:
         open_end, open_start = np.flatnonzero(match < 0), np.flatnonzero(_unmatched(match))
         if len(open_end) == 0:
             return
-        forth, near = cKDTree(starts[open_start]).query(ends[open_end], distance_upper_bound=gap)
-        back, _ = cKDTree(ends[open_end]).query(starts[open_start], distance_upper_bound=gap)
+        forth, near = cKDTree(starts[open_start]).query(ends[open_end], distance_upper_bound=_GAP)
+        back, _ = cKDTree(ends[open_end]).query(starts[open_start], distance_upper_bound=_GAP)
         mutual = np.flatnonzero(np.isfinite(forth))
         # by distance, not by number: of several ends equally near to a start the first one takes it
         mutual = mutual[forth[mutual] == back[near[mutual]]]

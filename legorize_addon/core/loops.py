@@ -89,8 +89,7 @@ def loop_areas(points: Floats, loop_start: Ints) -> Floats:
     base = points.take(loop_start[:-1], axis=0).repeat(np.diff(loop_start), axis=0)
     x, y = (points - base).T
     cross = np.zeros(len(points))
+    # a loop's first point is its origin: the edge back to it spans nothing, nor does that to the next loop's
     cross[:-1] = x[:-1] * y[1:] - x[1:] * y[:-1]
-    # the edges back to the first points span nothing
-    cross[loop_start[1:] - 1] = 0
     area: Floats = np.add.reduceat(cross, loop_start[:-1]) / 2
     return area

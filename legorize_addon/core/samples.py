@@ -23,7 +23,7 @@ from .rays import vertical_hits
 from .trajectories import Trajectories
 from .units import BRICK, STUD
 
-_RAYS: Final = 4
+_RAYS: Final = 3
 """Vertical rays along each side of a cell."""
 
 

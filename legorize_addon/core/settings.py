@@ -9,6 +9,7 @@ the fields is the order in the panel.
 from __future__ import annotations
 
 from dataclasses import Field, dataclass, field, fields
+from functools import cache
 from typing import Any, Literal, get_args, get_type_hints
 
 from .errors import SettingsError
@@ -95,7 +96,12 @@ class Settings:
 
 def setting_type(entry: Field[Any]) -> Any:
     """Return the resolved type of a setting: bool, int, float, str or a Literal."""
-    return get_type_hints(Settings)[entry.name]
+    return _types()[entry.name]
+
+
+@cache
+def _types() -> dict[str, Any]:
+    return get_type_hints(Settings)
 
 
 def choices(entry: Field[Any]) -> tuple[str, ...]:

@@ -101,6 +101,17 @@ def test_faces_given_twice_link():
     assert middle_loops(twice) == middle_loops(cube) * 2
 
 
+def test_faces_given_twice_but_for_some_link_one_to_one():
+    """Where an edge has two faces on one side and one on the other, one link is made and one end left."""
+    cube = box((0, 0, 0), (10, 10, 10))
+    mesh = mesh_of(cube.vertices, np.concatenate([cube.faces, cube.faces[:-3]]))
+    slices = slice_mesh(mesh, np.array([5.0]))
+    following = successors(mesh.faces, slices)
+    linked_on = following[following >= 0]
+    assert len(linked_on) == len(set(linked_on.tolist())) < len(slices)
+    np.testing.assert_array_equal(slices.segments[linked_on, 0], slices.segments[following >= 0, 1])
+
+
 def test_three_faces_on_an_edge_leave_one_end():
     """Of three walls on one edge two link, in the order of their numbers; the third has no neighbour there."""
     star = walls([(0, 0), (10, 0)], [(10, 0), (20, 5)], [(10, 0), (20, -5)])
@@ -157,12 +168,13 @@ def test_nearest_ends_join_first():
 
 
 def test_near_ends_join_before_far_ones():
-    """What is within 2 mm is joined before anything at up to 8 mm, though a farther start would be left alone."""
-    mesh = walls([(0, 0), (20, 0)], [(21.5, 0), (60, 0)], [(15, 0), (0, 40)])
+    """A start goes to the nearer of two ends, though the other one comes first; that takes one farther away."""
+    mesh = walls([(0, 0), (20, 0)], [(0, 9), (20, 2.5)], [(20, 1.5), (60, 0)], [(22, -4), (60, -40)])
     slices = slice_mesh(mesh, np.array([5.0]))
     tail, head = matched_ends(slices, successors(mesh.faces, slices))
     ends, starts = slices.ends(tail).round(6).tolist(), slices.starts(head).round(6).tolist()
-    assert starts[ends.index([20.0, 0.0])] == [21.5, 0.0]
+    assert starts[ends.index([20.0, 2.5])] == [20.0, 1.5]
+    assert starts[ends.index([20.0, 0.0])] == [22.0, -4.0]
 
 
 def test_equally_near_ends_all_find_a_partner():

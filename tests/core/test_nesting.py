@@ -68,6 +68,14 @@ def test_equal_loops_are_not_each_others_parents():
     assert max(depths(parents([circle(0, 0, 10)] * 3))) <= 2
 
 
+def test_loops_that_begin_in_each_other_are_not_each_others_parents():
+    """Of two loops of one box and area, either of which begins inside the other, one is the parent."""
+    below = np.array([(5, 3), (10, 0), (10, 10), (0, 10), (0, 0)])
+    above = np.array([(5, 7), (0, 10), (0, 0), (10, 0), (10, 10)])
+    assert parents([below, above]) == [-1, 0]
+    assert parents([above, below]) == [-1, 0]
+
+
 def test_no_loops_have_no_parents():
     """Nothing gives nothing; loops of one or two points, without any width, are no parents."""
     assert parents([]) == []
