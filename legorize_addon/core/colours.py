@@ -230,7 +230,8 @@ def brick_colours(centres: Bytes, catalogue: Catalogue, *, palette: Codes, one_t
             f"{len(centres)} dominant colours cannot each have one of {len(palette)} brick colours of their own: "
             f"ask for at most {len(palette)} colours or allow a larger palette."
         )
-    return palette[linear_sum_assignment(difference)[1]]
+    chosen: Codes = palette[linear_sum_assignment(difference)[1]]
+    return chosen
 
 
 def chosen_palette(text: str, catalogue: Catalogue) -> Codes:
@@ -349,7 +350,8 @@ def _nearest_centres(images: tuple[Bytes, ...], centres: Bytes) -> tuple[Bytes, 
 def _packed(rgb: Bytes) -> NDArray[np.uint32]:
     """Return sRGB bytes as one number each."""
     wide = rgb.astype(np.uint32)
-    return wide[..., 0] << 16 | wide[..., 1] << 8 | wide[..., 2]
+    packed: NDArray[np.uint32] = wide @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32)
+    return packed
 
 
 def _unpacked(packed: NDArray[np.uint32]) -> Bytes:

@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 
 from .model import Floats, Ints
-from .pieces import split_at_integers
+from .pieces import split_at_lattice
 from .trajectories import Outline
 from .units import CELL_AREA, STUD
 
@@ -66,17 +66,14 @@ def cut_at_grid(start: Floats, end: Floats, corner: Floats) -> Pieces:
     Pieces
     """
     first, last = (start - corner) / STUD, (end - corner) / STUD
-    edge, low, high = split_at_integers(first[:, 0], last[:, 0])
-    rise = last[edge, 1] - first[edge, 1]
-    piece, low2, high2 = split_at_integers(first[edge, 1] + low * rise, first[edge, 1] + high * rise)
-    edge, low, width = edge[piece], low[piece], (high - low)[piece]
-    low, high = low + low2 * width, low + high2 * width
-    vector = (last - first)[edge]
-    middle = first[edge] + ((low + high) / 2)[:, None] * vector
-    along = (high - low)[:, None] * vector
+    vector = last - first
+    edge, low, high = split_at_lattice(first, last)
+    along = vector.take(edge, axis=0)
+    middle = first.take(edge, axis=0) + ((low + high) / 2)[:, None] * along
+    along *= (high - low)[:, None]
     length = np.maximum(np.hypot(vector[:, 0], vector[:, 1]), np.finfo(float).tiny)
-    left = np.stack([-vector[:, 1], vector[:, 0]], axis=1) / length[:, None]
-    return Pieces(edge, np.floor(middle + _LEFT * left).astype(np.int64), middle, along)
+    left = np.column_stack([-vector[:, 1], vector[:, 0]]) * (_LEFT / length)[:, None]
+    return Pieces(edge, np.floor(middle + left.take(edge, axis=0)).astype(np.int64), middle, along)
 
 
 def covered(pieces: Pieces, level: Ints, n_levels: int, n_y: int, n_x: int) -> Floats:

@@ -103,7 +103,9 @@ def _crossings(points: Floats, loop_start: Ints, loop: Ints, point: Floats) -> I
     after = edge + 1
     last = after == loop_start[loop + 1][test]
     after[last] = loop_start[loop][test[last]]
-    (x0, y0), (x1, y1), (x, y) = points[edge].T, points[after].T, point[test].T
+    (x0, y0), (x1, y1), (x, y) = (
+        part.take(rows, axis=0).T for part, rows in ((points, edge), (points, after), (point, test))
+    )
     spans = np.flatnonzero((y0 > y) != (y1 > y))
     x0, y0, x1, y1, x, y = (part[spans] for part in (x0, y0, x1, y1, x, y))
     right = x0 + (y - y0) / (y1 - y0) * (x1 - x0) > x

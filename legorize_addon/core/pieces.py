@@ -1,4 +1,4 @@
-"""Cut line pieces where a coordinate passes an integer: at grid lines, at texel borders."""
+"""Cut lines where a coordinate passes an integer: at grid lines, at texel borders."""
 
 from __future__ import annotations
 
@@ -43,3 +43,30 @@ def split_at_integers(first: Floats, last: Floats) -> tuple[Ints, Floats, Floats
     high[piece] = share
     low[piece + 1] = share
     return interval, low, high
+
+
+def split_at_lattice(first: Floats, last: Floats) -> tuple[Ints, Floats, Floats]:
+    """Cut line segments at the lines of the unit lattice, so that each piece lies in one cell.
+
+    Parameters
+    ----------
+    first, last : (n, 2) float64 arrays
+        Start and end of each segment.
+
+    Returns
+    -------
+    segment : (m,) int64 array
+        Segment of each piece; pieces come in order.
+    low, high : (m,) float64 arrays
+        Start and end of each piece as shares of its segment.
+
+    Examples
+    --------
+    >>> split_at_lattice(np.array([[0.5, 0.25]]), np.array([[1.5, 1.25]]))
+    (array([0, 0, 0]), array([0.  , 0.5 , 0.75]), array([0.5 , 0.75, 1.  ]))
+    """
+    segment, low, high = split_at_integers(first[:, 0], last[:, 0])
+    start, rise = first[:, 1].take(segment), (last[:, 1] - first[:, 1]).take(segment)
+    piece, low_share, high_share = split_at_integers(start + low * rise, start + high * rise)
+    segment, low, width = segment.take(piece), low.take(piece), (high - low).take(piece)
+    return segment, low + low_share * width, low + high_share * width

@@ -46,27 +46,24 @@ def vertical_hits(mesh: TriangleMesh, *, corner: Floats, pitch: float) -> tuple[
         Image coordinates of the hits.
     """
     flat = (mesh.vertices[:, :2] - corner) / pitch - 0.5
-    corners = flat.take(mesh.faces, axis=0)
+    face, place = _lattice_points(flat, mesh.faces)
+    corners = flat.take(mesh.faces.take(face, axis=0), axis=0)
     doubled = _cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    reach = np.maximum(np.ptp(corners[:, :, 0], axis=1), np.ptp(corners[:, :, 1], axis=1))
-    triangles = np.flatnonzero(np.abs(doubled) > _MARGIN * reach)
-    row, place = _lattice_points(corners.take(triangles, axis=0))
-    weight, least = _weights(corners.take(triangles, axis=0), row, place)
-    met = least >= -_NEAR
-    face, place, weight, on_edge = triangles[row[met]], place[met], weight[met], least[met] <= _NEAR
-    points = np.einsum("ki,kij->kj", weight, mesh.vertices[mesh.faces[face]])
-    uvs = np.einsum("ki,kij->kj", weight, mesh.uvs[face])
-    once = ~_repeated(place, points[:, 2] / pitch, doubled[face] > 0, on_edge)
-    return face[once], points[once], uvs[once]
+    weight, least = _weights(corners, doubled, place)
+    met = np.flatnonzero(least >= -_NEAR)
+    face, place, weight, on_edge = face[met], place.take(met, axis=0), weight.take(met, axis=0), least[met] <= _NEAR
+    points = np.einsum("ki,kij->kj", weight, mesh.vertices.take(mesh.faces.take(face, axis=0), axis=0))
+    uvs = np.einsum("ki,kij->kj", weight, mesh.uvs.take(face, axis=0))
+    once = np.flatnonzero(~_repeated(place, points[:, 2] / pitch, doubled[met] > 0, on_edge))
+    return face[once], points.take(once, axis=0), uvs.take(once, axis=0)
 
 
-def _weights(corners: Floats, row: Ints, place: Floats) -> tuple[Floats, Floats]:
+def _weights(corners: Floats, doubled: Floats, place: Floats) -> tuple[Floats, Floats]:
     """Return the barycentric coordinates of points in triangles, and how far inside their sides they lie."""
-    doubled = _cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[row]
-    weight = np.empty((len(row), 3))
-    least = np.full(len(row), np.inf)
+    weight = np.empty((len(place), 3))
+    least = np.full(len(place), np.inf)
     for i in range(3):
-        start, end = corners[row, i - 2], corners[row, i - 1]
+        start, end = corners[:, i - 2], corners[:, i - 1]
         # the twice areas of the triangles that the point makes with the sides
         side = _cross(start - place, end - place)
         weight[:, i] = side / doubled
@@ -86,25 +83,49 @@ def _repeated(place: Floats, height: Floats, upwards: Mask, on_edge: Mask) -> Ma
     return repeated
 
 
-def _lattice_points(corners: Floats) -> tuple[Ints, Floats]:
-    """Return the integer points in triangles, and a few beside them; and the triangle of each."""
-    y = corners[:, :, 1]
-    low, high = np.ceil(y.min(axis=1)).astype(np.int64), np.floor(y.max(axis=1)).astype(np.int64)
-    triangle, line = ranges(low, np.maximum(high - low + 1, 0))
+def _lattice_points(flat: Floats, faces: NDArray[np.int32]) -> tuple[Ints, Floats]:
+    """Return the integer points in the triangles that are not upright, and a few beside; and the triangle of each."""
+    x, y = (column.take(faces) for column in flat.T)
+    left, right, low, high = (side for part in (x, y) for side in (_least(part), -_least(-part)))
+    # most triangles of a fine mesh lie between the rays
+    between = (np.ceil(left - _MARGIN) > right + _MARGIN) | (np.ceil(low - _MARGIN) > high + _MARGIN)
+    near = np.flatnonzero(~between)
+    corners = flat.take(faces.take(near, axis=0), axis=0)
+    doubled = _cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    level = np.abs(doubled) > _MARGIN * np.maximum(right - left, high - low)[near]
+    corners, near = corners[level], near[level]
+    row, line = _lines(low[near], high[near])
+    first, last = _crossings(corners.take(row, axis=0), line)
+    place, column = _lines(first, last)
+    return near[row[place]], np.column_stack([column, line[place]]).astype(np.float64)
+
+
+def _lines(low: Floats, high: Floats) -> tuple[Ints, Ints]:
+    """List the integers within intervals, a little enlarged, and the interval of each."""
+    first, last = np.ceil(low - _MARGIN).astype(np.int64), np.floor(high + _MARGIN).astype(np.int64)
+    return ranges(first, np.maximum(last - first + 1, 0))
+
+
+def _crossings(corners: Floats, line: Ints) -> tuple[Floats, Floats]:
+    """Return where triangles begin and end on horizontal lines through them, (k,) each."""
     left, right = np.full(len(line), np.inf), np.full(len(line), -np.inf)
     for i in range(3):
-        (x0, y0), (x1, y1) = corners[triangle, i - 1].T, corners[triangle, i].T
+        (x0, y0), (x1, y1) = corners[:, i - 1].T, corners[:, i].T
         rise = y1 - y0
         steep = np.abs(rise) > _MARGIN
-        share = (line - y0) / np.where(steep, rise, 1)
-        met = (np.minimum(y0, y1) <= line) & (line <= np.maximum(y0, y1))
+        share = np.clip((line - y0) / np.where(steep, rise, 1), 0, 1)
+        met = (np.minimum(y0, y1) - _MARGIN <= line) & (line <= np.maximum(y0, y1) + _MARGIN)
         # a level side counts from end to end
         first, last = (np.where(steep, x0 + share * (x1 - x0), end) for end in (x0, x1))
         left = np.minimum(left, np.where(met, np.minimum(first, last), np.inf))
         right = np.maximum(right, np.where(met, np.maximum(first, last), -np.inf))
-    begin, end = np.ceil(left - _MARGIN).astype(np.int64), np.floor(right + _MARGIN).astype(np.int64)
-    row, column = ranges(begin, np.maximum(end - begin + 1, 0))
-    return triangle[row], np.column_stack([column, line[row]]).astype(np.float64)
+    return left, right
+
+
+def _least(columns: Floats) -> Floats:
+    """Return the least of the three numbers in every row."""
+    least: Floats = np.minimum(np.minimum(columns[:, 0], columns[:, 1]), columns[:, 2])
+    return least
 
 
 def _cross(first: Floats, second: Floats) -> Floats:

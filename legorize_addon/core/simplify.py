@@ -46,7 +46,7 @@ def simplified(points: Floats, colour: NDArray[np.int16], loop_start: Ints, devi
         span = np.cumsum(keep) - 1
         # the run after the last kept point of a loop ends at the loop's first kept point, its start
         end = np.where(loop[np.roll(start, -1)] == loop[start], np.roll(start, -1), loop_start[loop[start]])
-        distance = _distances(points, points[start][span], points[end][span])
+        distance = _distances(points, points.take(start[span], axis=0), points.take(end[span], axis=0))
         distance[start] = 0
         worst = np.maximum.reduceat(distance, start)
         split = (distance == worst[span]) & (distance > deviation)

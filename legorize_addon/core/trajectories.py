@@ -23,7 +23,7 @@ from .loops import loop_areas, loop_ends, ordered_loops
 from .mesh import TriangleMesh
 from .model import COLOUR_ANY, Floats, Ints
 from .nesting import loop_parents
-from .pieces import split_at_integers
+from .pieces import split_at_lattice
 from .simplify import simplified
 from .slicing import Slices
 
@@ -222,22 +222,12 @@ def _colour_runs(uvs: Floats, image: NDArray[np.int32], surface: SurfaceColours)
     block = (np.cumsum(pieces) // _MOST_PIECES).astype(np.int64)
     runs = []
     for rows in np.split(np.arange(len(uvs)), np.flatnonzero(np.diff(block)) + 1):
-        segment, share, middle = _texel_pieces(uvs[rows], size[rows])
-        colour = surface.at(image[rows][segment], middle)
+        start, along = uvs[rows, 0], uvs[rows, 1] - uvs[rows, 0]
+        segment, share, end = split_at_lattice(start * size[rows], uvs[rows, 1] * size[rows])
+        middle = start.take(segment, axis=0) + ((share + end) / 2)[:, None] * along.take(segment, axis=0)
+        colour = surface.at(image[rows].take(segment), middle)
         new = np.ones(len(segment), dtype=bool)
         new[1:] = (segment[1:] != segment[:-1]) | (colour[1:] != colour[:-1])
         runs.append((rows[segment[new]], share[new], colour[new]))
     segment, share, colour = (np.concatenate(parts) for parts in zip(*runs, strict=True))
     return segment, share, colour
-
-
-def _texel_pieces(uvs: Floats, size: Ints) -> tuple[Ints, Floats, Floats]:
-    """Cut segments at every texel border; return segment, start share and middle uv of the pieces."""
-    first, last = uvs[:, 0] * size, uvs[:, 1] * size
-    segment, low, high = split_at_integers(first[:, 0], last[:, 0])
-    start, rise = first[segment, 1], last[segment, 1] - first[segment, 1]
-    piece, low2, high2 = split_at_integers(start + low * rise, start + high * rise)
-    segment, low, width = segment[piece], low[piece], (high - low)[piece]
-    low, high = low + low2 * width, low + high2 * width
-    middle = uvs[segment, 0] + ((low + high) / 2)[:, None] * (uvs[segment, 1] - uvs[segment, 0])
-    return segment, low, middle

@@ -99,7 +99,7 @@ def test_colours_agree_with_a_dense_sampling():
 
 
 def test_far_fewer_points_than_a_voxelization():
-    """Trajectories take at most a fifth of the 16 samples a voxel of 3.2 mm that a voxelization of the surface takes."""
+    """Trajectories take at most a fifth of the points of a voxelization at 3.2 mm with 16 samples a voxel."""
     points, _ = dense()
     # the dense points miss some voxels, which makes the claim harder
     voxels = len(np.unique(np.floor(points / 3.2).astype(int), axis=0))
@@ -144,7 +144,7 @@ def test_colour_is_one_of_the_cell():
 
 
 def bottle(wall=5.0, mouth=3.0, radius=70.0) -> TriangleMesh:
-    """Make a round bottle in one closed surface, red outside and blue inside; a finger does not go through its mouth."""
+    """Make a round bottle in one closed surface, red outside and blue inside, with a mouth of some mm."""
     turn = np.linspace(-np.pi / 2, np.arccos(mouth / radius), 40)
     outer = radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)
     outer[0, 0] = 0
@@ -195,7 +195,7 @@ def test_cells_without_votes_take_the_nearest_colour():
     """The nearest cell with votes counts in mm, in which a step upwards is longer than one aside."""
     seen = np.ones((2, 1, 3), bool)
     votes = np.array([[0, 0], [3, 1], [0, 0], [0, 0], [0, 0], [0, 2.0]])
-    np.testing.assert_array_equal(chosen(np.int16([4, 15]), votes, votes, seen), [4, 4, 4, 4, 4, 15][:4] + [15, 15])
+    np.testing.assert_array_equal(chosen(np.int16([4, 15]), votes, votes, seen), [4, 4, 4, 4, 15, 15])
 
 
 def test_best_score_wins_and_the_lower_code_a_tie():

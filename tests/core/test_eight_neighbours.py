@@ -40,7 +40,7 @@ def on_grid(mesh: TriangleMesh, n_x: int, n_y: int) -> Stages:
 
 def used_squares(built: Stages) -> tuple[dict[tuple[int, int], set[tuple[int, int]]], np.ndarray]:
     """Return, for every brick (x, y) that a trajectory bounds, the squares that count for it; and the bricks."""
-    pieces, level = built.pieces()
+    pieces, _ = built.pieces()
     samples = built.steep()
     solid = built.bricks(keep_thin=False).solid[:, 0]
     brick = inner_cells(samples, solid)

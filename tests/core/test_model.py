@@ -49,6 +49,6 @@ def test_marks_of_cells_are_no_colours():
 
 def test_sizes_agree():
     """Three plates are a brick; the same lengths in LDraw units; a grid cell is a plate high."""
-    assert pytest.approx(BRICK) == PLATES_PER_BRICK * PLATE
-    assert (STUD_LDU, PLATE_LDU) == pytest.approx((STUD * LDU_PER_MM, PLATE * LDU_PER_MM))
+    np.testing.assert_allclose([PLATES_PER_BRICK * PLATE, STUD * LDU_PER_MM, PLATE * LDU_PER_MM], [BRICK, 20, 8])
+    assert (STUD_LDU, PLATE_LDU) == (20, 8)
     np.testing.assert_array_equal(CELL_SIZE, [8.0, 8.0, 3.2])

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from legorize_addon.core import pieces as module
-from legorize_addon.core.pieces import split_at_integers
+from legorize_addon.core.pieces import split_at_integers, split_at_lattice
 
 places = st.floats(-50, 50) | st.integers(-50, 50).map(float)
 intervals = st.lists(st.tuples(places, places), min_size=1, max_size=20).map(lambda rows: np.array(rows).T)
@@ -58,7 +58,25 @@ def test_ends_on_integers_are_no_cuts():
     assert high.tolist() == [1, 1, 1]
 
 
-def test_example_is_true():
-    """The docstring's example gives what it says."""
+@given(intervals, intervals)
+def test_lattice_pieces_tile_and_stay_in_their_cells(x, y):
+    """Segments in the plane are cut at both kinds of lines: pieces follow each other, each within one cell."""
+    n = min(x.shape[1], y.shape[1])
+    first, last = (np.stack([x[i, :n], y[i, :n]], axis=1) for i in (0, 1))
+    segment, low, high = split_at_lattice(first, last)
+    begin = np.flatnonzero(np.diff(segment, prepend=-1))
+    assert segment[begin].tolist() == list(range(n))
+    assert not low[begin].any()
+    np.testing.assert_allclose(high[np.append(begin[1:], len(segment)) - 1], 1, rtol=1e-14)
+    later = np.delete(np.arange(len(segment)), begin)
+    np.testing.assert_allclose(low[later], high[later - 1], rtol=1e-14)
+    a, b = (first[segment] + share[:, None] * (last - first)[segment] for share in (low, high))
+    cell = np.floor((a + b) / 2)
+    for end in (a, b):
+        assert (np.abs(end - cell - 0.5) <= 0.5 + 1e-9).all()
+
+
+def test_examples_are_true():
+    """The docstrings' examples give what they say."""
     assert doctest.testmod(module).failed == 0
     assert doctest.testmod(module).attempted

@@ -29,7 +29,7 @@ from .shapes import Index, Plane, Rows, Shapes
 from .sheets import Sheets
 from .table import bricks_of, gathered
 
-_ROUNDS: Final = 8
+_ROUNDS: Final = 16
 """Most rounds of joining; each joins neighbours of neighbours."""
 
 _PROGRESS: Final = 0.95
@@ -38,6 +38,10 @@ _PROGRESS: Final = 0.95
 _PATCH: Final = 2.5
 """What to reckon, in bricks, for the rest of a cut brick that needs several. Such
 moves may leave loose bricks themselves, so they are tried when nothing else helps."""
+
+_WAYS: Final = ((np.inf, None), (np.inf, 0), (np.inf, 1), (_PATCH, None), (_PATCH, 0), (_PATCH, 1))
+"""Price of a patch, and which sheets may change: all, or every other one. What one
+sheet joins the next one may take apart, if both change at once."""
 
 _JOIN: Final = 3.5
 """What it is worth to join two components, in bricks."""
@@ -84,14 +88,15 @@ def connect_loose(
     if links.n_components <= 1:
         return bricks
     must, island = with_margins(grid.cover == Cover.MUST, False), _islands(with_margins(grid.colour, COLOUR_EMPTY))
-    cells, patch = _Cells.of(links, must, island), np.inf
+    cells, way = _Cells.of(links, must, island), 0
     for number in range(_ROUNDS):
-        if not cells.n_loose:
+        if not cells.n_loose or way == len(_WAYS):
             break
         progress("connection", number / _ROUNDS)
+        patch, parity = _WAYS[way]
         tried = gathered(
             [
-                _joined(bricks.take(np.isin(bricks.part, among.part)), sheets, among, cells, patch, rng)
+                _joined(bricks.take(np.isin(bricks.part, among.part)), sheets, among, cells, patch, parity, rng)
                 for sheets, among in work
             ]
         )
@@ -100,12 +105,7 @@ def connect_loose(
         before, after = cells.n_loose, tried_cells.n_loose
         if after < before and tried_links.n_floating <= links.n_floating:
             bricks, links, cells = tried, tried_links, tried_cells
-        if after < _PROGRESS * before:
-            patch = np.inf
-        elif patch == np.inf:
-            patch = _PATCH
-        else:
-            break
+        way = 0 if after < _PROGRESS * before else way + 1
     return bricks
 
 
@@ -186,12 +186,20 @@ def _loose(links: Connection, island: Rows) -> Mask:
 
 
 def _joined(
-    bricks: Bricks, sheets: Sheets, among: Shapes, cells: _Cells, patch: float, rng: np.random.Generator
+    bricks: Bricks,
+    sheets: Sheets,
+    among: Shapes,
+    cells: _Cells,
+    patch: float,
+    parity: int | None,
+    rng: np.random.Generator,
 ) -> Bricks:
     """Offer joining bricks once, in the sheets of one height that a loose component reaches."""
     labels = np.stack([cells.label[sheets.level + plate] for plate in (0, sheets.height + 1, 1)])
     loose = (labels > 0).any(axis=0) & (sheets.colour != COLOUR_EMPTY)
     reached = loose.any(axis=(1, 2))
+    if parity is not None:
+        reached &= sheets.level // sheets.height % 2 == parity
     if not reached.any():
         return bricks
     sheets, labels, loose = sheets.take(reached), labels[:, reached], loose[reached]
