@@ -30,6 +30,9 @@ _TIE: Final = 1e-12
 _MARGIN: Final = 4
 """Fine cells of air around the grid on every side."""
 
+_AHEAD: Final = (0.5, 1.0, 1.5, 2.0, 2.5)
+"""Steps in fine cells in front of a sample at which air is looked for."""
+
 _STEPS: Final = 5
 """Marks along a piece of trajectory, so that none of its fine cells is missed."""
 
@@ -52,9 +55,20 @@ class OuterAir:
     fine: Ints
 
     def reaches(self, samples: SurfaceSamples) -> Mask:
-        """Return the samples within two fine cells of the free ones, shape (n,)."""
-        near: Mask = _grown(_grown(self.free))[_fine_cells(samples.place, self.fine, self.free.shape)]
-        return near
+        """Return the samples that free air lies in front of, shape (n,).
+
+        In front means on the outward side, within the two fine cells and a half
+        by which the drawn surface is thicker than the real one.
+        """
+        free = _grown(self.free)
+        ahead = samples.normal * self.fine
+        ahead /= np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), np.finfo(float).tiny)
+        seen = np.zeros(len(ahead), dtype=bool)
+        for step in _AHEAD:
+            seen |= free[_fine_cells(samples.place + step * ahead / self.fine, self.fine, free.shape)]
+        near = _grown(_grown(free))[_fine_cells(samples.place, self.fine, free.shape)]
+        reached: Mask = seen & near
+        return reached
 
     def fills(self, shape: tuple[int, int, int]) -> Mask:
         """Return the unit cells that are mostly air, right up to the surface, shape (n_layers, n_y, n_x)."""
@@ -110,10 +124,9 @@ def _grown(mask: Mask) -> Mask:
     """Return the mask grown by one cell face to face; an order faster than binary_dilation."""
     grown = mask.copy()
     for axis in range(mask.ndim):
-        inner, outer = [slice(None)] * mask.ndim, [slice(None)] * mask.ndim
-        inner[axis], outer[axis] = slice(1, None), slice(None, -1)
-        grown[tuple(inner)] |= mask[tuple(outer)]
-        grown[tuple(outer)] |= mask[tuple(inner)]
+        source, target = np.moveaxis(mask, axis, 0), np.moveaxis(grown, axis, 0)
+        target[1:] |= source[:-1]
+        target[:-1] |= source[1:]
     return grown
 
 

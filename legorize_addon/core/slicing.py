@@ -219,14 +219,11 @@ def adaptive_heights(
 
 def _fine_layers(mesh: TriangleMesh, *, ground: float, n_layers: int, cusp: float, colour: NDArray[np.int16]) -> Mask:
     """Return which layers need three planes, shape (n_layers,)."""
-    corners = mesh.vertices.take(mesh.faces, axis=0)
-    z = (corners[:, :, 2] - ground) / BRICK
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    area = np.linalg.norm(normal, axis=1)
-    slope = np.abs(normal[:, 2]) / np.maximum(area, np.finfo(float).tiny)
+    a, b, c = (mesh.vertices.take(mesh.faces[:, i], axis=0) for i in range(3))
+    area, slope = _areas_and_slopes(b - a, c - a)
     flat = slope > _HORIZONTAL
-    lowest = np.minimum(np.minimum(z[:, 0], z[:, 1]), z[:, 2])
-    highest = np.maximum(np.maximum(z[:, 0], z[:, 1]), z[:, 2])
+    lowest = (np.minimum(np.minimum(a[:, 2], b[:, 2]), c[:, 2]) - ground) / BRICK
+    highest = (np.maximum(np.maximum(a[:, 2], b[:, 2]), c[:, 2]) - ground) / BRICK
     low = np.maximum(np.floor(lowest).astype(np.int64), 0)
     high = np.minimum(np.ceil(highest).astype(np.int64), n_layers)
     # no plane cuts a horizontal facet
@@ -237,6 +234,14 @@ def _fine_layers(mesh: TriangleMesh, *, ground: float, n_layers: int, cusp: floa
     surface = np.bincount(layer, weight, n_layers)
     steps = _steps_inside(lowest[flat], n_layers)
     return (shallow > _SHALLOW_SHARE * surface) | steps | _many_coloured(layer, colour[face], n_layers)
+
+
+def _areas_and_slopes(first: Floats, second: Floats) -> tuple[Floats, Floats]:
+    """Return twice the area of triangles with the given sides, and |n_z|: 0 where upright, 1 where level."""
+    (x0, y0, z0), (x1, y1, z1) = first.T, second.T
+    x, y, z = y0 * z1 - z0 * y1, z0 * x1 - x0 * z1, x0 * y1 - y0 * x1
+    area = np.sqrt(x * x + y * y + z * z)
+    return area, np.abs(z) / np.maximum(area, np.finfo(float).tiny)
 
 
 def _steps_inside(height: Floats, n_layers: int) -> Mask:

@@ -18,14 +18,15 @@ _LEAST_AREA: Final = 12.0
 """Surface in mm^2, of both sides together, for which a brick is added."""
 
 _GAP_AREA: Final = 32.0
-"""Surface in mm^2 for which a gap between two bricks is filled: half of a cell's side."""
+"""Surface in mm^2 for which a gap in a wall is filled: half of a cell's side."""
+
+_ROUNDING: Final = 1e-6
+"""Distances in cells and areas in mm^2 below this are none."""
 
 _AROUND: Final = np.array([step for step in np.ndindex(3, 3, 3) if step != (1, 1, 1)]) - 1
-_CUBE: Final = np.array(list(np.ndindex(2, 2, 2)))
-_SQUARE: Final = _CUBE[:4]
-_COLUMN: Final = _CUBE[[0, 4]]
-_LINES: Final = (_COLUMN, _CUBE[[0, 2]], _CUBE[[0, 1]])
-"""The cells on both sides of a place along each axis."""
+_EVERYWHERE: Final = (True, True, True)
+_IN_LAYER: Final = (False, True, True)
+_UPRIGHT: Final = (True, False, False)
 
 
 def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
@@ -46,23 +47,74 @@ def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
     (n_layers, n_y, n_x) bool array
     """
     known = solid.copy()
-    level = np.abs(samples.normal[:, 0]) > np.abs(samples.normal[:, 1:]).max(axis=1)
-    lost = np.flatnonzero(~_near(samples.place, _thick(solid), _CUBE))
+    # surface on a cell's border belongs to the cell behind it
+    place = samples.place - _ROUNDING * np.sign(samples.normal)
+    thin = np.flatnonzero(~_near(place, _thick(solid), _EVERYWHERE))
+    axis = np.argmax(np.abs(samples.normal), axis=1)
+    lost = thin
     while True:
-        lost = lost[~_kept(samples.place[lost], level[lost], known)]
-        cell, area = _lost_area(samples.cell[lost], samples.area[lost], known.shape)
-        enough = area >= _LEAST_AREA
-        if not enough.any():
+        lost = lost[~_near(place[lost], known, _IN_LAYER)]
+        level = axis[lost] == 0
+        lost = lost[~(level & _near(place[lost], known, _UPRIGHT))]
+        if not _add(samples, lost, known, _LEAST_AREA):
             break
-        known.ravel()[_local_maxima(cell[enough], area[enough], known.shape)] = True
-    _fill_gaps(samples, known)
+    mended = True
+    while mended:
+        mended = False
+        for each in range(3):
+            mended |= _mend(samples, place, thin[axis[thin] == each], known, each)
+    _fill_gaps(samples, place, axis, known)
     return known & ~solid
+
+
+def _add(samples: SurfaceSamples, lost: Ints, known: Mask, least: float, beside: Mask | None = None) -> bool:
+    """Make the cells known that hold most lost surface; return whether there were any."""
+    cell, area = _lost_area(samples.cell[lost], samples.area[lost], known.shape)
+    enough = (area >= least) & ~known.ravel()[cell]
+    if beside is not None:
+        enough &= beside.ravel()[cell]
+    known.ravel()[_local_maxima(cell[enough], area[enough], known.shape)] = True
+    return bool(enough.any())
+
+
+def _mend(samples: SurfaceSamples, place: Floats, facing: Ints, known: Mask, axis: int) -> bool:
+    """Go on with walls that face along an axis, from known cells to where no brick before or behind stands for them."""
+    lost = facing[~_near(place[facing], known, tuple(each == axis for each in range(3)))]
+    beside = np.zeros_like(known)
+    for other in {0, 1, 2} - {axis}:
+        lower, upper = _neighbours(known, other)
+        beside |= lower | upper
+    return _add(samples, lost, known, _GAP_AREA, beside)
+
+
+def _fill_gaps(samples: SurfaceSamples, place: Floats, axis: Ints, known: Mask) -> None:
+    """Fill cells between two known ones that hold much surface which no brick before or behind it stands for.
+
+    The bricks beside a gap of one cell are near to all the surface in it, each to
+    a half, and would leave a hole in a wall.
+    """
+    for each in range(3):
+        facing = np.flatnonzero(axis == each)
+        lost = facing[~_near(place[facing], known, tuple(other == each for other in range(3)))]
+        cell, area = _lost_area(samples.cell[lost], samples.area[lost], known.shape)
+        for other in {0, 1, 2} - {each}:
+            lower, upper = _neighbours(known, other)
+            known.ravel()[cell[(area >= _GAP_AREA) & (lower & upper).ravel()[cell]]] = True
+
+
+def _neighbours(known: Mask, axis: int) -> tuple[Mask, Mask]:
+    """Return whether the neighbours below and above each cell along an axis are known."""
+    around = np.pad(known, [(int(each == axis),) * 2 for each in range(3)])
+    moved = np.moveaxis(around, axis, 0)
+    return np.moveaxis(moved[:-2], 0, axis), np.moveaxis(moved[2:], 0, axis)
 
 
 def _thick(solid: Mask) -> Mask:
     """Return the cells that lie in a full cube of eight."""
     cubes = np.ones(tuple(n - 1 for n in solid.shape), dtype=bool)
-    corners = [tuple(slice(c, n - 1 + c) for c, n in zip(corner, solid.shape, strict=True)) for corner in _CUBE]
+    corners = [
+        tuple(slice(c, n - 1 + c) for c, n in zip(corner, solid.shape, strict=True)) for corner in np.ndindex(2, 2, 2)
+    ]
     for corner in corners:
         cubes &= solid[corner]
     thick = np.zeros_like(solid)
@@ -71,66 +123,35 @@ def _thick(solid: Mask) -> Mask:
     return thick
 
 
-def _kept(place: Floats, level: Mask, known: Mask) -> Mask:
-    """Return the places that bricks of their own layer, or for level surface those above or below, stand for."""
-    middle = np.floor(place) + 0.5
-    kept = _near(np.column_stack([middle[:, 0], place[:, 1:]]), known, _SQUARE)
-    kept[level] |= _near(np.column_stack([place[level, 0], middle[level, 1:]]), known, _COLUMN)
-    return kept
-
-
-def _near(place: Floats, known: Mask, steps: Ints) -> Mask:
-    """Return whether a known cell is among those at some steps from each place, half a cell back.
-
-    With the steps of a cube: whether one lies within half a cell. A coordinate in
-    the middle of a cell with no step along it looks at that cell alone.
-    """
+def _near(place: Floats, known: Mask, axes: tuple[bool, ...]) -> Mask:
+    """Return whether each place lies in a known cell, or within half a cell of one along some axes at once."""
     padded = np.pad(known, 1)
-    base = np.clip(np.floor(place - 0.5).astype(np.int64) + 1, 0, np.array(padded.shape) - 2)
-    flat = base @ np.array(padded.strides)
+    strides, last = np.array(padded.strides), np.array(padded.shape) - 1
+    half = np.array(axes) * (0.5 + _ROUNDING)
     near = np.zeros(len(place), dtype=bool)
-    for step in steps @ np.array(padded.strides):
-        near |= padded.ravel()[flat + step]
+    # half a cell to both sides, and the middle, which is one of the two but for rounding
+    for side in np.ndindex(*(3 if each else 1 for each in axes)):
+        step = np.where(axes, np.array(side) - 1, 0) * half
+        cell = np.clip(np.floor(place + step).astype(np.int64) + 1, 0, last)
+        near |= padded.ravel()[cell @ strides]
     return near
 
 
-def _fill_gaps(samples: SurfaceSamples, known: Mask) -> None:
-    """Fill cells between two known ones that hold much surface which no brick before or behind it stands for.
-
-    The bricks beside a gap of one cell are near to all the surface in it, each to
-    a half, and would leave a hole in a wall.
-    """
-    axis = np.argmax(np.abs(samples.normal), axis=1)
-    middle = np.floor(samples.place) + 0.5
-    for each, steps in enumerate(_LINES):
-        facing = axis == each
-        across = middle[facing]
-        across[:, each] = samples.place[facing, each]
-        lost = np.flatnonzero(facing)[~_near(across, known, steps)]
-        cell, area = _lost_area(samples.cell[lost], samples.area[lost], known.shape)
-        for other in {0, 1, 2} - {each}:
-            known.ravel()[cell[(area >= _GAP_AREA) & _between(known, other).ravel()[cell]]] = True
-
-
-def _between(known: Mask, axis: int) -> Mask:
-    """Return the cells whose two neighbours along an axis are known."""
-    beside = np.zeros_like(known)
-    moved = np.moveaxis(known, axis, 0)
-    np.moveaxis(beside, axis, 0)[1:-1] = moved[:-2] & moved[2:]
-    return beside
-
-
 def _lost_area(cell: Ints, area: Floats, shape: tuple[int, ...]) -> tuple[Ints, Floats]:
-    """Return the cells that hold lost surface, flat and rising, and its area in each."""
+    """Return the cells that hold lost surface, flat and rising, and its area in each, without rounding noise."""
     cells, number = np.unique(np.ravel_multi_index(tuple(cell.T), shape), return_inverse=True)
-    return cells, np.bincount(number, area, len(cells))
+    return cells, np.round(np.bincount(number, area, len(cells)), 3)
 
 
 def _local_maxima(cell: Ints, area: Floats, shape: tuple[int, ...]) -> Ints:
-    """Return the cells with more lost surface than all 26 neighbours; the lower index wins a tie."""
+    """Return the cells with more lost surface than all 26 neighbours.
+
+    Of equal ones the even cell wins, so that a large even sheet is done in a few
+    rounds, and then the lower index.
+    """
     place = np.stack(np.unravel_index(cell, shape), axis=1)
     rank = np.empty(len(cell), dtype=np.int64)
-    rank[np.lexsort((-cell, area))] = np.arange(len(cell))
+    rank[np.lexsort((-cell, -((place & 1) @ [4, 2, 1]), area))] = np.arange(len(cell))
     best = np.ones(len(cell), dtype=bool)
     for step in _AROUND:
         beside = place + step
