@@ -126,19 +126,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     with stage("trajectories"):
         trajectories = link_loops(mesh, slices, surface, chord_deviation=settings.chord_deviation)
     with stage("unit bricks"):
-        grid = unit_bricks(
-            mesh,
-            trajectories,
-            surface,
-            frame,
-            layer=layer,
-            heights=slices.heights,
-            keep_thin=settings.keep_thin,
-            longest=settings.cell_colour == "longest",
-            catalogue=catalogue,
-            closed=repairs.watertight,
-        )
-        _check_any(grid, mesh)
+        grid = _unit_grid(mesh, repairs, trajectories, surface, frame, slices, layer, settings, catalogue)
     with stage("hollowing"):
         shell = hollow(grid, shell=settings.shell if settings.hollow else None)
     with stage("layout"):
@@ -194,6 +182,34 @@ def _slices(
         colour=surface.of_faces(mesh),
     )
     return slice_mesh(mesh, heights), layer
+
+
+def _unit_grid(
+    mesh: TriangleMesh,
+    repairs: Repairs,
+    trajectories: Trajectories,
+    surface: SurfaceColours,
+    frame: Grid,
+    slices: Slices,
+    layer: NDArray[np.int32],
+    settings: Settings,
+    catalogue: Catalogue,
+) -> UnitGrid:
+    """Return the unit bricks, of which there must be one at least."""
+    grid = unit_bricks(
+        mesh,
+        trajectories,
+        surface,
+        frame,
+        layer=layer,
+        heights=slices.heights,
+        keep_thin=settings.keep_thin,
+        longest=settings.cell_colour == "longest",
+        catalogue=catalogue,
+        closed=repairs.watertight,
+    )
+    _check_any(grid, mesh)
+    return grid
 
 
 def model_scale(mesh: TriangleMesh, settings: Settings) -> float:
