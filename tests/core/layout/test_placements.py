@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.layout.placements import placements
-from legorize_addon.core.layout.shapes import pattern_bits, shapes
+from legorize_addon.core.layout.shapes import shapes
 from legorize_addon.core.layout.sheets import split
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Cover
 
-from .cells import CATALOGUE, brick_grid, grid_of, planes
+from .cells import CATALOGUE, brick_grid
 
 FILLER = 71
 RED, WHITE, SAND_GREEN = 4, 15, 378
@@ -28,47 +28,6 @@ def shapes_for(grid, height=3):
 def cells_of(found, row):
     """Return the numbers of the cells that a placement covers."""
     return found.cells[found.start[row] : found.start[row + 1]]
-
-
-@pytest.mark.parametrize("height", [1, 3])
-def test_there_are_24_shapes(height):
-    """The 12 bricks and the 12 plates have 24 orientations each, all different."""
-    among = shapes(CATALOGUE, height, np.array([RED]), FILLER)
-    assert len(among.part) == 24
-    assert len(np.unique(among.pattern)) == 24
-    assert among.size.sum() == 147
-
-
-def test_inner_edges_of_a_rectangle():
-    """A w x l shape has (w - 1) l + w (l - 1) edges between its own cells, a corner has two."""
-    among = shapes(CATALOGUE, 3, np.array([RED]), FILLER)
-    first = np.cumsum(among.size) - among.size
-    for row, (part, (w, length)) in enumerate(zip(among.part, among.extent, strict=True)):
-        edges = np.count_nonzero(among.inner[:, first[row] : first[row] + among.size[row]])
-        assert edges == (2 if CATALOGUE.parts[part].corner else (w - 1) * length + w * (length - 1))
-
-
-def test_rows_of_finds_part_and_turn():
-    """Each shape is found again by its part and turn."""
-    among = shapes(CATALOGUE, 1, np.array([RED]), FILLER)
-    np.testing.assert_array_equal(among.rows_of(among.part, among.turn), np.arange(24))
-
-
-def test_pattern_bits_are_different():
-    """The 64 cells of the field have 64 different bits."""
-    y, x = np.divmod(np.arange(64), 8)
-    assert len(np.unique(pattern_bits(x, y))) == 64
-
-
-def test_hidden_parts_take_the_filler_or_what_there_is():
-    """Parts that nobody sees get the filler colour where it is made, and always one that exists."""
-    unusual = int(CATALOGUE.codes[~CATALOGUE.exists[:12].all(axis=0)][0])
-    for filler in (FILLER, unusual):
-        among = shapes(CATALOGUE, 3, np.array([RED]), filler)
-        assert CATALOGUE.exists_in(among.part, among.hidden).all()
-        made = CATALOGUE.exists_in(among.part, filler)
-        assert (among.hidden[made] == filler).all()
-    assert not made.all()
 
 
 @pytest.mark.parametrize(("n_y", "n_x"), [(1, 1), (3, 9), (8, 8), (12, 5)])
@@ -161,37 +120,3 @@ def test_only_parts_that_exist():
     found = placements(split(grid)[0], among)
     assert len(found) > 0
     assert part not in among.part[found.shape]
-
-
-@given(st.integers(0, 2**32 - 1))
-def test_every_cell_lies_in_one_sheet(seed):
-    """Bricks and plates together hold every plate cell once, with its colour, and bricks are all they can be."""
-    rng = np.random.default_rng(seed)
-    colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, WHITE], (3, 1, 4, 4))
-    colour = np.where(rng.random((3, 3, 4, 4)) < 0.2, rng.choice([COLOUR_EMPTY, RED], (3, 3, 4, 4)), colour)
-    grid = grid_of(colour)
-    times = np.zeros(planes(grid.colour).shape, int)
-    for sheets in split(grid):
-        for level, code in zip(sheets.level, sheets.colour, strict=True):
-            filled = code != COLOUR_EMPTY
-            assert filled.any()
-            for plate in range(level, level + sheets.height):
-                times[plate] += filled
-                assert np.isin(planes(grid.colour)[plate][filled], [COLOUR_ANY, *np.unique(code[filled])]).all()
-                free = planes(grid.colour)[plate] == COLOUR_ANY
-                assert (free | (planes(grid.colour)[plate] == code) | ~filled).all()
-    np.testing.assert_array_equal(times, planes(grid.solid).astype(int))
-
-
-def test_three_equal_plates_are_a_brick():
-    """Columns of one colour are bricks, columns with a gap or two colours are plates."""
-    colour = np.full((1, 3, 1, 4), RED)
-    colour[0, 2, 0, 1] = COLOUR_EMPTY
-    colour[0, 1, 0, 2] = WHITE
-    colour[0, :2, 0, 3] = COLOUR_ANY
-    bricks, plates = split(grid_of(colour))
-    assert (bricks.height, plates.height) == (3, 1)
-    assert bricks.colour[0, 0].tolist() == [RED, COLOUR_EMPTY, COLOUR_EMPTY, RED]
-    assert plates.level.tolist() == [0, 1, 2]
-    for sheets in (bricks, plates):
-        np.testing.assert_array_equal(sheets.must, sheets.colour != COLOUR_EMPTY)

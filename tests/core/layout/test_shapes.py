@@ -1,0 +1,54 @@
+"""The parts in all their orientations, each once, and the colours they are made in."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.layout.shapes import pattern_bits, shapes
+
+from .cells import CATALOGUE
+
+FILLER = 71
+RED = 4
+
+
+@pytest.mark.parametrize("height", [1, 3])
+def test_there_are_24_shapes(height):
+    """The 12 bricks and the 12 plates have 24 orientations each, all different."""
+    among = shapes(CATALOGUE, height, np.array([RED]), FILLER)
+    assert len(among.part) == 24
+    assert len(np.unique(among.pattern)) == 24
+    assert among.size.sum() == 147
+
+
+def test_inner_edges_of_a_rectangle():
+    """A w x l shape has (w - 1) l + w (l - 1) edges between its own cells, a corner has two."""
+    among = shapes(CATALOGUE, 3, np.array([RED]), FILLER)
+    first = np.cumsum(among.size) - among.size
+    for row, (part, (w, length)) in enumerate(zip(among.part, among.extent, strict=True)):
+        edges = np.count_nonzero(among.inner[:, first[row] : first[row] + among.size[row]])
+        assert edges == (2 if CATALOGUE.parts[part].corner else (w - 1) * length + w * (length - 1))
+
+
+def test_rows_of_finds_part_and_turn():
+    """Each shape is found again by its part and turn."""
+    among = shapes(CATALOGUE, 1, np.array([RED]), FILLER)
+    np.testing.assert_array_equal(among.rows_of(among.part, among.turn), np.arange(24))
+
+
+def test_pattern_bits_are_different():
+    """The 64 cells of the field have 64 different bits."""
+    y, x = np.divmod(np.arange(64), 8)
+    assert len(np.unique(pattern_bits(x, y))) == 64
+
+
+def test_hidden_parts_take_the_filler_or_what_there_is():
+    """Parts that nobody sees get the filler colour where it is made, and always one that exists."""
+    unusual = int(CATALOGUE.codes[~CATALOGUE.exists[:12].all(axis=0)][0])
+    for filler in (FILLER, unusual):
+        among = shapes(CATALOGUE, 3, np.array([RED]), filler)
+        assert CATALOGUE.exists_in(among.part, among.hidden).all()
+        made = CATALOGUE.exists_in(among.part, filler)
+        assert (among.hidden[made] == filler).all()
+    assert not made.all()
