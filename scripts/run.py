@@ -188,7 +188,10 @@ def _run(line: list[str]) -> int:
             sentence = f"This did not end within {LIMIT // 60} minutes and was stopped: {shlex.join(line)}"
             raise Missing(sentence) from None
         raise
-    return 128 - status if status < 0 else status
+    if status < 0:
+        print(f"{line[0]} was ended by the signal {signal.Signals(-status).name}.", file=sys.stderr)
+        return 128 - status
+    return status
 
 
 if __name__ == "__main__":

@@ -58,10 +58,12 @@ def test_missing_system_library_is_named(tmp_path: Path) -> None:
         run._try_blender(fake)
 
 
-def test_status_is_handed_on() -> None:
-    """The exit status of a command is the script's; a signal's number is added to 128."""
+def test_status_is_handed_on(capsys: pytest.CaptureFixture[str]) -> None:
+    """The exit status of a command is the script's; a signal is named, and its number added to 128."""
     assert run._run([sys.executable, "-c", "raise SystemExit(5)"]) == 5
+    assert capsys.readouterr().err == ""
     assert run._run([sys.executable, "-c", "import os; os.kill(os.getpid(), 9)"]) == 137
+    assert capsys.readouterr().err.endswith("was ended by the signal SIGKILL.\n")
 
 
 def test_command_that_hangs_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

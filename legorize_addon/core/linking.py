@@ -45,9 +45,14 @@ def successors(faces: NDArray[np.int32], slices: Slices) -> Ints:
     if len(slices) == 0:
         return np.zeros(0, dtype=np.int64)
     half = 3 * slices.face.astype(np.int64)
-    exits, enters = half + slices.exit, half + slices.enter
-    up, down = _run_starts(exits), _run_starts(enters)
-    partner = _partners(_edges(faces, exits[up], falling=False), _edges(faces, enters[down], falling=True))
+    up, down = _run_starts(half + slices.exit), _run_starts(half + slices.enter)
+    n = len(slices.mesh.vertices)
+    # an edge is told by its lower and its upper vertex
+    rising, falling = (
+        faces.take(lower).astype(np.int64) * n + faces.take(upper)
+        for lower, upper in (slices.rises(up), slices.falls(down))
+    )
+    partner = _partners(rising, falling)
     size = np.diff(up, append=len(slices))
     following = np.arange(len(slices)) + (down[partner] - up).repeat(size)
     following[(partner < 0).repeat(size)] = -1
@@ -57,14 +62,6 @@ def successors(faces: NDArray[np.int32], slices: Slices) -> Ints:
 def _run_starts(values: Ints) -> Ints:
     """Return where a new value begins in a sequence."""
     return np.flatnonzero(np.diff(values, prepend=-1))
-
-
-def _edges(faces: NDArray[np.int32], half: Ints, *, falling: bool) -> Ints:
-    """Return a number for the edge of every half-edge, from its lower and its upper vertex."""
-    corners = faces.ravel()
-    here, there = (corners.take(corner).astype(np.int64) for corner in (half, half + np.where(half % 3 == 2, -2, 1)))
-    lower, upper = (there, here) if falling else (here, there)
-    return lower * (int(faces.max()) + 1) + upper
 
 
 def _partners(left: Ints, right: Ints) -> Ints:

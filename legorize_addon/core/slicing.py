@@ -91,29 +91,29 @@ class Slices:
 
     def starts(self, rows: Ints) -> Floats:
         """Return where segments start in mm, shape (k, 2)."""
-        return self._points(rows, *self._fall(rows))
+        return self._points(rows, *self.falls(rows))
 
     def ends(self, rows: Ints) -> Floats:
         """Return where segments end in mm, shape (k, 2)."""
-        return self._points(rows, *self._rise(rows))
+        return self._points(rows, *self.rises(rows))
 
     def uvs(self, rows: Ints) -> Floats:
         """Return the image coordinates at start and end of segments, shape (k, 2, 2)."""
         corner_uvs = self.mesh.uvs.reshape(-1, 2)
         uvs = np.empty((len(rows), 2, 2))
-        for i, edge in enumerate((self._fall(rows), self._rise(rows))):
+        for i, edge in enumerate((self.falls(rows), self.rises(rows))):
             low, high = (corner_uvs.take(corner, axis=0) for corner in edge)
             _, _, share = self._met(rows, *edge)
             uvs[:, i] = low + share[:, None] * (high - low)
         return uvs
 
-    def _fall(self, rows: Ints) -> tuple[Ints, Ints]:
-        """Return the lower and the upper face corner of the edges through which segments enter."""
+    def falls(self, rows: Ints) -> tuple[Ints, Ints]:
+        """Return the lower and the upper face corner of the edges through which segments enter, (k,) each."""
         corner, local = 3 * self.face.take(rows).astype(np.int64), self.enter.take(rows)
         return corner + _NEXT.take(local), corner + local
 
-    def _rise(self, rows: Ints) -> tuple[Ints, Ints]:
-        """Return the lower and the upper face corner of the edges through which segments leave."""
+    def rises(self, rows: Ints) -> tuple[Ints, Ints]:
+        """Return the lower and the upper face corner of the edges through which segments leave, (k,) each."""
         corner, local = 3 * self.face.take(rows).astype(np.int64), self.exit.take(rows)
         return corner + local, corner + _NEXT.take(local)
 

@@ -185,9 +185,10 @@ def _coloured_edges(outline: Outline, slices: Slices, surface: SurfaceColours) -
     several = np.flatnonzero(colour == _SEVERAL)
     uvs = slices.uvs(outline.segment[several])
     image = slices.mesh.face_image[outline.face[several]]
-    colour[several] = surface.at(image, uvs.mean(axis=1))
-    varied = np.flatnonzero(surface.varied(image, np.minimum(uvs[:, 0], uvs[:, 1]), np.maximum(uvs[:, 0], uvs[:, 1])))
-    run, share, run_colour = _colour_runs(uvs[varied], image[varied], surface)
+    first, last = uvs[:, 0], uvs[:, 1]
+    colour[several] = surface.at(image, (first + last) / 2)
+    varied = np.flatnonzero(surface.varied(image, np.minimum(first, last), np.maximum(first, last)))
+    run, share, run_colour = _colour_runs(uvs.take(varied, axis=0), image[varied], surface)
     several = several[varied]
 
     count = np.ones(len(colour), dtype=np.int64)
@@ -196,10 +197,10 @@ def _coloured_edges(outline: Outline, slices: Slices, surface: SurfaceColours) -
     points, colour = outline.start.take(segment, axis=0), colour.take(segment)
     split = np.zeros(len(count), dtype=bool)
     split[several] = True
-    split = split.take(segment)
-    along = outline.ends[several] - outline.start[several]
-    points[split] += share[:, None] * along[run]
-    colour[split] = run_colour
+    place = np.flatnonzero(split.take(segment))
+    along = (outline.ends - outline.start).take(several, axis=0)
+    points[place] += share[:, None] * along.take(run, axis=0)
+    colour[place] = run_colour
     return points, colour, segment
 
 

@@ -81,7 +81,8 @@ def test_histogram_of_a_circle():
 @given(st.lists(st.floats(5, 43), min_size=3, max_size=40), st.tuples(st.floats(-4, 4), st.floats(-4, 4)))
 def test_corners_are_inside_as_the_polygon_has_them(radii, corner):
     """The number of inner corners is that of a plain point-in-polygon test, for just the cells that are passed."""
-    loop = star(radii) + 0.123
+    # no corner of the grid lies on an edge between such points
+    loop = np.add(star(radii), [0.1234567, 0.0765432])
     cell, inside = types_of([loop], 14, np.subtract(corner, 4))
     x, y = np.moveaxis((cell[:, None, [2, 1]] + [(0, 0), (1, 0), (0, 1), (1, 1)]) * 8.0 + np.subtract(corner, 4), 2, 0)
     (x0, y0), (x1, y1) = loop.T, np.roll(loop, -1, axis=0).T
@@ -93,7 +94,8 @@ def test_corners_are_inside_as_the_polygon_has_them(radii, corner):
 @given(st.lists(st.floats(5, 43), min_size=3, max_size=40))
 def test_types_agree_with_the_coverage(radii):
     """Cells that nothing passes are wholly inside or outside, and their corners say which."""
-    loop = star(radii) + 0.123
+    # no corner of the grid lies on an edge between such points
+    loop = np.add(star(radii), [0.1234567, 0.0765432])
     start, end = loop, np.roll(loop, -1, axis=0)
     level = np.zeros(len(loop), dtype=np.int64)
     windings = corner_windings(start, end, level, corner=np.zeros(2), n_levels=1, n_y=12, n_x=12)[0]
