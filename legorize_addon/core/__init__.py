@@ -2,16 +2,26 @@
 
 ======================  ====================================================================
 ``mesh``                a triangle mesh at the door: checked, repaired, oriented, scaled
+                        (``mesh_repair``, ``mesh_orientation``, ``mesh_topology``)
 ``colours``             dominant colours of the textures -> brick colours that can be bought
+                        (``colour_difference``)
+``grid``                where the cells of 8 x 8 x 9.6 mm lie, and the height of the first layer
 ``slicing``             heights of the slices; planes x triangles -> segments
 ``trajectories``        segments -> closed, oriented, nested loops with a colour on every edge
-``unit_bricks``         loops on the 8 mm grid -> which cells are bricks, in which colour
+                        (``linking``, ``loops``, ``nesting``, ``simplify``)
+``unit_bricks``         loops on the grid -> which cells are bricks, in which colour
+                        (``coverage``, ``pass_through``; ``rays``, ``samples``; ``thin_features``,
+                        ``bridges``; ``exposure``, ``cell_colours``, ``eight_neighbours``)
 ``hollowing``           which cells must be built, may be built, or stay empty
 ``layout``              which bricks cover the cells
+``connection``          what holds to what
 ``ldraw``               bricks <-> LDraw text
+``shopping``            parts lists and the shops' files
+``report``              what was built, in numbers
 ``pipeline``            the stages in order: :func:`legorize_addon.core.pipeline.legorize`
 ======================  ====================================================================
 
-``units``, ``errors``, ``progress``, ``settings``, ``catalogue`` and ``model``
-hold what the stages share. Nothing in this folder imports ``bpy``.
+``units``, ``errors``, ``progress``, ``settings``, ``catalogue``, ``model``,
+``pieces`` and ``ranges`` hold what the stages share. Nothing in this folder
+imports ``bpy``.
 """
