@@ -105,12 +105,10 @@ def matched_ends(slices: Slices, following: Ints) -> tuple[Ints, Ints]:
         The last segment before a gap and the first one after it.
     """
     tail = np.flatnonzero(following < 0)
-    preceded = np.zeros(len(slices), dtype=bool)
-    preceded[following[following >= 0]] = True
-    head = np.flatnonzero(~preceded)
-    match = np.full(len(tail), -1, dtype=np.int64)
     if len(tail) == 0:
-        return tail, head
+        return tail, tail
+    head = np.flatnonzero(_unmatched(following))
+    match = np.full(len(tail), -1, dtype=np.int64)
     # slices apart by more than a gap, so that nothing is near across them
     lift = 4 * _GAP * np.arange(len(slices.heights))
     ends = np.column_stack([slices.ends(tail), lift[slices.slice[tail]]])
@@ -138,6 +136,7 @@ def _match_nearest(ends: Floats, starts: Floats, match: Ints) -> None:
 
 
 def _unmatched(match: Ints) -> Mask:
+    """Return the elements that are the partner of none, where -1 is no partner."""
     free = np.ones(len(match), dtype=bool)
     free[match[match >= 0]] = False
     return free

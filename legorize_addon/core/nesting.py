@@ -18,6 +18,12 @@ _MOST: Final = 1 << 21
 _OCTAVES: Final = 3
 """Loops whose widths differ by up to this many factors of two are sorted together."""
 
+_ALL: Final = 1000
+"""Octaves enough for any width."""
+
+_FEW: Final = 2000
+"""Up to so many loops are sorted together whatever their widths."""
+
 
 def loop_parents(points: Floats, loop_start: Ints, loop_slice: NDArray[np.int32]) -> NDArray[np.int32]:
     """Return the smallest loop of the same slice around each loop, -1 for the outermost.
@@ -68,11 +74,12 @@ def _boxed(low: Floats, high: Floats, loop_slice: NDArray[np.int32], rank: Ints)
     left = low[:, 0] - low[:, 0].min() + loop_slice * (4 * extent + 1)
     # a little more than needed: far from the start of the row sums have lost some digits
     margin = 1e-12 * float(left.max())
-    size = np.frexp(high[:, 0] - low[:, 0])[1] // _OCTAVES
+    octaves = _OCTAVES if len(low) > _FEW else _ALL
+    size = np.frexp(high[:, 0] - low[:, 0])[1] // octaves
     for number in np.flatnonzero(np.bincount(size - size.min())) + size.min():
         wide = np.flatnonzero(size == number)
         wide = wide[np.argsort(left[wide], kind="stable")]
-        widest = min(extent, float(np.ldexp(1.0, _OCTAVES * (int(number) + 1))))
+        widest = min(extent, float(np.ldexp(1.0, octaves * (int(number) + 1))))
         first = np.searchsorted(left[wide], left - widest - margin)
         count = np.searchsorted(left[wide], left + margin, side="right") - first
         for rows in _blocks(count):

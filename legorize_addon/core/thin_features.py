@@ -51,12 +51,17 @@ def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
     place = samples.place - _ROUNDING * np.sign(samples.normal)
     thin = np.flatnonzero(~_near(place, _thick(solid), _EVERYWHERE))
     axis = np.argmax(np.abs(samples.normal), axis=1)
+    # at the rim of the model a cell is added for no less than a gap in a wall, else rims turn out ragged
+    rim = np.zeros_like(solid)
+    for each in range(3):
+        rim |= np.logical_or(*_neighbours(solid, each))
+    least = np.where(rim, _GAP_AREA, _LEAST_AREA).ravel()
     lost = thin
     while True:
         lost = lost[~_near(place[lost], known, _IN_LAYER)]
         level = axis[lost] == 0
         lost = lost[~(level & _near(place[lost], known, _UPRIGHT))]
-        if not _add(samples, lost, known, _LEAST_AREA):
+        if not _add(samples, lost, known, least):
             break
     mended = True
     while mended:
@@ -67,10 +72,10 @@ def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
     return known & ~solid
 
 
-def _add(samples: SurfaceSamples, lost: Ints, known: Mask, least: float, beside: Mask | None = None) -> bool:
+def _add(samples: SurfaceSamples, lost: Ints, known: Mask, least: Floats, beside: Mask | None = None) -> bool:
     """Make the cells known that hold most lost surface; return whether there were any."""
     cell, area = _lost_area(samples.cell[lost], samples.area[lost], known.shape)
-    enough = (area >= least) & ~known.ravel()[cell]
+    enough = (area >= least[cell]) & ~known.ravel()[cell]
     if beside is not None:
         enough &= beside.ravel()[cell]
     known.ravel()[_local_maxima(cell[enough], area[enough], known.shape)] = True
@@ -84,7 +89,7 @@ def _mend(samples: SurfaceSamples, place: Floats, facing: Ints, known: Mask, axi
     for other in {0, 1, 2} - {axis}:
         lower, upper = _neighbours(known, other)
         beside |= lower | upper
-    return _add(samples, lost, known, _GAP_AREA, beside)
+    return _add(samples, lost, known, np.full(known.size, _GAP_AREA), beside)
 
 
 def _fill_gaps(samples: SurfaceSamples, place: Floats, axis: Ints, known: Mask) -> None:

@@ -127,13 +127,14 @@ def linked(faces: NDArray[np.int32], slices: Slices) -> Outline:
     """
     following = successors(faces, slices)
     tail, head = matched_ends(slices, following)
+    if len(tail) == 0:
+        order, loop_start = ordered_loops(following)
+        return Outline(slices.starts(order), order, slices.face.take(order), slices.slice.take(order), loop_start)
+    # a gap's edge runs from the end of the segment before it to the start of the one after
     n = len(slices)
     following = np.concatenate([following, head])
     following[tail] = n + np.arange(len(tail))
     order, loop_start = ordered_loops(following)
-    if len(tail) == 0:
-        return Outline(slices.starts(order), order, slices.face.take(order), slices.slice.take(order), loop_start)
-    # a gap's edge runs from the end of the segment before it to the start of the one after
     return Outline(
         start=np.concatenate([slices.starts(np.arange(n)), slices.ends(tail)])[order],
         segment=np.where(order < n, order, -1),

@@ -56,8 +56,10 @@ def test_neighbours_are_no_family():
     assert parents([crescent, circle(0, 2, 3)]) == [-1, -1]
 
 
-def test_slices_do_not_mix():
-    """A ring in another slice holds nothing."""
+@pytest.mark.parametrize("few", [0, 2000])
+def test_slices_do_not_mix(monkeypatch, few):
+    """A ring in another slice holds nothing, whether loops are sorted by width or not."""
+    monkeypatch.setattr(nesting, "_FEW", few)
     loops = [circle(0, 0, 40), circle(0, 0, 10), circle(0, 0, 20)]
     assert parents(loops, [0, 1, 0]) == [-1, -1, 0]
     assert parents(loops[1:] * 3, [5, 5, 0, 0, 2, 2]) == [1, -1, 3, -1, 5, -1]
@@ -89,8 +91,8 @@ discs = st.lists(
 )
 
 
-@given(discs, st.sampled_from([1 << 21, 7]))
-def test_parents_of_random_discs(rows, most):
+@given(discs, st.sampled_from([1 << 21, 7]), st.sampled_from([2000, 0]))
+def test_parents_of_random_discs(rows, most, few):
     """Discs that lie wholly in or outside each other get the smallest one around them; blocks change nothing."""
     kept = []
     for level, x, y, r in rows:
@@ -107,6 +109,7 @@ def test_parents_of_random_discs(rows, most):
         expected.append(min(around)[1] if around else -1)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(nesting, "_MOST", most)
+        patch.setattr(nesting, "_FEW", few)
         assert parents([circle(x, y, r) for _, x, y, r in kept], [row[0] for row in kept]) == expected
 
 

@@ -56,14 +56,16 @@ def play(seen: dict[str, Any]) -> Wait:
     seen["undone"] = scene_content(sample)
     screenshot("3-undone")
 
-    bpy.context.scene.legorize.settings.width = 160
+    bpy.context.scene.legorize.settings.width = 120
     yield from click_button(seen)
-    yield 0.4
-    screenshot("4-running")
+    yield 0.2
+    camera = start_screenshot("4-running")  # the work goes on meanwhile
+    yield 0.3
     yield from press("ESC")
     started = time.monotonic()
     yield from wait_until(lambda: not running())
     seen["seconds_to_stop"] = time.monotonic() - started
+    assert camera.wait(60) == 0
     yield 0.5
     seen["cancelled"] = scene_content(sample)
     screenshot("5-cancelled")
@@ -163,7 +165,12 @@ def simulate(kind: str, value: str, x: int, y: int) -> None:
 
 def screenshot(name: str) -> None:
     """Take a picture of the whole screen, as a person sees it."""
-    subprocess.run(["import", "-window", "root", os.path.join(FOLDER, f"{name}.png")], check=True, timeout=60)
+    assert start_screenshot(name).wait(60) == 0
+
+
+def start_screenshot(name: str) -> subprocess.Popen[bytes]:
+    """Begin to take a picture, and return the program that does."""
+    return subprocess.Popen(["import", "-window", "root", os.path.join(FOLDER, f"{name}.png")])
 
 
 def tick(steps: Wait, seen: dict[str, Any]) -> float | None:
