@@ -17,6 +17,9 @@ from .samples import SurfaceSamples
 _LEAST_AREA: Final = 12.0
 """Surface in mm^2, of both sides together, for which a brick is added."""
 
+_RIM_AREA: Final = 18.0
+"""The same beside the model, where a brick more only rounds a rim up."""
+
 _GAP_AREA: Final = 32.0
 """Surface in mm^2 for which a gap in a wall is filled: half of a cell's side."""
 
@@ -51,11 +54,11 @@ def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
     place = samples.place - _ROUNDING * np.sign(samples.normal)
     thin = np.flatnonzero(~_near(place, _thick(solid), _EVERYWHERE))
     axis = np.argmax(np.abs(samples.normal), axis=1)
-    # at the rim of the model a cell is added for no less than a gap in a wall, else rims turn out ragged
+    # beside the model a cell takes more, else its rims turn out ragged
     rim = np.zeros_like(solid)
     for each in range(3):
         rim |= np.logical_or(*_neighbours(solid, each))
-    least = np.where(rim, _GAP_AREA, _LEAST_AREA).ravel()
+    least = np.where(rim, _RIM_AREA, _LEAST_AREA).ravel()
     lost = thin
     while True:
         lost = lost[~_near(place[lost], known, _IN_LAYER)]
