@@ -75,7 +75,7 @@ class SurfaceColours:
         found = np.zeros(len(image), dtype=np.int16)
         for row, labels in enumerate(self.labels):
             here = np.flatnonzero(image == row)
-            column, line = _texel(uv[here], labels.shape, clamp=bool(self.clamp[row]))
+            column, line = _texel(uv.take(here, axis=0), labels.shape, clamp=bool(self.clamp[row]))
             found[here] = self.codes[labels[line, column]]
         return found
 
@@ -99,13 +99,15 @@ class SurfaceColours:
             if table[-1, -1] == 0:
                 continue
             here = np.flatnonzero(image == row)
-            found[here] = _boxes_varied(table, low[here], high[here], clamp=bool(self.clamp[row]))
+            boxes = low.take(here, axis=0), high.take(here, axis=0)
+            found[here] = _boxes_varied(table, *boxes, clamp=bool(self.clamp[row]))
         return found
 
     def of_faces(self, mesh: TriangleMesh) -> Codes:
         """Return the one brick colour of each face, -1 where it may have several, shape (n_f,)."""
-        varied = self.varied(mesh.face_image, mesh.uvs.min(axis=1), mesh.uvs.max(axis=1))
-        return np.where(varied, np.int16(-1), self.at(mesh.face_image, mesh.uvs.mean(axis=1)))
+        a, b, c = np.moveaxis(mesh.uvs, 1, 0)
+        varied = self.varied(mesh.face_image, np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c))
+        return np.where(varied, np.int16(-1), self.at(mesh.face_image, (a + b + c) / 3))
 
     def image(self, row: int) -> Bytes:
         """Return an image with every texel replaced by its brick's dominant colour, (h, w, 3) uint8."""
@@ -288,32 +290,29 @@ def _image_texels(mesh: TriangleMesh, rng: np.random.Generator) -> Bytes:
 
 def _texel(uv: Floats, shape: tuple[int, ...], *, clamp: bool) -> tuple[Ints, Ints]:
     """Return the columns and rows of the texels at image coordinates."""
-    size = np.array([shape[1], shape[0]])
-    cell = np.floor(uv * size).astype(np.int64)
-    cell = np.clip(cell, 0, size - 1) if clamp else cell % size
-    return cell[:, 0], cell[:, 1]
+    return _along(uv[:, 0], shape[1], clamp=clamp), _along(uv[:, 1], shape[0], clamp=clamp)
+
+
+def _along(coordinate: Floats, size: int, *, clamp: bool) -> Ints:
+    """Return the texels at coordinates along one side of an image."""
+    texel = np.floor(coordinate * size)
+    # in floating point: whole numbers divide several times slower
+    texel = np.clip(texel, 0, size - 1) if clamp else texel - np.floor(texel / size) * size
+    return texel.astype(np.int64)
 
 
 def _boxes_varied(table: NDArray[np.int32], low: Floats, high: Floats, *, clamp: bool) -> Mask:
     """Look boxes up in a summed-area table of colour borders."""
-    height, width = table.shape[0] - 1, table.shape[1] - 1
-    size = np.array([width, height])
-    first, last = np.floor(low * size).astype(np.int64), np.floor(high * size).astype(np.int64)
-    if clamp:
-        first, last = np.clip(first, 0, size - 1), np.clip(last, 0, size - 1)
-        across = np.zeros(len(low), dtype=bool)
-    else:
-        tile = first // size
-        across = (tile != last // size).any(axis=1)
-        # a box inside one tile keeps its size there
-        first, last = first - tile * size, np.where(across[:, None], first - tile * size, last - tile * size)
-    # a border between texels i and i + 1 is noted at i, so the last texel of the box does not count
-    x0, y0 = first.T
-    x1, y1 = last.T
-    # counts vertical borders in the rows of the box and horizontal ones in its columns a little too
-    # generously at the far sides, which only costs time
-    count = table[y1 + 1, x1 + 1] - table[y0, x1 + 1] - table[y1 + 1, x0] + table[y0, x0]
-    varied: Mask = across | ((count > 0) & (first != last).any(axis=1))
+    size = np.array([table.shape[1] - 1, table.shape[0] - 1])
+    (x0, y0), (x1, y1) = (_texel(ends, table[1:, 1:].shape, clamp=clamp) for ends in (low, high))
+    # boxes that reach over the rim of a repeated image do not end as many texels on as they are wide
+    width, height = (np.floor(high * size) - np.floor(low * size)).T
+    across = np.zeros(len(low), dtype=bool) if clamp else (x1 - x0 != width) | (y1 - y0 != height)
+    x1, y1 = np.where(across, x0, x1), np.where(across, y0, y1)
+    # a border between texels i and i + 1 is noted at i: the far sides of a box count too generously, at some cost
+    upper, lower = (y1 + 1) * table.shape[1], y0 * table.shape[1]
+    count = table.take(upper + x1 + 1) - table.take(lower + x1 + 1) - table.take(upper + x0) + table.take(lower + x0)
+    varied: Mask = across | ((count > 0) & ((x0 != x1) | (y0 != y1)))
     return varied
 
 

@@ -36,7 +36,7 @@ def ordered_loops(following: Ints) -> tuple[Ints, Ints]:
     found, jump, reach = np.arange(n) << _HALF, following, 1
     while True:
         lower = np.minimum(found, found.take(jump) + reach)
-        if np.array_equal(lower, found):
+        if (lower == found).all():
             break
         found, jump, reach = lower, jump.take(jump), 2 * reach
     lowest, steps = found >> _HALF, found & ((1 << _HALF) - 1)

@@ -18,11 +18,8 @@ _MOST: Final = 1 << 21
 _OCTAVES: Final = 3
 """Loops whose widths differ by up to this many factors of two are sorted together."""
 
-_ALL: Final = 1000
-"""Octaves enough for any width."""
-
-_FEW: Final = 2000
-"""Up to so many loops are sorted together whatever their widths."""
+_FEW: Final = 300
+"""Up to so many loops are all compared with each other."""
 
 
 def loop_parents(points: Floats, loop_start: Ints, loop_slice: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -52,7 +49,7 @@ def loop_parents(points: Floats, loop_start: Ints, loop_slice: NDArray[np.int32]
     # a parent is a larger loop, and of equal ones the first, so that no two can hold each other
     rank = np.empty(len(parent), dtype=np.int64)
     rank[np.argsort(-np.abs(loop_areas(points, loop_start)), kind="stable")] = np.arange(len(parent))
-    pairs = list(_boxed(low, high, loop_slice, rank))
+    pairs = list(_boxed_pairs(low, high, loop_slice, rank))
     son, around = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
     inside = _contains(points, loop_start, around, points[loop_start[son]])
     son, around = son[inside], around[inside]
@@ -62,32 +59,38 @@ def loop_parents(points: Floats, loop_start: Ints, loop_slice: NDArray[np.int32]
     return parent
 
 
-def _boxed(low: Floats, high: Floats, loop_slice: NDArray[np.int32], rank: Ints) -> Iterator[tuple[Ints, Ints]]:
+def _boxed_pairs(low: Floats, high: Floats, loop_slice: NDArray[np.int32], rank: Ints) -> Iterator[tuple[Ints, Ints]]:
     """Yield pairs of loops of one slice where the first one's box lies in that of the second, a larger one.
 
     The loops of about one width are sorted along x, all slices in a row: those that
     may reach over a loop's left side are neighbours there, however many there are.
     """
-    yield np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64)
+    if len(low) <= _FEW:
+        yield _boxed(low, high, rank, *np.nonzero(loop_slice[:, None] == loop_slice))
+        return
     extent = float(high[:, 0].max() - low[:, 0].min())
     # slices lie apart by more than any loop is wide
     left = low[:, 0] - low[:, 0].min() + loop_slice * (4 * extent + 1)
     # a little more than needed: far from the start of the row sums have lost some digits
     margin = 1e-12 * float(left.max())
-    octaves = _OCTAVES if len(low) > _FEW else _ALL
-    size = np.frexp(high[:, 0] - low[:, 0])[1] // octaves
+    size = np.frexp(high[:, 0] - low[:, 0])[1] // _OCTAVES
     for number in np.flatnonzero(np.bincount(size - size.min())) + size.min():
         wide = np.flatnonzero(size == number)
         wide = wide[np.argsort(left[wide], kind="stable")]
-        widest = min(extent, float(np.ldexp(1.0, octaves * (int(number) + 1))))
+        widest = min(extent, float(np.ldexp(1.0, _OCTAVES * (int(number) + 1))))
         first = np.searchsorted(left[wide], left - widest - margin)
         count = np.searchsorted(left[wide], left + margin, side="right") - first
         for rows in _blocks(count):
             row, place = ranges(first[rows], count[rows])
-            son, around = rows[row], wide[place]
-            son, around = (part[rank[around] < rank[son]] for part in (son, around))
-            boxed = (low[son] >= low[around]).all(axis=1) & (high[son] <= high[around]).all(axis=1)
-            yield son[boxed], around[boxed]
+            yield _boxed(low, high, rank, rows[row], wide[place])
+
+
+def _boxed(low: Floats, high: Floats, rank: Ints, son: Ints, around: Ints) -> tuple[Ints, Ints]:
+    """Return the pairs whose second loop is the larger one, with the first one's box in its own."""
+    larger = np.flatnonzero(rank[around] < rank[son])
+    son, around = son[larger], around[larger]
+    boxed = (low[son] >= low[around]).all(axis=1) & (high[son] <= high[around]).all(axis=1)
+    return son[boxed], around[boxed]
 
 
 def _blocks(size: Ints) -> list[Ints]:

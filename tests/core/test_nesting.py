@@ -56,7 +56,7 @@ def test_neighbours_are_no_family():
     assert parents([crescent, circle(0, 2, 3)]) == [-1, -1]
 
 
-@pytest.mark.parametrize("few", [0, 2000])
+@pytest.mark.parametrize("few", [0, 300])
 def test_slices_do_not_mix(monkeypatch, few):
     """A ring in another slice holds nothing, whether loops are sorted by width or not."""
     monkeypatch.setattr(nesting, "_FEW", few)
@@ -91,7 +91,7 @@ discs = st.lists(
 )
 
 
-@given(discs, st.sampled_from([1 << 21, 7]), st.sampled_from([2000, 0]))
+@given(discs, st.sampled_from([1 << 21, 7]), st.sampled_from([300, 0]))
 def test_parents_of_random_discs(rows, most, few):
     """Discs that lie wholly in or outside each other get the smallest one around them; blocks change nothing."""
     kept = []
