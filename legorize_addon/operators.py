@@ -16,6 +16,7 @@ from .core.mesh import TriangleMesh
 from .core.pipeline import Build, legorize
 from .core.progress import Progress
 from .core.settings import Settings
+from .core.units import MM_PER_METRE
 from .properties import current_build, label, settings_of
 from .read_mesh import read_objects
 from .scene import BUILD_KEY, OWN_KEY, builds_of, clear_build, show_build, sources_of
@@ -24,7 +25,6 @@ from .view import readable
 TICK: Final = 0.1
 """Seconds between two looks at a running job."""
 
-MM_PER_METRE: Final = 1000.0
 SOURCE_TYPES: Final = frozenset({"MESH", "CURVE", "SURFACE", "FONT", "META"})
 NAVIGATION: Final = frozenset(
     {"MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM"}

@@ -33,12 +33,6 @@ def srgb_from_linear(linear: NDArray[np.floating]) -> Bytes:
     return np.rint(curve * 255.0).astype(np.uint8)
 
 
-def linear_from_srgb(encoded: Bytes) -> Floats:
-    """Return linear colours in [0, 1] of sRGB bytes; any shape."""
-    share = np.arange(256) / 255.0
-    return np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)[encoded]
-
-
 def colour_patches(corners: Floats) -> tuple[Bytes, Bytes, NDArray[np.bool_], Floats]:
     """Paint triangles by the colours of their corners.
 

@@ -9,8 +9,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .core.colour_difference import linear_from_srgb
 from .core.errors import MeshError
-from .read_colours import Bytes, Floats, linear_from_srgb, srgb_from_linear
+from .read_colours import Bytes, Floats, srgb_from_linear
 from .read_materials import Texture
 
 _LINEAR: Final = ("Linear Rec.709", "Linear", "Non-Color", "Raw")

@@ -31,11 +31,11 @@ import numpy as np
 from .bake import Bakeable, baked
 from .core.errors import MeshError
 from .core.mesh import TriangleMesh
+from .core.units import MM_PER_METRE
 from .read_colours import Floats, colour_patches
 from .read_images import Album
 from .read_surface import Surface, read_surface, slot_materials, slot_paints
 
-_MM_PER_METRE: Final = 1000.0
 _FLAT: Final = 1e-6
 """Smallest of the three stretches of an object, as a share of the largest, that is not flat."""
 
@@ -65,7 +65,7 @@ def read_objects(
         If there is nothing to read, an image is missing, or a colour cannot be baked.
     """
     chosen = [obj.original for obj in objects]
-    mm = depsgraph.scene.unit_settings.scale_length * _MM_PER_METRE
+    mm = depsgraph.scene.unit_settings.scale_length * MM_PER_METRE
     album = Album()
     # baking adds data, which must not happen while the instances are walked
     found = [_read(obj, matrix, album) for obj, matrix in _shown(chosen, depsgraph)]

@@ -10,9 +10,10 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .core.colour_difference import linear_from_srgb
 from .core.errors import MeshError
 from .node_links import NotAProduct
-from .read_colours import Floats, linear_from_srgb
+from .read_colours import Floats
 from .read_images import Album, check_image, is_readable
 from .read_materials import Paint, Texture, colour_images, read_paint
 

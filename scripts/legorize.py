@@ -42,6 +42,7 @@ try:
     from legorize_addon.core.pipeline import Build, legorize
     from legorize_addon.core.report import report
     from legorize_addon.core.settings import Settings, choices, setting_type
+    from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.read_mesh import read_objects
     from legorize_addon.render import render_still
     from legorize_addon.scene import builds, clear_build, show_build
@@ -49,7 +50,6 @@ except ModuleNotFoundError as missing:
     print(f"Legorize needs the Python package {missing.name}: install its extension, or the packages.", file=sys.stderr)
     sys.exit(1)
 
-MM_PER_METRE: Final = 1000.0
 SIZES: Final = ("size_by", "width", "height", "scale")
 """Settings that exclude each other; each of the last three also chooses itself in the first."""
 

@@ -4,7 +4,7 @@
 ``mesh``                a triangle mesh at the door: checked, repaired, oriented, scaled
                         (``mesh_repair``, ``mesh_orientation``, ``mesh_topology``)
 ``colours``             dominant colours of the textures -> brick colours that can be bought
-                        (``colour_difference``)
+                        (``texels``, ``colour_difference``)
 ``grid``                where the cells of 8 x 8 x 9.6 mm lie, and the height of the first layer
 ``slicing``             heights of the slices; planes x triangles -> segments
 ``trajectories``        segments -> closed, oriented, nested loops with a colour on every edge

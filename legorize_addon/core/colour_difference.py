@@ -25,11 +25,16 @@ _ROUNDING: Final = 1e-9
 """Degrees within which two hues are opposite."""
 
 
+def linear_from_srgb(encoded: NDArray[np.uint8]) -> Floats:
+    """Return linear colours in [0, 1] of sRGB bytes; any shape."""
+    share = np.arange(256) / 255.0
+    linear: Floats = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)[encoded]
+    return linear
+
+
 def lab_from_srgb(rgb: NDArray[np.uint8]) -> Floats:
     """Return CIELAB of sRGB bytes, shape (..., 3)."""
-    share = rgb / 255.0
-    linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
-    xyz = linear @ _XYZ_FROM_LINEAR.T / _WHITE
+    xyz = linear_from_srgb(rgb) @ _XYZ_FROM_LINEAR.T / _WHITE
     f = np.where(xyz > (6 / 29) ** 3, np.cbrt(xyz), xyz / (3 * (6 / 29) ** 2) + 4 / 29)
     x, y, z = f[..., 0], f[..., 1], f[..., 2]
     return np.stack([116 * y - 16, 500 * (x - y), 200 * (y - z)], axis=-1)

@@ -21,7 +21,8 @@ from .catalogue import Catalogue
 from .colour_difference import ciede2000, lab_from_srgb
 from .errors import SettingsError
 from .mesh import TriangleMesh
-from .model import Floats, Ints, Mask
+from .model import Floats, Mask
+from .texels import border_table, boxes_varied, texel_at
 
 _SAMPLES: Final = 30_000
 """Texels drawn for the clustering; more change the centres by less than a byte."""
@@ -75,7 +76,7 @@ class SurfaceColours:
         found = np.zeros(len(image), dtype=np.int16)
         for row, labels in enumerate(self.labels):
             here = np.flatnonzero(image == row)
-            column, line = _texel(uv.take(here, axis=0), labels.shape, clamp=bool(self.clamp[row]))
+            column, line = texel_at(uv.take(here, axis=0), labels.shape, clamp=bool(self.clamp[row]))
             found[here] = self.codes[labels[line, column]]
         return found
 
@@ -100,7 +101,7 @@ class SurfaceColours:
                 continue
             here = np.flatnonzero(image == row)
             boxes = low.take(here, axis=0), high.take(here, axis=0)
-            found[here] = _boxes_varied(table, *boxes, clamp=bool(self.clamp[row]))
+            found[here] = boxes_varied(table, *boxes, clamp=bool(self.clamp[row]))
         return found
 
     def of_faces(self, mesh: TriangleMesh) -> Codes:
@@ -157,7 +158,7 @@ def surface_colours(
     centres = dominant_colours(texels, n_colours=n_colours, rng=rng)
     codes = brick_colours(centres, catalogue, palette=palette, one_to_one=one_to_one)
     labels = _nearest_centres(mesh.images, centres)
-    borders = tuple(_border_table(codes[image]) for image in labels)
+    borders = tuple(border_table(codes[image]) for image in labels)
     return SurfaceColours(centres, codes, labels, borders, mesh.image_clamp)
 
 
@@ -259,8 +260,7 @@ def chosen_palette(text: str, catalogue: Catalogue) -> Codes:
 
 def _surface_texels(mesh: TriangleMesh, rng: np.random.Generator) -> Bytes:
     """Return texels drawn evenly over the surface, (n, 3) uint8."""
-    corners = mesh.vertices[mesh.faces]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area = np.linalg.norm(mesh.normals, axis=1)
     # one even comb instead of independent draws: every face gets its share, with no luck in it
     comb = (np.arange(_SAMPLES) + rng.random()) / _SAMPLES * area.sum()
     face = np.minimum(np.searchsorted(np.cumsum(area), comb), len(area) - 1)
@@ -275,7 +275,7 @@ def _texels_at(mesh: TriangleMesh, image: NDArray[np.integer], uv: Floats) -> By
     texels = np.empty((len(uv), 3), dtype=np.uint8)
     for row, pixels in enumerate(mesh.images):
         here = image == row
-        column, line = _texel(uv[here], pixels.shape[:2], clamp=bool(mesh.image_clamp[row]))
+        column, line = texel_at(uv[here], pixels.shape[:2], clamp=bool(mesh.image_clamp[row]))
         texels[here] = pixels[line, column]
     return texels
 
@@ -286,44 +286,6 @@ def _image_texels(mesh: TriangleMesh, rng: np.random.Generator) -> Bytes:
     if len(texels) <= _SAMPLES:
         return texels
     return texels[rng.choice(len(texels), _SAMPLES, replace=False)]
-
-
-def _texel(uv: Floats, shape: tuple[int, ...], *, clamp: bool) -> tuple[Ints, Ints]:
-    """Return the columns and rows of the texels at image coordinates."""
-    return _along(uv[:, 0], shape[1], clamp=clamp), _along(uv[:, 1], shape[0], clamp=clamp)
-
-
-def _along(coordinate: Floats, size: int, *, clamp: bool) -> Ints:
-    """Return the texels at coordinates along one side of an image."""
-    texel = np.floor(coordinate * size)
-    # in floating point: whole numbers divide several times slower
-    texel = np.clip(texel, 0, size - 1) if clamp else texel - np.floor(texel / size) * size
-    return texel.astype(np.int64)
-
-
-def _boxes_varied(table: NDArray[np.int32], low: Floats, high: Floats, *, clamp: bool) -> Mask:
-    """Look boxes up in a summed-area table of colour borders."""
-    size = np.array([table.shape[1] - 1, table.shape[0] - 1])
-    (x0, y0), (x1, y1) = (_texel(ends, table[1:, 1:].shape, clamp=clamp) for ends in (low, high))
-    # boxes that reach over the rim of a repeated image do not end as many texels on as they are wide
-    width, height = (np.floor(high * size) - np.floor(low * size)).T
-    across = np.zeros(len(low), dtype=bool) if clamp else (x1 - x0 != width) | (y1 - y0 != height)
-    x1, y1 = np.where(across, x0, x1), np.where(across, y0, y1)
-    # a border between texels i and i + 1 is noted at i: the far sides of a box count too generously, at some cost
-    upper, lower = (y1 + 1) * table.shape[1], y0 * table.shape[1]
-    count = table.take(upper + x1 + 1) - table.take(lower + x1 + 1) - table.take(upper + x0) + table.take(lower + x0)
-    varied: Mask = across | ((count > 0) & ((x0 != x1) | (y0 != y1)))
-    return varied
-
-
-def _border_table(codes: Codes) -> NDArray[np.int32]:
-    """Return the summed-area table of texels that differ from the next one to the right or above."""
-    border = np.zeros(codes.shape, dtype=bool)
-    border[:, :-1] |= codes[:, 1:] != codes[:, :-1]
-    border[:-1] |= codes[1:] != codes[:-1]
-    table = np.zeros((codes.shape[0] + 1, codes.shape[1] + 1), dtype=np.int32)
-    np.cumsum(np.cumsum(border, axis=0, dtype=np.int32), axis=1, out=table[1:, 1:])
-    return table
 
 
 def _nearest_centres(images: tuple[Bytes, ...], centres: Bytes) -> tuple[Bytes, ...]:

@@ -123,7 +123,7 @@ def _centre_of_mass(mesh: TriangleMesh) -> Floats:
     corners = mesh.vertices[mesh.faces] - mesh.vertices[0]
     middle = corners.sum(axis=1)
     volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area = np.linalg.norm(mesh.normals, axis=1)
     box = np.prod(np.ptp(mesh.vertices, axis=0))
     if volume.sum() / 6 > 1e-3 * box:
         centre = (middle * volume[:, None]).sum(axis=0) / (4 * volume.sum())

@@ -60,6 +60,13 @@ class TriangleMesh:
     images: tuple[NDArray[np.uint8], ...]
     image_clamp: NDArray[np.bool_]
 
+    @property
+    def normals(self) -> Floats:
+        """Outward normal of each face, twice its area long, shape (n_f, 3)."""
+        corners = self.vertices[self.faces]
+        normals: Floats = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        return normals
+
 
 @dataclass(frozen=True, slots=True)
 class Repairs:

@@ -126,7 +126,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     with stage("trajectories"):
         trajectories = link_loops(mesh, slices, surface, chord_deviation=settings.chord_deviation)
     with stage("unit bricks"):
-        grid = _unit_grid(mesh, repairs, trajectories, surface, frame, slices, layer, settings, catalogue)
+        grid = _unit_grid(mesh, repairs, trajectories, surface, frame, slices, layer, settings, catalogue, progress)
     with stage("hollowing"):
         shell = hollow(grid, shell=settings.shell if settings.hollow else None)
     with stage("layout"):
@@ -194,6 +194,7 @@ def _unit_grid(
     layer: NDArray[np.int32],
     settings: Settings,
     catalogue: Catalogue,
+    progress: Progress,
 ) -> UnitGrid:
     """Return the unit bricks, of which there must be one at least."""
     grid = unit_bricks(
@@ -207,6 +208,7 @@ def _unit_grid(
         longest=settings.cell_colour == "longest",
         catalogue=catalogue,
         closed=repairs.watertight,
+        progress=progress,
     )
     _check_any(grid, mesh)
     return grid

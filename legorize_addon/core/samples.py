@@ -143,19 +143,16 @@ def surface_area(samples: SurfaceSamples, shape: tuple[int, int, int]) -> Floats
 
 def level_shares(mesh: TriangleMesh) -> Floats:
     """Return |n_z| of the unit normals, 1 for level faces and 0 for upright or empty ones, (n_f,)."""
-    corners = mesh.vertices[mesh.faces]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.linalg.norm(normal, axis=1)
-    share: Floats = np.minimum(np.abs(normal[:, 2]) / np.maximum(length, np.finfo(float).tiny), 1)
+    normals = mesh.normals
+    length = np.linalg.norm(normals, axis=1)
+    share: Floats = np.minimum(np.abs(normals[:, 2]) / np.maximum(length, np.finfo(float).tiny), 1)
     return share
 
 
 def face_normals(mesh: TriangleMesh) -> Floats:
     """Return the outward normals in cells along layer, y and x, not of unit length, (n_f, 3)."""
-    corners = mesh.vertices[mesh.faces]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     # a distance of one cell along an axis counts the same, whatever the cell's side
-    cells: Floats = normal[:, ::-1] * np.array([1 / BRICK, 1 / STUD, 1 / STUD])
+    cells: Floats = mesh.normals[:, ::-1] * np.array([1 / BRICK, 1 / STUD, 1 / STUD])
     return cells
 
 

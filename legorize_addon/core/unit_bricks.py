@@ -28,6 +28,7 @@ from .exposure import air_around
 from .grid import Grid
 from .mesh import TriangleMesh
 from .model import COLOUR_ANY, COLOUR_EMPTY, Cover, Floats, Mask, Role, UnitGrid
+from .progress import Progress, silent
 from .samples import horizontal_samples, surface_area, trajectory_samples
 from .thin_features import thin_cells
 from .trajectories import Trajectories
@@ -49,6 +50,7 @@ def unit_bricks(
     longest: bool,
     catalogue: Catalogue,
     closed: bool = True,
+    progress: Progress = silent,
 ) -> UnitGrid:
     """Turn trajectories into unit bricks.
 
@@ -72,6 +74,8 @@ def unit_bricks(
         Whether the mesh is watertight. Into an open one the air is let in, by
         every opening of a stud or more that does not face the ground: a vehicle
         whose windows are open stays hollow.
+    progress : Progress, optional
+        Told between the steps.
 
     Returns
     -------
@@ -82,14 +86,18 @@ def unit_bricks(
     level = trajectories.loop_slice[trajectories.edge_loop].astype(np.int64)
     area = covered(pieces, level[pieces.edge], len(layer), grid.n_y, grid.n_x)
     solid = half_covered(np.clip(area, 0, CELL_AREA), layer, grid.n_layers)
+    progress("unit bricks", 0.1)
     samples = trajectory_samples(mesh, trajectories, pieces, level, layer, heights, grid).joined(
         horizontal_samples(mesh, surface, grid)
     )
+    progress("unit bricks", 0.3)
     if not closed:
         solid &= ~air_around(samples, grid.shape, on_ground=True).fills(grid.shape)
+    progress("unit bricks", 0.4)
     if keep_thin:
         solid |= thin_cells(samples, solid)
         solid |= bridging_cells(solid, surface_area(samples, grid.shape))
+    progress("unit bricks", 0.6)
     air = outer_air(solid)
     seen = visible(solid, air)
     colour = np.full(grid.shape, COLOUR_EMPTY, dtype=np.int16)

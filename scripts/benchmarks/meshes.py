@@ -16,12 +16,12 @@ from legorize_addon.core.errors import MeshError
 from legorize_addon.core.mesh import Repairs, TriangleMesh, repair, scaled
 from legorize_addon.core.pipeline import model_scale
 from legorize_addon.core.settings import Settings
+from legorize_addon.core.units import MM_PER_METRE
 
 Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
 
 SUFFIXES: Final = (".glb", ".gltf", ".obj", ".ply", ".stl")
-MM_PER_METRE: Final = 1000.0
 
 _GLTF: Final = (".glb", ".gltf")
 _Y_UP: Final = (*_GLTF, ".obj")

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from legorize_addon import bake
+from legorize_addon.core.colour_difference import linear_from_srgb
 from legorize_addon.core.errors import MeshError
-from legorize_addon.read_colours import linear_from_srgb, srgb_from_linear
+from legorize_addon.read_colours import srgb_from_linear
 from tests.blender.builders import (
     TEXELS,
     Nodes,

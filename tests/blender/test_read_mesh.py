@@ -10,9 +10,10 @@ import pytest
 from mathutils import Matrix
 
 from legorize_addon import read_images
+from legorize_addon.core.colour_difference import linear_from_srgb
 from legorize_addon.core.errors import MeshError
 from legorize_addon.core.mesh import TriangleMesh
-from legorize_addon.read_colours import linear_from_srgb, srgb_from_linear
+from legorize_addon.read_colours import srgb_from_linear
 from tests.blender.builders import (
     QUAD_UVS,
     TEXELS,
