@@ -11,7 +11,7 @@
                         (``linking``, ``loops``, ``nesting``, ``simplify``)
 ``unit_bricks``         loops on the grid -> which cells are bricks, in which colour
                         (``coverage``, ``pass_through``; ``rays``, ``samples``; ``thin_features``,
-                        ``bridges``; ``exposure``, ``cell_colours``, ``eight_neighbours``)
+                        ``bridges``; ``exposure``, ``skins``, ``cell_colours``, ``eight_neighbours``)
 ``hollowing``           which cells must be built, may be built, or stay empty
 ``layout``              which bricks cover the cells
 ``connection``          what holds to what

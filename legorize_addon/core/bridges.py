@@ -41,7 +41,7 @@ def bridging_cells(solid: Mask, surface: Floats) -> Mask:
     weight = np.pad(surface, 1)
     while True:
         part, n_parts = ndimage.label(joined)
-        near, far = _touching(part, n_parts)
+        near, far = _touching(part, n_parts) if n_parts > 1 else ((), ())
         if len(near) == 0:
             return joined[1:-1, 1:-1, 1:-1] & ~solid
         for start, end in zip(near, far, strict=True):

@@ -19,6 +19,7 @@ from .colours import SurfaceColours
 from .exposure import nearest_faces, reached_by_air
 from .model import COLOUR_ANY, Floats, Ints, Mask
 from .samples import SurfaceSamples
+from .skins import under_a_skin
 from .units import BRICK, STUD
 
 Codes = NDArray[np.int16]
@@ -54,9 +55,8 @@ def likeliest_colours(
     (n_seen,) int16 array
         LDraw codes in the order of ``np.nonzero(seen)``.
     """
-    reached = reached_by_air(samples, solid.shape)
-    cell = nearest_faces(samples.place, solid, air)
-    codes, votes = counted(cell, samples.colour, samples.area * reached, seen)
+    shown = samples.at(reached_by_air(samples, solid.shape) & ~under_a_skin(samples))
+    codes, votes = counted(nearest_faces(shown.place, seen, air), shown.colour, shown.area, seen)
     difference = votes @ colour_differences(codes, catalogue, surface)
     # a colour that the cell does not have at all is never chosen
     return chosen(codes, votes, np.where(votes > 0, -difference, -np.inf), seen)

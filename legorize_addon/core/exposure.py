@@ -61,13 +61,16 @@ class OuterAir:
         by which the drawn surface is thicker than the real one.
         """
         free = _grown(self.free)
+        around = _grown(_grown(free)).ravel()
         ahead = samples.normal * self.fine
-        ahead /= np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), np.finfo(float).tiny)
-        seen = np.zeros(len(ahead), dtype=bool)
+        ahead /= np.maximum(np.sqrt(np.einsum("ij,ij->i", ahead, ahead)), np.finfo(float).tiny)[:, None]
+        ahead /= self.fine
+        reached = around[_fine_cells(samples.place, self.fine, free.shape)]
+        rest = np.flatnonzero(reached)
         for step in _AHEAD:
-            seen |= free[_fine_cells(samples.place + step * ahead / self.fine, self.fine, free.shape)]
-        near = _grown(_grown(free))[_fine_cells(samples.place, self.fine, free.shape)]
-        reached: Mask = seen & near
+            place = samples.place.take(rest, axis=0) + step * ahead.take(rest, axis=0)
+            rest = rest[~free.ravel()[_fine_cells(place, self.fine, free.shape)]]
+        reached[rest] = False
         return reached
 
     def fills(self, shape: tuple[int, int, int]) -> Mask:
@@ -97,10 +100,10 @@ def air_around(samples: SurfaceSamples, shape: tuple[int, int, int], *, on_groun
     fine = _FINE if np.prod(np.array(shape) * _FINE) < _FINE_LIMIT else np.ones(3, dtype=int)
     drawn = np.zeros(np.array(shape) * fine + 2 * _MARGIN, dtype=bool)
     pieces = samples.along.any(axis=1)
-    drawn[_fine_cells(samples.place[~pieces], fine, drawn.shape)] = True
+    drawn.ravel()[_fine_cells(samples.place[~pieces], fine, drawn.shape)] = True
+    middle, along = samples.place[pieces], samples.along[pieces]
     for share in (np.arange(_STEPS) + 0.5) / _STEPS - 0.5:
-        place = samples.place[pieces] + share * samples.along[pieces]
-        drawn[_fine_cells(place, fine, drawn.shape)] = True
+        drawn.ravel()[_fine_cells(middle + share * along, fine, drawn.shape)] = True
     drawn = _grown(drawn)
     if on_ground:
         drawn[:_MARGIN] = True
@@ -130,9 +133,13 @@ def _grown(mask: Mask) -> Mask:
     return grown
 
 
-def _fine_cells(place: Floats, fine: Ints, shape: tuple[int, ...]) -> tuple[Ints, ...]:
-    cell = np.floor(place * fine).astype(np.int64) + _MARGIN
-    return tuple(np.clip(cell, 0, np.array(shape) - 1).T)
+def _fine_cells(place: Floats, fine: Ints, shape: tuple[int, ...]) -> Ints:
+    """Return the flat index of the fine cell of each place, that at the rim for places beyond."""
+    flat = np.zeros(len(place), dtype=np.intp)
+    for along, factor, size in zip(place.T, fine, shape, strict=True):
+        flat *= size
+        flat += np.minimum(np.maximum(np.floor(along * factor) + _MARGIN, 0), size - 1).astype(np.intp)
+    return flat
 
 
 def nearest_faces(place: Floats, solid: Mask, air: Mask) -> Ints:
@@ -157,21 +164,24 @@ def nearest_faces(place: Floats, solid: Mask, air: Mask) -> Ints:
     margin = 2
     solid_around = np.pad(solid, margin)
     air_around = np.pad(air, margin, constant_values=True).ravel()
+    base = np.floor(place - 0.5)
     strides = np.array(solid_around.strides)
-    limit = np.array(solid_around.shape) - 2
-    base = np.floor(place - 0.5).astype(np.int64)
+    flat_along = [
+        [np.clip(along + side + margin, 1, size - 2).astype(np.int64) * stride for side in range(2)]
+        for along, stride, size in zip(base.T, strides, solid_around.shape, strict=True)
+    ]
     found = np.full(len(place), -1, dtype=np.int64)
     least = np.full(len(place), np.inf)
-    for corner in np.ndindex(2, 2, 2):
-        cell = np.clip(base + corner + margin, 1, limit)
-        flat = cell @ strides
+    for z, y, x in np.ndindex(2, 2, 2):
+        flat = flat_along[0][z] + flat_along[1][y] + flat_along[2][x]
         rows = np.flatnonzero(solid_around.ravel()[flat])
-        offset = place[rows] - (cell[rows] - margin) - 0.5
-        distance = _face_distances(offset, flat[rows], strides, air_around)
+        flat = flat[rows]
+        offset = place.take(rows, axis=0) - base.take(rows, axis=0) - (z + 0.5, y + 0.5, x + 0.5)
+        distance = _face_distances(offset, flat, strides, air_around)
         nearer = distance < least[rows] - _TIE
         rows = rows[nearer]
         least[rows] = distance[nearer]
-        found[rows] = flat[rows]
+        found[rows] = flat[nearer]
     around = np.unravel_index(np.maximum(found, 0), solid_around.shape)
     inside = np.ravel_multi_index(tuple(axis - margin for axis in around), solid.shape, mode="clip")
     return np.where(found >= 0, inside, -1)
@@ -196,11 +206,10 @@ def _face_distances(offset: Floats, flat: Ints, strides: Ints, air: Mask) -> Flo
     (n,) float64 array
         Infinite for a cell without an open face.
     """
-    beside = (np.maximum(np.abs(offset) - 0.5, 0) * _CELL) ** 2
-    total = beside.sum(axis=1)
+    beside = [(np.maximum(np.abs(along) - 0.5, 0) * side) ** 2 for along, side in zip(offset.T, _CELL, strict=True)]
     least = np.full(len(offset), np.inf)
     for axis in range(3):
-        aside = total - beside[:, axis]
+        aside = beside[axis - 2] + beside[axis - 1]
         for side in (-1, 1):
             open_ = air[flat + side * strides[axis]]
             reach = ((offset[:, axis] - side * 0.5) * _CELL[axis]) ** 2 + aside

@@ -54,6 +54,10 @@ class SurfaceSamples:
     area: Floats
     colour: NDArray[np.int16]
 
+    def at(self, rows: Mask) -> SurfaceSamples:
+        """Return the samples that a mask, (n,) bool, keeps."""
+        return SurfaceSamples(*(getattr(self, entry.name).compress(rows, axis=0) for entry in fields(self)))
+
     def joined(self, other: SurfaceSamples) -> SurfaceSamples:
         """Return these samples followed by others."""
         return SurfaceSamples(

@@ -7,6 +7,7 @@ is near to a brick.
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Final
 
 import numpy as np
@@ -30,6 +31,8 @@ _AROUND: Final = np.array([step for step in np.ndindex(3, 3, 3) if step != (1, 1
 _EVERYWHERE: Final = (True, True, True)
 _IN_LAYER: Final = (False, True, True)
 _UPRIGHT: Final = (True, False, False)
+_STEPS: Final = (0.0, -0.5 - _ROUNDING, 0.5 + _ROUNDING)
+"""Where cells are looked for along an axis: here, and half a cell to both sides."""
 
 
 def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
@@ -134,14 +137,18 @@ def _thick(solid: Mask) -> Mask:
 def _near(place: Floats, known: Mask, axes: tuple[bool, ...]) -> Mask:
     """Return whether each place lies in a known cell, or within half a cell of one along some axes at once."""
     padded = np.pad(known, 1)
-    strides, last = np.array(padded.strides), np.array(padded.shape) - 1
-    half = np.array(axes) * (0.5 + _ROUNDING)
+    flags, strides, last = padded.ravel(), padded.strides, np.array(padded.shape) - 1
+    # the middle first: there most places find their cell and are done with
+    steps = [_STEPS if each else _STEPS[:1] for each in axes]
+    flat = [
+        [np.minimum(np.maximum(np.floor(along + step) + 1, 0), end).astype(np.intp) * stride for step in choice]
+        for along, end, stride, choice in zip(place.T, last, strides, steps, strict=True)
+    ]
     near = np.zeros(len(place), dtype=bool)
-    # half a cell to both sides, and the middle, which is one of the two but for rounding
-    for side in np.ndindex(*(3 if each else 1 for each in axes)):
-        step = np.where(axes, np.array(side) - 1, 0) * half
-        cell = np.clip(np.floor(place + step).astype(np.int64) + 1, 0, last)
-        near |= padded.ravel()[cell @ strides]
+    rest = np.arange(len(place))
+    for z, y, x in product(*flat):
+        near[rest] = flags[z[rest] + y[rest] + x[rest]]
+        rest = rest[~near[rest]]
     return near
 
 
