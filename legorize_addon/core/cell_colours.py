@@ -9,6 +9,8 @@ belong to no other brick of the same trajectory.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
@@ -25,15 +27,47 @@ from .units import BRICK, STUD
 Codes = NDArray[np.int16]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Ballot:
+    """How the surface around visible cells votes for their colours.
+
+    Attributes
+    ----------
+    codes : (k,) int16 array
+        The colours there are, rising.
+    votes : (n_seen, k) float64 array
+        Weight of each colour at each cell, in the order of ``np.nonzero(seen)``.
+    score : (n_seen, k) float64 array
+        The colour with the greatest one wins.
+    difference : (k, k) float64 array
+        CIEDE2000: row by what takes the code, column by the brick.
+    """
+
+    codes: Codes
+    votes: Floats
+    score: Floats
+    difference: Floats
+
+    @property
+    def cost(self) -> Floats:
+        """Mean difference of each cell's surface from each colour, 0 where there is no vote, (n_seen, k)."""
+        total = self.votes.sum(axis=1, keepdims=True)
+        cost: Floats = self.votes @ self.difference / np.where(total > 0, total, 1)
+        return cost
+
+    def winners(self, seen: Mask, height: float = BRICK) -> Codes:
+        """Return the colour of each cell, given which they are and how high in mm, (n_seen,)."""
+        return chosen(self.codes, self.votes, self.score, seen, height)
+
+
 def likeliest_colours(
     samples: SurfaceSamples,
-    solid: Mask,
     air: Mask,
     seen: Mask,
     catalogue: Catalogue,
     surface: SurfaceColours | None = None,
-) -> Codes:
-    """Return for every visible cell the colour most like all the surface on its outer faces.
+) -> Ballot:
+    """Let all the surface on the outer faces of visible cells vote for the colour most like it.
 
     Each sample that can be seen counts for the cell with the nearest outer face.
     A cell takes the one of its colours that differs least, weighted by area, from
@@ -43,8 +77,8 @@ def likeliest_colours(
     Parameters
     ----------
     samples : SurfaceSamples
-    solid, air, seen : (n_layers, n_y, n_x) bool arrays
-        Cells of the model, of the air around it, and those to colour.
+    air, seen : (n_layers, n_y, n_x) bool arrays
+        Cells of the air around the model, and those to colour.
     catalogue : Catalogue
     surface : SurfaceColours, optional
         The texels that the bricks' colours stand for, to compare with these
@@ -52,14 +86,14 @@ def likeliest_colours(
 
     Returns
     -------
-    (n_seen,) int16 array
-        LDraw codes in the order of ``np.nonzero(seen)``.
+    Ballot
     """
-    shown = samples.at(reached_by_air(samples, solid.shape) & ~under_a_skin(samples))
-    codes, votes = counted(nearest_faces(shown.place, seen, air), shown.colour, shown.area, seen)
-    difference = votes @ colour_differences(codes, catalogue, surface)
+    shown = samples.at(reached_by_air(samples, seen.shape) & ~under_a_skin(samples))
+    cell = nearest_faces(shown.place, shown.sides, seen, air)
+    codes, votes = counted(cell, shown.colour, shown.area, seen)
+    difference = colour_differences(codes, catalogue, surface)
     # a colour that the cell does not have at all is never chosen
-    return chosen(codes, votes, np.where(votes > 0, -difference, -np.inf), seen)
+    return Ballot(codes, votes, np.where(votes > 0, -votes @ difference, -np.inf), difference)
 
 
 def colour_differences(codes: Codes, catalogue: Catalogue, surface: SurfaceColours | None) -> Floats:
@@ -116,7 +150,7 @@ def counted(cell: Ints, colour: Codes, weight: Floats, seen: Mask) -> tuple[Code
     return codes, votes.reshape(int(seen.sum()), len(codes))
 
 
-def chosen(codes: Codes, votes: Floats, score: Floats, seen: Mask) -> Codes:
+def chosen(codes: Codes, votes: Floats, score: Floats, seen: Mask, height: float = BRICK) -> Codes:
     """Return the colour with the best score of each cell, or that of the nearest cell with votes.
 
     Parameters
@@ -124,6 +158,8 @@ def chosen(codes: Codes, votes: Floats, score: Floats, seen: Mask) -> Codes:
     codes : (k,) int16 array
     votes, score : (n_seen, k) float64 arrays
     seen : (n_layers, n_y, n_x) bool array
+    height : float
+        Height of a cell in mm.
 
     Returns
     -------
@@ -135,7 +171,7 @@ def chosen(codes: Codes, votes: Floats, score: Floats, seen: Mask) -> Codes:
         return np.full(len(votes), COLOUR_ANY, dtype=np.int16)
     colour = codes[score.argmax(axis=1)]
     if not voted.all():
-        place = np.argwhere(seen) * np.array([BRICK, STUD, STUD])
+        place = np.argwhere(seen) * np.array([height, STUD, STUD])
         nearest = cKDTree(place[voted]).query(place[~voted])[1]
         colour[~voted] = colour[voted][nearest]
     return colour

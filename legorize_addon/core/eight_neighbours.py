@@ -12,7 +12,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .cell_colours import Codes, chosen, counted
+from .catalogue import Catalogue
+from .cell_colours import Ballot, colour_differences, counted
+from .colours import SurfaceColours
 from .coverage import Pieces
 from .model import Ints, Mask
 from .samples import SurfaceSamples, inner_cells
@@ -25,9 +27,16 @@ _OWN = 4
 
 
 def longest_colours(
-    trajectories: Trajectories, pieces: Pieces, samples: SurfaceSamples, solid: Mask, seen: Mask
-) -> Codes:
-    """Return for every visible cell the colour with the greatest trajectory length around it.
+    trajectories: Trajectories,
+    pieces: Pieces,
+    standing: Ints,
+    samples: SurfaceSamples,
+    solid: Mask,
+    seen: Mask,
+    catalogue: Catalogue,
+    surface: SurfaceColours | None = None,
+) -> Ballot:
+    """Let trajectories vote, by their length, for the colours of the visible cells that they pass.
 
     Cells that no trajectory passes, on level surface, take the colour with most
     surface in them.
@@ -37,22 +46,25 @@ def longest_colours(
     trajectories : Trajectories
     pieces : Pieces
         The trajectories' edges, cut at the grid.
+    standing : (n,) int64 array
+        Piece of each of the first samples.
     samples : SurfaceSamples
-        The pieces on real surface first, in the same order, then other surface.
+        Those of pieces first, then other surface.
     solid, seen : (n_layers, n_y, n_x) bool arrays
         Cells of the model, and those to colour.
+    catalogue : Catalogue
+    surface : SurfaceColours, optional
+        The texels that the bricks' colours stand for.
 
     Returns
     -------
-    (n_seen,) int16 array
-        LDraw codes in the order of ``np.nonzero(seen)``.
+    Ballot
     """
-    real = np.flatnonzero(trajectories.face[pieces.edge] >= 0)
-    n = len(real)
+    n = len(standing)
     brick = inner_cells(samples, solid)
-    excluded = excluded_neighbours(trajectories, pieces.edge[real], brick[:n], solid.shape)
+    excluded = excluded_neighbours(trajectories, pieces.edge[standing], brick[:n], solid.shape)
     cell, entry = participants(samples.cell[:n], brick[:n], excluded, solid)
-    length = pieces.length[real]
+    length = pieces.length[standing]
     codes, votes = counted(
         np.concatenate([cell, brick[n:]]),
         np.concatenate([samples.colour[:n][entry], samples.colour[n:]]),
@@ -60,7 +72,7 @@ def longest_colours(
         np.concatenate([length[entry], samples.area[n:] * 1e-9]),
         seen,
     )
-    return chosen(codes, votes, votes, seen)
+    return Ballot(codes, votes, votes, colour_differences(codes, catalogue, surface))
 
 
 def excluded_neighbours(

@@ -14,15 +14,13 @@ from scipy import ndimage
 
 from .model import Floats, Ints, Mask
 from .samples import SurfaceSamples
+from .units import STUD
 
-_FINE: Final = np.array([2, 2, 2])
-"""Fine cells to a unit cell along layer, y and x."""
+_FINEST: Final = 4.5
+"""About the side of a fine cell in mm: half a stud, half a brick, a plate."""
 
 _FINE_LIMIT: Final = 80_000_000
 """Fine cells beyond which unit cells are used instead, to bound the memory."""
-
-_CELL: Final = np.array([1.2, 1.0, 1.0])
-"""Sides of a cell along layer, y and x in studs."""
 
 _TIE: Final = 1e-12
 """Squared distances nearer than this are equal: the first cell keeps the point."""
@@ -97,7 +95,9 @@ def air_around(samples: SurfaceSamples, shape: tuple[int, int, int], *, on_groun
     -------
     OuterAir
     """
-    fine = _FINE if np.prod(np.array(shape) * _FINE) < _FINE_LIMIT else np.ones(3, dtype=int)
+    fine = np.round(samples.sides * STUD / _FINEST).astype(int)
+    if np.prod(np.array(shape) * fine) > _FINE_LIMIT:
+        fine = np.ones(3, dtype=int)
     drawn = np.zeros(np.array(shape) * fine + 2 * _MARGIN, dtype=bool)
     pieces = samples.along.any(axis=1)
     drawn.ravel()[_fine_cells(samples.place[~pieces], fine, drawn.shape)] = True
@@ -142,7 +142,7 @@ def _fine_cells(place: Floats, fine: Ints, shape: tuple[int, ...]) -> Ints:
     return flat
 
 
-def nearest_faces(place: Floats, solid: Mask, air: Mask) -> Ints:
+def nearest_faces(place: Floats, sides: Floats, solid: Mask, air: Mask) -> Ints:
     """Return the cell whose outer face is nearest to each point.
 
     Only the eight cells around a point are looked at.
@@ -151,6 +151,8 @@ def nearest_faces(place: Floats, solid: Mask, air: Mask) -> Ints:
     ----------
     place : (n, 3) float64 array
         Points in cells: layer, y, x.
+    sides : (3,) float64 array
+        Sides of a cell along layer, y and x in studs.
     solid : (n_layers, n_y, n_x) bool array
         Cells of the model.
     air : (n_layers, n_y, n_x) bool array
@@ -177,7 +179,7 @@ def nearest_faces(place: Floats, solid: Mask, air: Mask) -> Ints:
         rows = np.flatnonzero(solid_around.ravel()[flat])
         flat = flat[rows]
         offset = place.take(rows, axis=0) - base.take(rows, axis=0) - (z + 0.5, y + 0.5, x + 0.5)
-        distance = _face_distances(offset, flat, strides, air_around)
+        distance = _face_distances(offset, sides, flat, strides, air_around)
         nearer = distance < least[rows] - _TIE
         rows = rows[nearer]
         least[rows] = distance[nearer]
@@ -187,13 +189,15 @@ def nearest_faces(place: Floats, solid: Mask, air: Mask) -> Ints:
     return np.where(found >= 0, inside, -1)
 
 
-def _face_distances(offset: Floats, flat: Ints, strides: Ints, air: Mask) -> Floats:
+def _face_distances(offset: Floats, sides: Floats, flat: Ints, strides: Ints, air: Mask) -> Floats:
     """Return the squared distance from points to the nearest open face of their cells, in studs.
 
     Parameters
     ----------
     offset : (n, 3) float64 array
         Points relative to the middle of the cell, in cells.
+    sides : (3,) float64 array
+        Sides of a cell in studs.
     flat : (n,) int64 array
         Flat index of the cells.
     strides : (3,) int64 array
@@ -206,12 +210,12 @@ def _face_distances(offset: Floats, flat: Ints, strides: Ints, air: Mask) -> Flo
     (n,) float64 array
         Infinite for a cell without an open face.
     """
-    beside = [(np.maximum(np.abs(along) - 0.5, 0) * side) ** 2 for along, side in zip(offset.T, _CELL, strict=True)]
+    beside = [(np.maximum(np.abs(along) - 0.5, 0) * side) ** 2 for along, side in zip(offset.T, sides, strict=True)]
     least = np.full(len(offset), np.inf)
     for axis in range(3):
         aside = beside[axis - 2] + beside[axis - 1]
         for side in (-1, 1):
             open_ = air[flat + side * strides[axis]]
-            reach = ((offset[:, axis] - side * 0.5) * _CELL[axis]) ** 2 + aside
+            reach = ((offset[:, axis] - side * 0.5) * sides[axis]) ** 2 + aside
             np.minimum(least, reach, out=least, where=open_)
     return least

@@ -8,7 +8,7 @@ alpha = 1.1 so that no trajectory meets the partial cells at its rim.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -37,21 +37,28 @@ class Grid:
     origin : (3,) float64 array
         Lowest corner in mm.
     n_layers, n_y, n_x : int
-        Brick layers, and cells along y and x.
+        Layers, and cells along y and x.
+    height : float
+        Height of a layer in mm: that of a brick or of a plate.
     """
 
     origin: Floats
     n_layers: int
     n_y: int
     n_x: int
+    height: float = BRICK
 
     @property
     def shape(self) -> tuple[int, int, int]:
-        """Cells of one brick's height: (n_layers, n_y, n_x)."""
+        """Cells: (n_layers, n_y, n_x)."""
         return self.n_layers, self.n_y, self.n_x
 
+    def plates(self) -> Grid:
+        """Return the same box in layers of plates."""
+        return replace(self, n_layers=PLATES_PER_BRICK * self.n_layers, height=PLATE)
 
-def fit_grid(mesh: TriangleMesh, *, symmetric: bool) -> Grid:
+
+def fit_grid(mesh: TriangleMesh, *, symmetric: bool, plates: bool = False) -> Grid:
     """Lay the grid over a mesh that has its final size.
 
     Parameters
@@ -61,6 +68,8 @@ def fit_grid(mesh: TriangleMesh, *, symmetric: bool) -> Grid:
         Put the middle of the model on a cell border or a cell centre, whichever
         lets the outer cells fit better; else the cells start at the corner of the
         rectangle B, enlarged about the middle of the model, as in the paper.
+    plates : bool
+        Whether the model stands on a layer of plates instead of bricks.
 
     Returns
     -------
@@ -78,16 +87,16 @@ def fit_grid(mesh: TriangleMesh, *, symmetric: bool) -> Grid:
         start = middle - cells * STUD / 2
     else:
         cells = np.maximum(cells, np.ceil((high[:2] - start) / STUD).astype(int) + 1)
-    ground, n_layers = _ground(mesh, start, cells)
+    ground, n_layers = _ground(mesh, start, cells, 1 if plates else PLATES_PER_BRICK)
     return Grid(np.array([*start, ground]), n_layers, int(cells[1]), int(cells[0]))
 
 
-def _ground(mesh: TriangleMesh, start: Floats, cells: np.ndarray) -> tuple[float, int]:
+def _ground(mesh: TriangleMesh, start: Floats, cells: np.ndarray, base: int) -> tuple[float, int]:
     """Choose the height of the first layer so that it carries the model.
 
     A rounded or pointed underside would stand on a few cells; the model is sunk
     by up to one brick, a plate at a time, until its centre of mass lies well
-    inside the first layer's hull, or as well as it can.
+    inside the hull of its lowest plates, as many as `base`, or as well as it can.
     """
     low, high = mesh.vertices[:, 2].min(), mesh.vertices[:, 2].max()
     n_layers = max(1, int(np.ceil((high - low) / BRICK - 1e-9)))
@@ -101,7 +110,7 @@ def _ground(mesh: TriangleMesh, start: Floats, cells: np.ndarray) -> tuple[float
     steady = max(1.0, _STEADY_SHARE * width)
     margins = []
     for sunk in range(PLATES_PER_BRICK + 1):
-        first = coverage[sunk : sunk + PLATES_PER_BRICK].mean(axis=0) >= CELL_AREA / 2
+        first = coverage[sunk : sunk + base].mean(axis=0) >= CELL_AREA / 2
         margins.append(min(_margin(first, centre), steady))
     sunk = int(np.argmax(margins))
     ground = float(low + sunk * PLATE)

@@ -7,32 +7,54 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .catalogue import Catalogue, load_catalogue
+from .colour_joints import with_colour_joints
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .connection import Connection, connect
-from .errors import SettingsError
+from .detail import Detail
 from .grid import Grid, fit_grid
 from .hollowing import hollow
-from .layout import lay
+from .joints import with_joints
+from .layout import FILLER, lay
+from .levels import levels_of
+from .marking import Marks, differing_layers
 from .mesh import Repairs, TriangleMesh, repair, scaled
-from .model import Bricks, UnitGrid
+from .model import Bricks, Mask, UnitGrid
+from .offset_bricks import with_offset_bricks
+from .overhangs import Offsets
 from .progress import Progress, silent
+from .reinforcement import reinforced
 from .settings import Settings
+from .size import check_any, check_size, model_scale
 from .slicing import Slices, adaptive_heights, slice_mesh
 from .trajectories import Trajectories, link_loops
 from .unit_bricks import unit_bricks
-from .units import BRICK, STUD
+from .units import PLATES_PER_BRICK
 
-MOST_CELLS: Final = 60_000_000
-"""Unit cells that a grid may have: beyond, the arrays of a run outgrow 16 GB."""
 
-_ORIGINAL_SCALE: Final = 10.0
-"""Scale factor k at which an object keeps its size (paper, section 3)."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Cut:
+    """The cut of the mesh.
+
+    Attributes
+    ----------
+    slices : Slices
+    layer : (n_slices,) int32 array
+        Brick layer of every slice.
+    plate : (n_slices,) int8 array
+        Plate of that layer whose middle the slice is.
+    marks : Marks or None
+        Layers that differ from their neighbours, where plates were asked for.
+    """
+
+    slices: Slices
+    layer: NDArray[np.int32]
+    plate: NDArray[np.int8]
+    marks: Marks | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,12 +73,12 @@ class Build:
         Model mm per world mm.
     surface : SurfaceColours
         The brick colour of every texel.
-    slices : Slices
-        The cut of the mesh.
+    cut : Cut
+        The mesh cut in slices.
     trajectories : Trajectories
         The coloured loops.
-    layer : (n_slices,) int32 array
-        Brick layer of every slice.
+    offsets : Offsets
+        What closes horizontal faces.
     grid : UnitGrid
         All unit bricks, before hollowing.
     hollow : UnitGrid
@@ -76,9 +98,9 @@ class Build:
     repairs: Repairs
     scale: float
     surface: SurfaceColours
-    slices: Slices
+    cut: Cut
     trajectories: Trajectories
-    layer: NDArray[np.int32]
+    offsets: Offsets
     grid: UnitGrid
     hollow: UnitGrid
     bricks: Bricks
@@ -115,40 +137,45 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
 
     with stage("mesh"):
         mesh, repairs = repair(mesh)
-        scale = model_scale(mesh, settings)
-        mesh = scaled(mesh, scale)
-        check_size(mesh)
+        mesh, scale = _sized(mesh, settings)
     with stage("colours"):
         surface = _surface(mesh, settings, palette, catalogue, rng)
     with stage("slicing"):
-        frame = fit_grid(mesh, symmetric=settings.symmetric)
-        slices, layer = _slices(mesh, surface, frame, settings)
+        frame = fit_grid(mesh, symmetric=settings.symmetric, plates=_in_plates(settings))
+        cut = _cut(mesh, surface, frame, settings)
     with stage("trajectories"):
-        trajectories = link_loops(mesh, slices, surface, chord_deviation=settings.chord_deviation)
+        trajectories = link_loops(mesh, cut.slices, surface, chord_deviation=settings.chord_deviation)
     with stage("unit bricks"):
-        grid = _unit_grid(mesh, repairs, trajectories, surface, frame, slices, layer, settings, catalogue, progress)
+        grid = _unit_grid(mesh, repairs, trajectories, surface, frame, cut, settings, catalogue, progress)
+    with stage("overhangs"):
+        grid, offsets = with_offset_bricks(
+            grid,
+            plates=_in_plates(settings),
+            critical_angle=settings.critical_angle,
+            literal=settings.cell_colour == "longest",
+        )
     with stage("hollowing"):
-        shell = hollow(grid, shell=settings.shell if settings.hollow else None)
+        shell = with_colour_joints(with_joints(reinforced(_hollowed(grid, settings))))
     with stage("layout"):
-        bricks = lay(shell, catalogue, rng=rng, progress=progress)
+        bricks = lay(shell, catalogue, rng=rng, filler=_filler(palette, catalogue), progress=progress)
         connection = connect(bricks, catalogue)
     notes = (*repairs.sentences(), *_remarks(connection))
-    return Build(
-        settings,
-        mesh,
-        repairs,
-        scale,
-        surface,
-        slices,
-        trajectories,
-        layer,
-        grid,
-        shell,
-        bricks,
-        connection,
-        notes,
-        timings,
+    made = (mesh, repairs, scale, surface, cut, trajectories, offsets, grid, shell, bricks, connection)
+    return Build(settings, *made, notes, timings)
+
+
+def _in_plates(settings: Settings) -> bool:
+    return settings.plates != "none"
+
+
+def _sized(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, float]:
+    """Return the mesh in the size of the model, and the scale."""
+    scale = model_scale(
+        mesh, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale
     )
+    mesh = scaled(mesh, scale)
+    check_size(mesh, plates=_in_plates(settings))
+    return mesh, scale
 
 
 def _surface(
@@ -170,18 +197,25 @@ def _surface(
     )
 
 
-def _slices(
-    mesh: TriangleMesh, surface: SurfaceColours, frame: Grid, settings: Settings
-) -> tuple[Slices, NDArray[np.int32]]:
-    """Return the cut of the mesh at adaptive heights, and the layer of every slice."""
-    heights, layer, _ = adaptive_heights(
+def _cut(mesh: TriangleMesh, surface: SurfaceColours, frame: Grid, settings: Settings) -> Cut:
+    """Cut the mesh at adaptive heights."""
+    marks = differing_layers(mesh, frame, tolerance=settings.layer_difference) if _in_plates(settings) else None
+    heights, layer, plate = adaptive_heights(
         mesh,
         ground=float(frame.origin[2]),
         n_layers=frame.n_layers,
         cusp=settings.cusp,
         colour=surface.of_faces(mesh),
+        marked=_marked(marks, frame, settings),
     )
-    return slice_mesh(mesh, heights), layer
+    return Cut(slice_mesh(mesh, heights), layer, plate, marks)
+
+
+def _marked(marks: Marks | None, frame: Grid, settings: Settings) -> Mask | None:
+    """Return the layers that are sliced plate by plate in any case."""
+    if settings.plates == "all":
+        return np.ones(frame.n_layers, dtype=bool)
+    return None if marks is None else marks.any
 
 
 def _unit_grid(
@@ -190,89 +224,55 @@ def _unit_grid(
     trajectories: Trajectories,
     surface: SurfaceColours,
     frame: Grid,
-    slices: Slices,
-    layer: NDArray[np.int32],
+    cut: Cut,
     settings: Settings,
     catalogue: Catalogue,
     progress: Progress,
 ) -> UnitGrid:
     """Return the unit bricks, of which there must be one at least."""
+    lattice = frame.plates() if _in_plates(settings) else frame
     grid = unit_bricks(
         mesh,
         trajectories,
         surface,
-        frame,
-        layer=layer,
-        heights=slices.heights,
+        lattice,
+        levels=levels_of(cut.slices.heights, cut.layer, cut.plate, lattice),
         keep_thin=settings.keep_thin,
         longest=settings.cell_colour == "longest",
         catalogue=catalogue,
         closed=repairs.watertight,
+        detail=_detail(cut.layer, frame, settings),
         progress=progress,
     )
-    _check_any(grid, mesh)
+    check_any(grid, mesh)
     return grid
 
 
-def model_scale(mesh: TriangleMesh, settings: Settings) -> float:
-    """Return the factor from the size of the mesh to that of the model.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        In world mm.
-    settings : Settings
-
-    Returns
-    -------
-    float
-        Model mm per world mm.
-
-    Raises
-    ------
-    SettingsError
-        The mesh has no extent along what shall have the asked size.
-
-    References
-    ----------
-    Paper, section 3: a factor k of 10 keeps the size.
-    """
-    size = np.ptp(mesh.vertices, axis=0)
-    if settings.size_by == "scale":
-        return settings.scale / _ORIGINAL_SCALE
-    if settings.size_by == "width":
-        wanted, extent, word = settings.width * STUD, size[:2].max(), "width"
-    else:
-        wanted, extent, word = settings.height * BRICK, size[2], "height"
-    if extent <= 1e-9 * size.max():
-        raise SettingsError(f"The mesh has a {word} of {extent:g} mm: set the size by another measure than {word}.")
-    return float(wanted / extent)
+def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail | None:
+    """Return where plates may stay: in layers of three slices, and where they pay unless all were asked for."""
+    if not _in_plates(settings):
+        return None
+    marked = np.bincount(layer, minlength=frame.n_layers) == PLATES_PER_BRICK
+    return Detail(marked, settings.plate_gain if settings.plates == "pays" else 0.0)
 
 
-def check_size(mesh: TriangleMesh) -> None:
-    """Refuse a model that would not fit in memory.
-
-    Raises
-    ------
-    SettingsError
-        The grid would have more than ``MOST_CELLS`` cells.
-    """
-    studs, layers = np.ptp(mesh.vertices, axis=0)[:2] / STUD, np.ptp(mesh.vertices[:, 2]) / BRICK
-    cells = float(np.prod(np.ceil(1.1 * studs) + 2) * (np.ceil(layers) + 1))
-    if cells > MOST_CELLS:
-        raise SettingsError(
-            f"The model would be {studs[0]:.0f} x {studs[1]:.0f} studs and {layers:.0f} bricks high, {cells:.2g} cells "
-            f"of at most {MOST_CELLS:.2g}: choose a smaller size."
-        )
+def _hollowed(grid: UnitGrid, settings: Settings) -> UnitGrid:
+    """Return what must and what may be built."""
+    return hollow(
+        grid,
+        shell=settings.shell if settings.hollow else None,
+        rule=settings.hollow_rule,
+        ceilings=settings.ceilings,
+        open_bottom=settings.open_bottom,
+    )
 
 
-def _check_any(grid: UnitGrid, mesh: TriangleMesh) -> None:
-    if not grid.solid.any():
-        size = np.ptp(mesh.vertices, axis=0)
-        raise SettingsError(
-            f"The model would be {size[0]:.2g} x {size[1]:.2g} x {size[2]:.2g} mm, too small for one brick of "
-            f"{STUD:g} x {STUD:g} x {BRICK:g} mm: choose a larger size."
-        )
+def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:
+    """Return the colour of bricks that nobody sees: the usual one, or that of the palette in which most parts exist."""
+    if FILLER in palette:
+        return FILLER
+    made = catalogue.exists_in(np.arange(len(catalogue.parts))[:, None], palette).sum(axis=0)
+    return int(palette[made.argmax()])
 
 
 @contextmanager

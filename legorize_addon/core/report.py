@@ -7,23 +7,41 @@ from dataclasses import asdict
 from typing import Any, Final, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .catalogue import Catalogue, footprint
 from .connection import Connection
+from .joints import brick_columns
 from .ldraw import ldraw_matrix
+from .marking import Marks
 from .mesh import Repairs, TriangleMesh
-from .model import Bricks, Role, UnitGrid
+from .model import Bricks, Cover, Mask, Role, UnitGrid
+from .overhangs import Offsets, OverhangKind, overhang_kinds
+from .regions import tally_cases
 from .settings import Settings
 from .shopping import PartsList, count_parts, masses, not_made, pick_a_brick_csv
+from .units import PLATES_PER_BRICK
 
 SCHEMA: Final = 1
 """Version of the keys; raised when one of them changes its meaning."""
 
 
+# properties, because the members of a frozen dataclass can only be read
+class Sliced(Protocol):
+    """What the report reads of the cut of the mesh."""
+
+    @property
+    def layer(self) -> NDArray[np.int32]:
+        """Brick layer of every slice."""
+
+    @property
+    def marks(self) -> Marks | None:
+        """Layers that differ from their neighbours, None where no plates were asked for."""
+
+
 class Built(Protocol):
     """What the report reads of a finished build."""
 
-    # properties, because the members of a frozen dataclass can only be read
     @property
     def settings(self) -> Settings:
         """What the user chose."""
@@ -41,8 +59,20 @@ class Built(Protocol):
         """Model mm per world mm."""
 
     @property
+    def cut(self) -> Sliced:
+        """The slices."""
+
+    @property
+    def offsets(self) -> Offsets:
+        """What closes horizontal faces."""
+
+    @property
     def grid(self) -> UnitGrid:
         """The unit bricks before hollowing."""
+
+    @property
+    def hollow(self) -> UnitGrid:
+        """What must and what may be built."""
 
     @property
     def bricks(self) -> Bricks:
@@ -81,7 +111,8 @@ def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         Strings, numbers, lists and dictionaries only, ready for ``json.dumps``.
         ``mesh_to_ldraw`` is the row-major 4 x 4 transform from coordinates of
         that scene to LDU; ``hollow_ratio`` the share of the model's cells that
-        no brick fills, supports excluded.
+        no brick fills, supports excluded. ``offsets`` and ``overhangs`` count by
+        levels, of plates or of bricks, ``hollowing`` by cells a plate high.
 
     Raises
     ------
@@ -89,6 +120,7 @@ def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         A brick has a colour that is not in the catalogue.
     """
     parts = count_parts(build.bricks, catalogue)
+    levels = _levels(build)
     _, no_element = pick_a_brick_csv(parts, catalogue)
     return {
         "schema": SCHEMA,
@@ -99,6 +131,10 @@ def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         "mesh_to_ldraw": ldraw_matrix(build.grid.origin, build.scale, mm_per_unit).tolist(),
         "scale": build.scale,
         "grid": _grid(build.grid),
+        "detail": _detail(build.cut, build.grid),
+        "offsets": _offsets(build.offsets),
+        "overhangs": _overhangs(levels),
+        "hollowing": _hollowing(build, levels),
         "counts": _counts(build, catalogue, parts),
         "mass_g": round(float(masses(parts, catalogue).sum()), 2),
         "hollow_ratio": round(1 - _filled(build.bricks, catalogue) / int(build.grid.solid.sum()), 4),
@@ -124,6 +160,57 @@ def _grid(grid: UnitGrid) -> dict[str, int]:
     """Return the extent of the model in studs and layers."""
     layer, _, y, x = np.nonzero(grid.solid)
     return {"x": int(np.ptp(x)) + 1, "y": int(np.ptp(y)) + 1, "layers": int(np.ptp(layer)) + 1}
+
+
+def _levels(build: Built) -> Mask:
+    """Return the solid model in levels of plates or of bricks, as overhangs were looked for, without empty rims."""
+    solid = build.grid.solid
+    one_brick = len(build.offsets.ring) == len(solid)
+    levels = solid[:, 0] if one_brick else solid.reshape(-1, *solid.shape[2:])
+    used = [np.flatnonzero(levels.any(axis=others)) for others in ((0, 2), (0, 1))]
+    y, x = (slice(rows.min(initial=0), rows.max(initial=-1) + 1) for rows in used)
+    return levels[:, y, x]
+
+
+def _detail(cut: Sliced, grid: UnitGrid) -> dict[str, int | None]:
+    """Return how many layers differ, were sliced plate by plate, and have columns that are not one brick."""
+    plates = grid.solid.any(axis=1) & ~brick_columns(grid)[0]
+    layers = len(grid.colour)
+    marked = {
+        f"marked_by_{name}": None if cut.marks is None else int(getattr(cut.marks, name).sum())
+        for name in ("number", "length", "area")
+    }
+    return {
+        "layers": layers,
+        **marked,
+        "sliced_in_plates": int((np.bincount(cut.layer, minlength=layers) == PLATES_PER_BRICK).sum()),
+        "layers_in_plates": int(plates.any(axis=(1, 2)).sum()),
+        "columns_of_plates": int(plates.sum()),
+    }
+
+
+def _offsets(offsets: Offsets) -> dict[str, int]:
+    return {
+        "trajectories": int(offsets.trajectories.sum()),
+        "bricks": int(offsets.cells.sum()),
+        "left_alone": int(offsets.left_alone.sum()),
+    }
+
+
+def _overhangs(levels: Mask) -> dict[str, int]:
+    found = overhang_kinds(levels)
+    return {kind.name.lower(): found.count(kind) for kind in OverhangKind}
+
+
+def _hollowing(build: Built, levels: Mask) -> dict[str, Any]:
+    """Return the cells that must and may be built, those of the solid model, and the cases of the paper's regions."""
+    cover = build.hollow.cover
+    return {
+        "must": int((cover == Cover.MUST).sum()),
+        "may": int((cover == Cover.MAY).sum()),
+        "solid": int(build.grid.solid.sum()),
+        "cases": asdict(tally_cases(levels, upper_only=build.settings.hollow_rule == "upper")),
+    }
 
 
 def _counts(build: Built, catalogue: Catalogue, parts: PartsList) -> dict[str, Any]:

@@ -8,8 +8,8 @@ again they add up to the area itself.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Final
+from dataclasses import dataclass, fields, replace
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from .colours import SurfaceColours
 from .coverage import Pieces
 from .grid import Grid
+from .levels import Levels
 from .mesh import TriangleMesh
 from .model import Floats, Ints, Mask
 from .rays import vertical_hits
@@ -45,6 +46,8 @@ class SurfaceSamples:
         Surface that a sample stands for in mm^2.
     colour : (n,) int16 array
         LDraw code.
+    height : float
+        Height of a cell in mm.
     """
 
     place: Floats
@@ -53,28 +56,37 @@ class SurfaceSamples:
     normal: Floats
     area: Floats
     colour: NDArray[np.int16]
+    height: float = BRICK
+
+    @property
+    def sides(self) -> Floats:
+        """Sides of a cell along layer, y and x in studs, shape (3,)."""
+        return np.array([self.height / STUD, 1.0, 1.0])
 
     def at(self, rows: Mask) -> SurfaceSamples:
         """Return the samples that a mask, (n,) bool, keeps."""
-        return SurfaceSamples(*(getattr(self, entry.name).compress(rows, axis=0) for entry in fields(self)))
+        kept: dict[str, Any] = {name: getattr(self, name).compress(rows, axis=0) for name in self._columns()}
+        return replace(self, **kept)
 
     def joined(self, other: SurfaceSamples) -> SurfaceSamples:
         """Return these samples followed by others."""
-        return SurfaceSamples(
-            *(np.concatenate([getattr(self, entry.name), getattr(other, entry.name)]) for entry in fields(self))
-        )
+        pairs = {name: (getattr(self, name), getattr(other, name)) for name in self._columns()}
+        both: dict[str, Any] = {name: np.concatenate(pair) for name, pair in pairs.items()}
+        return replace(self, **both)
+
+    def _columns(self) -> list[str]:
+        return [entry.name for entry in fields(self) if entry.name != "height"]
 
 
 def trajectory_samples(
     mesh: TriangleMesh,
     trajectories: Trajectories,
     pieces: Pieces,
-    level: Ints,
-    layer: NDArray[np.int32],
-    heights: Floats,
+    standing: tuple[Ints, Ints],
+    levels: Levels,
     grid: Grid,
 ) -> SurfaceSamples:
-    """Return a sample for every piece of trajectory within a cell.
+    """Return samples for the pieces of trajectories on real surface.
 
     Parameters
     ----------
@@ -82,33 +94,51 @@ def trajectory_samples(
     trajectories : Trajectories
     pieces : Pieces
         The trajectories' edges, cut at the grid.
-    level : (n_edges,) int64 array
-        Slice of every edge.
-    layer : (n_slices,) int32 array
-        Layer of every slice.
-    heights : (n_slices,) float64 array
-        Height of every slice in mm.
+    standing : tuple of (n,) int64 arrays
+        Piece of each sample, and row of `levels`: see :func:`standing_pieces`.
+    levels : Levels
     grid : Grid
 
     Returns
     -------
     SurfaceSamples
-        The gaps' edges are left out: there is no surface.
     """
-    face = trajectories.face[pieces.edge]
-    real = np.flatnonzero(face >= 0)
-    face, slice_ = face[real], level[pieces.edge[real]]
-    z = (heights[slice_] - grid.origin[2]) / BRICK
+    piece, pair = standing
+    edge = pieces.edge.take(piece)
+    face = trajectories.face.take(edge)
     upright = np.sqrt(1 - level_shares(mesh) ** 2)[face]
-    thickness = BRICK / np.bincount(layer, minlength=grid.n_layers)[layer[slice_]]
+    none = np.zeros(len(piece))
     return SurfaceSamples(
-        place=np.column_stack([z, pieces.middle[real][:, ::-1]]),
-        along=np.column_stack([np.zeros(len(real)), pieces.along[real][:, ::-1]]),
-        cell=np.column_stack([layer[slice_].astype(np.int64), pieces.cell[real][:, ::-1]]),
-        normal=face_normals(mesh)[face],
-        area=pieces.length[real] * thickness * upright,
-        colour=trajectories.colour[pieces.edge[real]],
+        place=np.column_stack([levels.place.take(pair), pieces.middle.take(piece, axis=0)[:, ::-1]]),
+        along=np.column_stack([none, pieces.along.take(piece, axis=0)[:, ::-1]]),
+        cell=np.column_stack([levels.level.take(pair), pieces.cell.take(piece, axis=0)[:, ::-1]]),
+        normal=face_normals(mesh, grid.height).take(face, axis=0),
+        area=pieces.length.take(piece) * levels.thickness.take(pair) * upright,
+        colour=trajectories.colour.take(edge),
+        height=grid.height,
     )
+
+
+def standing_pieces(trajectories: Trajectories, pieces: Pieces, levels: Levels) -> tuple[Ints, Ints]:
+    """Return the pieces on real surface, once for every level that their slice stands for.
+
+    Parameters
+    ----------
+    trajectories : Trajectories
+    pieces : Pieces
+        The trajectories' edges, cut at the grid.
+    levels : Levels
+
+    Returns
+    -------
+    piece, pair : (n,) int64 arrays
+        Rows of `pieces` and of `levels`. The gaps' edges are left out: there is
+        no surface.
+    """
+    real = np.flatnonzero(trajectories.face.take(pieces.edge) >= 0)
+    slice_of_edge = trajectories.loop_slice[trajectories.edge_loop]
+    row, pair = levels.standing(slice_of_edge[pieces.edge.take(real)].astype(np.int64))
+    return real.take(row), pair
 
 
 def horizontal_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid) -> SurfaceSamples:
@@ -126,15 +156,16 @@ def horizontal_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid) 
     """
     pitch = STUD / _RAYS
     face, points, uvs = vertical_hits(mesh, corner=grid.origin[:2], pitch=pitch)
-    place = ((points - grid.origin) / [STUD, STUD, BRICK])[:, ::-1]
+    place = ((points - grid.origin) / [STUD, STUD, grid.height])[:, ::-1]
     cell = np.clip(np.floor(place).astype(np.int64), 0, np.array(grid.shape) - 1)
     return SurfaceSamples(
         place=place,
         along=np.zeros_like(place),
         cell=cell,
-        normal=face_normals(mesh)[face],
+        normal=face_normals(mesh, grid.height)[face],
         area=pitch * pitch * level_shares(mesh)[face],
         colour=surface.at(mesh.face_image[face], uvs),
+        height=grid.height,
     )
 
 
@@ -153,10 +184,10 @@ def level_shares(mesh: TriangleMesh) -> Floats:
     return share
 
 
-def face_normals(mesh: TriangleMesh) -> Floats:
-    """Return the outward normals in cells along layer, y and x, not of unit length, (n_f, 3)."""
+def face_normals(mesh: TriangleMesh, height: float = BRICK) -> Floats:
+    """Return the outward normals in cells of a height along layer, y and x, not of unit length, (n_f, 3)."""
     # a distance of one cell along an axis counts the same, whatever the cell's side
-    cells: Floats = mesh.normals[:, ::-1] * np.array([1 / BRICK, 1 / STUD, 1 / STUD])
+    cells: Floats = mesh.normals[:, ::-1] * np.array([1 / height, 1 / STUD, 1 / STUD])
     return cells
 
 

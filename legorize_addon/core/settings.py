@@ -74,6 +74,22 @@ class Settings:
         0.0, "How far in mm a simplified trajectory may leave the cut of the mesh.", group="Slicing",
         low=0.0, high=4.0)
 
+    plates: Literal["none", "pays", "all"] = setting(
+        "pays", "Where plates may lie instead of bricks: nowhere, where they pay, or wherever the surface cuts "
+        "through a brick.", group="Detail")
+    plate_gain: float = setting(
+        0.15, "Error that plates must save to pay: a share of a brick's volume, or of the difference between red and "
+        "blue on its faces.", group="Detail", low=0.0, high=1.0)
+    layer_difference: float = setting(
+        0.1, "Share by which trajectories of neighbouring layers may differ in length or area before their layers are "
+        "sliced plate by plate.", group="Detail", low=0.0, high=1.0)
+    critical_angle: float = setting(
+        45.0, "Steepest slope in degrees from the vertical that bricks carry by themselves; wider steps get offset "
+        "bricks in their own colours.", group="Detail", low=1.0, high=89.0)
+    backing: int = setting(
+        0, "Layers or rows of bricks behind a flat picture or relief, to hold it together.", group="Detail",
+        low=0, high=16)
+
     keep_thin: bool = setting(
         True, "Keep legs, ears and walls that cover less than half a stud.", group="Bricks")
     symmetric: bool = setting(
@@ -83,6 +99,14 @@ class Settings:
     shell: int = setting(
         1, "Thickness in studs of the shell that must be built; one more stud inwards may be used.",
         group="Bricks", low=1, high=100)
+    hollow_rule: Literal["both", "upper"] = setting(
+        "both", "Whether a layer is compared with the layers above and below to find what must stay, or with the one "
+        "above alone (the paper's literal way).", group="Bricks")
+    ceilings: Literal["cheaper", "corbels", "pillars", "free"] = setting(
+        "cheaper", "What carries ceilings inside the model while it is built: walls that lean inwards, pillars, "
+        "whichever takes fewer bricks, or nothing.", group="Bricks")
+    open_bottom: bool = setting(
+        False, "Leave the side on the ground open.", group="Bricks")
 
     seed: int = setting(
         0, "Seed of everything random: the same seed gives the same model.", group="Run", low=0, high=2**31 - 1)

@@ -12,7 +12,6 @@ import numpy as np
 
 from .model import Floats, Ints, Mask
 from .samples import SurfaceSamples
-from .units import BRICK, STUD
 
 _COLUMN: Final = 1.0
 """Width in studs of the columns in which samples that face the same way are compared."""
@@ -46,8 +45,7 @@ def under_a_skin(samples: SurfaceSamples) -> Mask:
         True where a sample that faces nearly the same way lies straight ahead,
         a tenth to eight tenths of a stud off.
     """
-    studs = np.array([BRICK / STUD, 1.0, 1.0])
-    place, normal = samples.place * studs, samples.normal * studs
+    place, normal = samples.place * samples.sides, samples.normal * samples.sides
     normal /= np.maximum(np.sqrt(np.einsum("ij,ij->i", normal, normal)), np.finfo(float).tiny)[:, None]
     order, column = _columns(place, normal)
     place, normal, first = place[order].T, normal[order].T, np.arange(len(order))

@@ -176,7 +176,13 @@ def slice_mesh(mesh: TriangleMesh, heights: Floats, *, axis: int = 2) -> Slices:
 
 
 def adaptive_heights(
-    mesh: TriangleMesh, *, ground: float, n_layers: int, cusp: float, colour: NDArray[np.int16]
+    mesh: TriangleMesh,
+    *,
+    ground: float,
+    n_layers: int,
+    cusp: float,
+    colour: NDArray[np.int16],
+    marked: Mask | None = None,
 ) -> tuple[Floats, NDArray[np.int32], NDArray[np.int8]]:
     """Choose the planes of every brick layer: its middle, or the middles of its three plates.
 
@@ -195,6 +201,8 @@ def adaptive_heights(
         Largest cusp height in mm.
     colour : (n_faces,) int16 array
         The one colour of a facet, or -1 where it has several.
+    marked : (n_layers,) bool array, optional
+        Layers that get three planes in any case.
 
     Returns
     -------
@@ -210,6 +218,8 @@ def adaptive_heights(
     Dolenc and Mäkelä 1994: the cusp of a step of height t on a facet is t |n_z|.
     """
     fine = _fine_layers(mesh, ground=ground, n_layers=n_layers, cusp=cusp, colour=colour)
+    if marked is not None:
+        fine |= marked
     wanted = np.ones((n_layers, PLATES_PER_BRICK), dtype=bool)
     wanted[~fine] = [False, True, False]
     layer, plate = np.nonzero(wanted)

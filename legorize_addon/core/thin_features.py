@@ -7,6 +7,7 @@ is near to a brick.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 from typing import Final
 
@@ -14,9 +15,10 @@ import numpy as np
 
 from .model import Floats, Ints, Mask
 from .samples import SurfaceSamples
+from .units import BRICK
 
 _LEAST_AREA: Final = 12.0
-"""Surface in mm^2, of both sides together, for which a brick is added."""
+"""Surface in mm^2, of both sides together, for which a brick is added; the sides of plates count three times."""
 
 _RIM_AREA: Final = 18.0
 """The same beside the model, where a brick more only rounds a rim up."""
@@ -57,6 +59,8 @@ def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
     place = samples.place - _ROUNDING * np.sign(samples.normal)
     thin = np.flatnonzero(~_near(place, _thick(solid), _EVERYWHERE))
     axis = np.argmax(np.abs(samples.normal), axis=1)
+    # the sides of a plate are as much of it as the sides of a brick are of a brick
+    samples = replace(samples, area=samples.area * np.where(axis == 0, 1, BRICK / samples.height))
     # beside the model a cell takes more, else its rims turn out ragged
     rim = np.zeros_like(solid)
     for each in range(3):

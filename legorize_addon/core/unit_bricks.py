@@ -22,20 +22,22 @@ from .bridges import bridging_cells
 from .catalogue import Catalogue
 from .cell_colours import likeliest_colours
 from .colours import SurfaceColours
-from .coverage import covered, cut_at_grid
+from .coverage import Pieces, covered, cut_at_grid
+from .detail import Detail, settled, settled_colours
 from .eight_neighbours import longest_colours
 from .exposure import air_around
 from .grid import Grid
+from .levels import Levels
 from .mesh import TriangleMesh
 from .model import COLOUR_ANY, COLOUR_EMPTY, Cover, Floats, Mask, Role, UnitGrid
 from .progress import Progress, silent
-from .samples import horizontal_samples, surface_area, trajectory_samples
+from .samples import horizontal_samples, standing_pieces, surface_area, trajectory_samples
 from .thin_features import thin_cells
 from .trajectories import Trajectories
-from .units import CELL_AREA, PLATES_PER_BRICK
+from .units import CELL_AREA, PLATE, PLATES_PER_BRICK
 
 _ROUNDING: Final = 1e-9
-"""A cell that is half covered but for rounding counts as half covered."""
+"""A cell that is half covered (32 mm^2 of 64) but for rounding counts as half covered."""
 
 
 def unit_bricks(
@@ -44,12 +46,12 @@ def unit_bricks(
     surface: SurfaceColours,
     grid: Grid,
     *,
-    layer: NDArray[np.int32],
-    heights: Floats,
+    levels: Levels,
     keep_thin: bool,
     longest: bool,
     catalogue: Catalogue,
     closed: bool = True,
+    detail: Detail | None = None,
     progress: Progress = silent,
 ) -> UnitGrid:
     """Turn trajectories into unit bricks.
@@ -60,10 +62,9 @@ def unit_bricks(
     trajectories : Trajectories
     surface : SurfaceColours
     grid : Grid
-    layer : (n_slices,) int32 array
-        Brick layer of every slice.
-    heights : (n_slices,) float64 array
-        Height of every slice in mm.
+        Of bricks, or of plates where details shall be plates.
+    levels : Levels
+        What the slices stand for in the grid.
     keep_thin : bool
         Add cells where the surface would else be lost: legs, ears, thin walls.
     longest : bool
@@ -74,6 +75,8 @@ def unit_bricks(
         Whether the mesh is watertight. Into an open one the air is let in, by
         every opening of a stud or more that does not face the ground: a vehicle
         whose windows are open stays hollow.
+    detail : Detail, optional
+        Where a grid of plates keeps them.
     progress : Progress, optional
         Told between the steps.
 
@@ -83,57 +86,76 @@ def unit_bricks(
         All cells of the solid, the visible ones in their colour.
     """
     pieces = cut_at_grid(trajectories.points, trajectories.ends, grid.origin[:2])
-    level = trajectories.loop_slice[trajectories.edge_loop].astype(np.int64)
-    area = covered(pieces, level[pieces.edge], len(layer), grid.n_y, grid.n_x)
-    solid = half_covered(np.clip(area, 0, CELL_AREA), layer, grid.n_layers)
+    share = _shares(trajectories, pieces, levels, grid)
     progress("unit bricks", 0.1)
-    samples = trajectory_samples(mesh, trajectories, pieces, level, layer, heights, grid).joined(
+    standing = standing_pieces(trajectories, pieces, levels)
+    samples = trajectory_samples(mesh, trajectories, pieces, standing, levels, grid).joined(
         horizontal_samples(mesh, surface, grid)
     )
     progress("unit bricks", 0.3)
     if not closed:
-        solid &= ~air_around(samples, grid.shape, on_ground=True).fills(grid.shape)
+        share[air_around(samples, grid.shape, on_ground=True).fills(grid.shape)] = 0
+    solid = half_covered(share)
     progress("unit bricks", 0.4)
     if keep_thin:
         solid |= thin_cells(samples, solid)
+    if detail is not None:
+        solid = settled(solid, share, detail)
+    if keep_thin:
         solid |= bridging_cells(solid, surface_area(samples, grid.shape))
     progress("unit bricks", 0.6)
     air = outer_air(solid)
     seen = visible(solid, air)
+    if longest:
+        ballot = longest_colours(trajectories, pieces, standing[0], samples, solid, seen, catalogue, surface)
+    else:
+        ballot = likeliest_colours(samples, air, seen, catalogue, surface)
     colour = np.full(grid.shape, COLOUR_EMPTY, dtype=np.int16)
     colour[solid] = COLOUR_ANY
-    if longest:
-        colour[seen] = longest_colours(trajectories, pieces, samples, solid, seen)
-    else:
-        colour[seen] = likeliest_colours(samples, solid, air, seen, catalogue, surface)
-    return _unit_grid(colour, grid.origin)
+    colour[seen] = ballot.winners(seen, grid.height)
+    if detail is not None:
+        colour = settled_colours(colour, seen, ballot, detail)
+    return _unit_grid(colour, grid)
 
 
-def half_covered(area: Floats, layer: NDArray[np.int32], n_layers: int) -> Mask:
-    """Return the cells of which at least half lies inside, averaged over the slices of their layer.
+def _shares(trajectories: Trajectories, pieces: Pieces, levels: Levels, grid: Grid) -> Floats:
+    """Return the share of every cell that lies inside, averaged over the slices of its level, 0 to 1."""
+    n_slices = int(levels.slice.max(initial=-1)) + 1
+    slice_of_edge = trajectories.loop_slice[trajectories.edge_loop].astype(np.int64)
+    area = np.clip(covered(pieces, slice_of_edge[pieces.edge], n_slices, grid.n_y, grid.n_x), 0, CELL_AREA)
+    return mean_areas(area, levels, grid.n_layers) / CELL_AREA
+
+
+def half_covered(share: Floats) -> Mask:
+    """Return the cells that are valid unit bricks, given the share of each that lies inside.
+
+    References
+    ----------
+    Paper: a unit brick is valid from 32 mm^2 of its 64.
+    """
+    half: Mask = share >= 0.5 - _ROUNDING
+    return half
+
+
+def mean_areas(area: Floats, levels: Levels, n_levels: int) -> Floats:
+    """Return the mean of areas over the slices of every level.
 
     Parameters
     ----------
     area : (n_slices, n_y, n_x) float64 array
         Covered area of each cell in mm^2, 0 to 64.
-    layer : (n_slices,) int32 array
-        Layer of each slice, rising.
-    n_layers : int
+    levels : Levels
+    n_levels : int
 
     Returns
     -------
-    (n_layers, n_y, n_x) bool array
-
-    References
-    ----------
-    Paper: a unit brick is valid from 32 mm^2.
+    (n_levels, n_y, n_x) float64 array
+        Zero where a level has no slice.
     """
-    total = np.zeros((n_layers, *area.shape[1:]))
-    present, start = np.unique(layer, return_index=True)
-    total[present] = np.add.reduceat(area, start, axis=0)
-    slices = np.maximum(np.bincount(layer, minlength=n_layers), 1)
-    half: Mask = total >= CELL_AREA * (0.5 - _ROUNDING) * slices[:, None, None]
-    return half
+    mean = np.zeros((n_levels, *area.shape[1:]))
+    present, start, count = np.unique(levels.level, return_index=True, return_counts=True)
+    mean[present] = np.add.reduceat(area[levels.slice], start, axis=0) / count[:, None, None]
+    return mean
 
 
 def outer_air(solid: Mask) -> Mask:
@@ -158,9 +180,10 @@ def visible(solid: Mask, air: Mask) -> Mask:
     return seen
 
 
-def _unit_grid(colour: NDArray[np.int16], origin: Floats) -> UnitGrid:
-    """Return a grid whose three plates a brick are equal and whose solid cells all must be built."""
-    plates = np.repeat(colour[:, None], PLATES_PER_BRICK, axis=1)
+def _unit_grid(colour: NDArray[np.int16], grid: Grid) -> UnitGrid:
+    """Return a grid whose solid cells all must be built, given the colours of bricks or of plates."""
+    times = round(grid.height / PLATE)
+    plates = np.repeat(colour, times, axis=0).reshape(-1, PLATES_PER_BRICK, *colour.shape[1:])
     cover = np.where(plates == COLOUR_EMPTY, Cover.EMPTY, Cover.MUST).astype(np.uint8)
     role = np.where(plates == COLOUR_ANY, Role.INSIDE, Role.SHELL).astype(np.uint8)
-    return UnitGrid(plates, cover, role, origin)
+    return UnitGrid(plates, cover, role, grid.origin)

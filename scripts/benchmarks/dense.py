@@ -46,13 +46,8 @@ def dense_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid, count
     -------
     SurfaceSamples
     """
-    corners = mesh.vertices[mesh.faces]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
-    rng = np.random.default_rng(0)
-    comb = (np.arange(count) + rng.random()) / count * area.sum()
-    face = np.minimum(np.searchsorted(np.cumsum(area), comb), len(area) - 1)
-    weight = _barycentric(count, rng)
-    points = np.einsum("ki,kij->kj", weight, corners[face])
+    face, weight, area = scattered(mesh, count)
+    points = np.einsum("ki,kij->kj", weight, mesh.vertices[mesh.faces[face]])
     place = ((points - grid.origin) / [STUD, STUD, BRICK])[:, ::-1]
     normal = face_normals(mesh)[face]
     within = place - _INWARDS * normal / np.linalg.norm(normal, axis=1, keepdims=True)
@@ -61,9 +56,34 @@ def dense_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid, count
         along=np.zeros_like(place),
         cell=np.clip(np.floor(within).astype(np.int64), 0, np.array(grid.shape) - 1),
         normal=normal,
-        area=np.full(count, area.sum() / count),
+        area=np.full(count, area / count),
         colour=surface.at(mesh.face_image[face], np.einsum("ki,kij->kj", weight, mesh.uvs[face])),
     )
+
+
+def scattered(mesh: TriangleMesh, count: int) -> tuple[NDArray[np.intp], Floats, float]:
+    """Choose points evenly over the surface.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    count : int
+
+    Returns
+    -------
+    face : (count,) int array
+        Triangle of each point.
+    weight : (count, 3) float64 array
+        Shares of the triangle's corners.
+    area : float
+        Of the whole surface, in mm^2.
+    """
+    corners = mesh.vertices[mesh.faces]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    rng = np.random.default_rng(0)
+    comb = (np.arange(count) + rng.random()) / count * area.sum()
+    face = np.minimum(np.searchsorted(np.cumsum(area), comb), len(area) - 1)
+    return face, _barycentric(count, rng), float(area.sum())
 
 
 def _barycentric(count: int, rng: np.random.Generator) -> Floats:
@@ -75,7 +95,7 @@ def _barycentric(count: int, rng: np.random.Generator) -> Floats:
 
 def dense_likeliest(samples: SurfaceSamples, solid: Mask, seen: Mask, surface: SurfaceColours) -> Codes:
     """Return the colours by the default rule, (n_seen,)."""
-    return likeliest_colours(samples, solid, outer_air(solid), seen, load_catalogue(), surface)
+    return likeliest_colours(samples, outer_air(solid), seen, load_catalogue(), surface).winners(seen)
 
 
 def dense_longest(

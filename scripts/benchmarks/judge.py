@@ -64,7 +64,7 @@ def measure(paths: Sequence[Path], *, judge: Path, out: Path, width: int, ldr_di
         mesh = read_mesh(path)
         own = out / "ours" / f"{path.stem}-{width}.ldr"
         bricks = found_bricks(ldr_dir, path.stem) if ldr_dir else _written(mesh, own, width)
-        ours = _judged(judge, path, bricks, width, own.with_suffix(".json"))
+        ours = judged(judge, path, bricks, width, own.with_suffix(".json"))
         peers = _peer(judge, path, width, out / "peer")
         rows += [_row(path.stem, who, facts) for who, facts in (("ours", ours), ("peer", peers))]
         ratios.append(_ratios(path.stem, ours, peers, closed=repair(mesh)[1].watertight))
@@ -103,10 +103,35 @@ def _peer(judge: Path, path: Path, width: int, folder: Path) -> Facts:
         facts: Facts = json.loads(said.read_text(encoding="utf-8"))
         return facts
     _run(judge / "peer_voxels.py", path, width, bricks, bricks.with_suffix(".jsonl"))
-    return _judged(judge, path, bricks, width, said)
+    return judged(judge, path, bricks, width, said)
 
 
-def _judged(judge: Path, path: Path, bricks: Path, width: int, said: Path) -> Facts:
+def judged(judge: Path, path: Path, bricks: Path, width: int, said: Path) -> Facts:
+    """Run the judge.
+
+    Parameters
+    ----------
+    judge : Path
+        Folder with ``judge.py``.
+    path : Path
+        Model file.
+    bricks : Path
+        LDraw file.
+    width : int
+        Studs along the longer horizontal side.
+    said : Path
+        Where the judgement is kept.
+
+    Returns
+    -------
+    dict
+        The judgement.
+
+    Raises
+    ------
+    BuildError
+        The judge fails, in its own words.
+    """
     _run(judge / "judge.py", path, bricks, width, "--json", said)
     facts: Facts = json.loads(said.read_text(encoding="utf-8"))
     return facts

@@ -14,8 +14,8 @@ from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.colours import SurfaceColours, chosen_palette, surface_colours
 from legorize_addon.core.errors import MeshError
 from legorize_addon.core.mesh import Repairs, TriangleMesh, repair, scaled
-from legorize_addon.core.pipeline import model_scale
 from legorize_addon.core.settings import Settings
+from legorize_addon.core.size import model_scale
 from legorize_addon.core.units import MM_PER_METRE
 
 Floats = NDArray[np.float64]
@@ -59,7 +59,8 @@ def models_in(folder: Path) -> list[Path]:
 def prepared(path: Path, settings: Settings) -> Model:
     """Read, repair and scale a mesh and find its colours, as the pipeline does."""
     mesh, repairs = repair(read_mesh(path))
-    mesh = scaled(mesh, model_scale(mesh, settings))
+    size = {name: getattr(settings, name) for name in ("size_by", "width", "height", "scale")}
+    mesh = scaled(mesh, model_scale(mesh, **size))
     return Model(path.stem, mesh, textured(mesh, settings), repairs)
 
 

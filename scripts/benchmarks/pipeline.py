@@ -85,13 +85,13 @@ def _times(build: Build, triangles: int, width: int, yardstick: tuple[float, int
 def _results(build: Build, catalogue: Catalogue) -> Row:
     facts = report(build, catalogue, version="", mm_per_unit=1.0)
     single = np.array([part.length == part.width == 1 for part in catalogue.parts])
-    cover = build.hollow.cover[:, 0]
+    cover, solid = build.hollow.cover, build.grid.solid
     return {
         "unit_bricks": facts["counts"]["unit_bricks_before"],
         # no layout can join what the cells leave apart
-        "cell_components": int(ndimage.label(build.grid.solid[:, 0])[1]),
-        "must_cells": int((cover == Cover.MUST).sum()),
-        "may_cells": int((cover == Cover.MAY).sum()),
+        "cell_components": int(ndimage.label(solid.reshape(-1, *solid.shape[2:]))[1]),
+        "must_plates": int((cover == Cover.MUST).sum()),
+        "may_plates": int((cover == Cover.MAY).sum()),
         "bricks": len(build.bricks),
         "share_1x1": float(single[build.bricks.part].mean()),
         **facts["connection"],

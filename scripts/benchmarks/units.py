@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.coverage import Pieces, covered_area, cut_at_grid
 from legorize_addon.core.grid import Grid, fit_grid
+from legorize_addon.core.levels import Levels, levels_of
 from legorize_addon.core.model import COLOUR_EMPTY
-from legorize_addon.core.samples import SurfaceSamples, horizontal_samples, trajectory_samples
+from legorize_addon.core.samples import SurfaceSamples, horizontal_samples, standing_pieces, trajectory_samples
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.slicing import adaptive_heights, slice_mesh
 from legorize_addon.core.trajectories import Trajectories, link_loops, linked
 from legorize_addon.core.unit_bricks import half_covered, outer_air, unit_bricks, visible
-from legorize_addon.core.units import BRICK, PLATE
+from legorize_addon.core.units import BRICK, CELL_AREA, PLATE
 
 from .clock import least_seconds, seconds
 from .dense import dense_likeliest, dense_longest, dense_samples
@@ -54,7 +55,13 @@ class Cut:
     frame: Grid
     heights: Floats
     layer: NDArray[np.int32]
+    plate: NDArray[np.int8]
     trajectories: Trajectories
+
+    @property
+    def levels(self) -> Levels:
+        """What the slices stand for."""
+        return levels_of(self.heights, self.layer, self.plate, self.frame)
 
     @cached_property
     def pieces(self) -> Pieces:
@@ -64,10 +71,8 @@ class Cut:
     @cached_property
     def passed(self) -> SurfaceSamples:
         """The pieces of the trajectories as samples."""
-        level = self.trajectories.loop_slice[self.trajectories.edge_loop].astype(np.int64)
-        return trajectory_samples(
-            self.model.mesh, self.trajectories, self.pieces, level, self.layer, self.heights, self.frame
-        )
+        standing = standing_pieces(self.trajectories, self.pieces, self.levels)
+        return trajectory_samples(self.model.mesh, self.trajectories, self.pieces, standing, self.levels, self.frame)
 
     def bricks(self, *, longest: bool = False) -> Codes:
         """Return the colour of each unit brick, (n_layers, n_y, n_x)."""
@@ -83,8 +88,7 @@ class Cut:
             self.trajectories,
             self.model.surface,
             self.frame,
-            layer=self.layer,
-            heights=self.heights,
+            levels=self.levels,
             keep_thin=keep_thin,
             longest=longest,
             closed=closed,
@@ -134,7 +138,7 @@ def measure(paths: Sequence[Path], *, width: int, triangles: Sequence[int], poin
 def cut_for_grid(model: Model, settings: Settings) -> Cut:
     """Lay the grid and cut the mesh for it."""
     frame = fit_grid(model.mesh, symmetric=settings.symmetric)
-    heights, layer, _ = adaptive_heights(
+    heights, layer, plate = adaptive_heights(
         model.mesh,
         ground=float(frame.origin[2]),
         n_layers=frame.n_layers,
@@ -143,7 +147,7 @@ def cut_for_grid(model: Model, settings: Settings) -> Cut:
     )
     slices = slice_mesh(model.mesh, heights)
     trajectories = link_loops(model.mesh, slices, model.surface, chord_deviation=settings.chord_deviation)
-    return Cut(model, frame, heights, layer, trajectories)
+    return Cut(model, frame, heights, layer, plate, trajectories)
 
 
 def _speed(model: Model, settings: Settings, repeats: int) -> Row:
@@ -198,7 +202,7 @@ def exact_solid(cut: Cut) -> Mask:
         slices = slice_mesh(cut.model.mesh, frame.origin[2] + (number + share) * BRICK)
         outline = linked(cut.model.mesh.faces, slices)
         area = covered_area(outline, PLANES_A_LAYER, frame.origin[:2], frame.n_y, frame.n_x)
-        layers.append(half_covered(area, np.zeros(PLANES_A_LAYER, dtype=np.int32), 1)[0])
+        layers.append(half_covered(area.mean(axis=0) / CELL_AREA))
     return np.stack(layers)
 
 

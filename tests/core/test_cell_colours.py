@@ -126,7 +126,7 @@ def test_middle_shade_stands_for_many():
     place = [[1.0, 0.2 + 0.1 * k, 0.5] for k in range(6)]
 
     def colour(codes) -> int:
-        [found] = likeliest_colours(samples_at(place, codes), solid, outer_air(solid), solid, load_catalogue())
+        [found] = likeliest_colours(samples_at(place, codes), outer_air(solid), solid, load_catalogue()).winners(solid)
         return int(found)
 
     assert colour([4, 4, 25, 25, 14, 14]) == 25
@@ -138,7 +138,7 @@ def test_colour_is_one_of_the_cell():
     """Between black and white nothing grey is made up: the cell takes one of its own colours."""
     solid = np.ones((1, 1, 2), bool)
     place = [[1.0, 0.5, 0.5], [1.0, 0.5, 0.6], [1.0, 0.5, 1.5]]
-    found = likeliest_colours(samples_at(place, [0, 15, 71]), solid, outer_air(solid), solid, load_catalogue())
+    found = likeliest_colours(samples_at(place, [0, 15, 71]), outer_air(solid), solid, load_catalogue()).winners(solid)
     assert found[0] in (0, 15)
     assert found[1] == 71
 
@@ -211,5 +211,5 @@ def test_no_votes_at_all_leave_the_colour_open():
     codes, votes = counted(np.zeros(0, np.int64), np.zeros(0, np.int16), np.zeros(0), seen)
     np.testing.assert_array_equal(chosen(codes, votes, votes, seen), np.full(8, COLOUR_ANY))
     nothing = samples_at(np.zeros((0, 3)), [])
-    found = likeliest_colours(nothing, seen, outer_air(seen), seen, load_catalogue())
+    found = likeliest_colours(nothing, outer_air(seen), seen, load_catalogue()).winners(seen)
     np.testing.assert_array_equal(found, np.full(8, COLOUR_ANY))

@@ -193,7 +193,7 @@ def test_half_covered_cells_are_valid(covered_by, valid):
     """A cell with 31.9 mm^2 inside is no unit brick; with 32.0 and 32.1 mm^2 it is one."""
     found = cover([rectangle(16 - covered_by / 8, 8, 48, 40)], 8, 8)
     assert found[2, 1] == pytest.approx(covered_by)
-    assert half_covered(found[None], np.zeros(1, np.int32), 1)[0, 2, 1] == valid
+    assert half_covered(found / 64)[2, 1] == valid
 
 
 @pytest.mark.parametrize("offset", [0.5, 3.0, 3.9875, 4.0, 4.0125, 6.0, 7.5])
@@ -205,7 +205,7 @@ def test_shifted_square_falls_back_to_the_inner_cell(offset):
     pieces, level = built.pieces()
     area = covered(pieces, level[pieces.edge], len(built.layer), 12, 12)
     assert area[0, 6, 1] == pytest.approx((8 - offset) * 8)
-    solid = half_covered(area, built.layer, 1)
+    solid = half_covered(area / 64)
     samples = built.steep()
     found = inner_cells(samples, solid)
     depth = 0 if (8 - offset) * 8 >= 32 else 1

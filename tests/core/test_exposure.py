@@ -114,7 +114,7 @@ def test_nearest_face_is_that_of_brute_force(seed):
     solid = rng.random((4, 5, 6)) < rng.choice([0.15, 0.5, 0.85])
     air = outer_air(solid)
     place = rng.uniform(-1, np.array(solid.shape) + 1, (400, 3))
-    found = nearest_faces(place, solid, air)
+    found = nearest_faces(place, SIDES, solid, air)
     # only the eight cells around a point are looked at
     middles = np.argwhere(np.ones(solid.shape)) + 0.5
     around = (np.abs(place[:, None] - middles) <= 1).all(axis=2)
@@ -132,9 +132,9 @@ def test_face_of_a_sealed_cavity_is_no_outer_face():
     solid[1, 1, 1] = False
     air = outer_air(solid)
     assert not air.any()
-    cell = nearest_faces(np.array([[1.5, 1.5, 1.1], [1.5, 1.5, -0.2]]), solid, air)
+    cell = nearest_faces(np.array([[1.5, 1.5, 1.1], [1.5, 1.5, -0.2]]), SIDES, solid, air)
     middle = np.ravel_multi_index((1, 1, 0), solid.shape)
     np.testing.assert_array_equal(cell, [middle, middle])
     thick = np.ones((5, 5, 5), bool)
     thick[2, 2, 2] = False
-    assert nearest_faces(np.array([[2.5, 2.5, 2.5]]), thick, outer_air(thick)) == [-1]
+    assert nearest_faces(np.array([[2.5, 2.5, 2.5]]), SIDES, thick, outer_air(thick)) == [-1]

@@ -11,12 +11,13 @@ from legorize_addon.core.catalogue import footprint, load_catalogue
 from legorize_addon.core.errors import Cancelled, LegorizeError, MeshError, SettingsError
 from legorize_addon.core.mesh import TriangleMesh
 from legorize_addon.core.model import COLOUR_ANY, Cover
-from legorize_addon.core.pipeline import MOST_CELLS, Build, check_size, legorize, model_scale
+from legorize_addon.core.pipeline import Build, legorize
 from legorize_addon.core.settings import Settings
+from legorize_addon.core.size import MOST_CELLS, check_size, model_scale
 from tests.core.solids import box, joined, mesh_of, moebius, reversed_mesh, sheet, sphere, without
 from tests.core.textured import blob, cylinder, hollow_box, painted, rgb_of, split_at_x, table, torus
 
-STAGES = ["mesh", "colours", "slicing", "trajectories", "unit bricks", "hollowing", "layout"]
+STAGES = ["mesh", "colours", "slicing", "trajectories", "unit bricks", "overhangs", "hollowing", "layout"]
 """The stages in the order of the paper."""
 
 SMALL = Settings(width=12)
@@ -99,7 +100,7 @@ def test_model_points_go_back_to_the_world():
 def arrays(build: Build) -> dict[str, np.ndarray]:
     """Return all arrays of a result, by name."""
     found = {}
-    for stage in ("mesh", "surface", "slices", "trajectories", "grid", "hollow", "bricks"):
+    for stage in ("mesh", "surface", "cut", "trajectories", "grid", "hollow", "bricks"):
         value = getattr(build, stage)
         for name in type(value).__slots__:
             each = getattr(value, name)
@@ -127,7 +128,7 @@ def test_seed_changes_only_what_is_random():
     mesh = blob(n=10, size=48)
     one, other = (legorize(mesh, Settings(width=14, colours=4, seed=seed)) for seed in (0, 1))
     np.testing.assert_array_equal(one.grid.cover, other.grid.cover)
-    np.testing.assert_array_equal(one.slices.heights, other.slices.heights)
+    np.testing.assert_array_equal(one.cut.slices.heights, other.cut.slices.heights)
     check(one)
     check(other)
 
@@ -195,9 +196,11 @@ def test_size_is_checked_before_the_work():
     """A model just within the bounds passes the check, one just beyond does not."""
     # n studs wide and n bricks high
     n = round((MOST_CELLS / 1.21) ** (1 / 3))
-    check_size(box((0, 0, 0), (8 * n * 0.95, 8 * n * 0.95, 9.6 * n * 0.95)))
+    check_size(box((0, 0, 0), (8 * n * 0.95, 8 * n * 0.95, 9.6 * n * 0.95)), plates=False)
     with pytest.raises(SettingsError, match=f"{n} x {n} studs and {n} bricks high"):
-        check_size(box((0, 0, 0), (8 * n, 8 * n, 9.6 * n)))
+        check_size(box((0, 0, 0), (8 * n, 8 * n, 9.6 * n)), plates=False)
+    with pytest.raises(SettingsError, match="cells of at most"):
+        check_size(box((0, 0, 0), (8 * n * 0.95, 8 * n * 0.95, 9.6 * n * 0.95)), plates=True)
 
 
 def test_extent_that_is_missing_is_told():
@@ -205,8 +208,8 @@ def test_extent_that_is_missing_is_told():
     upright = mesh_of(np.zeros((20, 3)), sheet().faces)
     upright.vertices[:, 2] = np.arange(20)
     with pytest.raises(SettingsError, match=r"^The mesh has a width of 0 mm: .*\.$"):
-        model_scale(upright, Settings())
-    assert model_scale(upright, Settings(size_by="height", height=19)) == pytest.approx(9.6)
+        model_scale(upright, size_by="width", width=48, height=19, scale=10.0)
+    assert model_scale(upright, size_by="height", width=48, height=19, scale=10.0) == pytest.approx(9.6)
 
 
 # -------------------------------------------------------------- meshes of every kind

@@ -11,8 +11,12 @@ import pytest
 
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.connection import connect
+from legorize_addon.core.hollowing import hollow
+from legorize_addon.core.marking import Marks
 from legorize_addon.core.mesh import Repairs, TriangleMesh
 from legorize_addon.core.model import COLOUR_EMPTY, Bricks, Cover, Role, UnitGrid
+from legorize_addon.core.overhangs import Offsets, offset_rings
+from legorize_addon.core.pipeline import Cut
 from legorize_addon.core.report import report
 from legorize_addon.core.settings import Settings
 
@@ -28,6 +32,12 @@ def grid_of(solid):
         role=np.zeros(cells.shape, np.uint8),
         origin=np.array([-8.0, 16.0, 3.2]),
     )
+
+
+def offsets_of(grid, *, plates):
+    """Return what closes the horizontal faces of a grid, by plates or by bricks."""
+    levels = grid.solid.reshape(-1, *grid.solid.shape[2:]) if plates else grid.solid[:, 0]
+    return offset_rings(levels, height=3.2 if plates else 9.6, critical_angle=45.0)
 
 
 def build_of(rows):
@@ -57,7 +67,10 @@ def build_of(rows):
         mesh=mesh,
         repairs=Repairs(**{entry.name: 0 for entry in fields(Repairs)} | {"watertight": True}),
         scale=0.5,
+        cut=Cut(slices=None, layer=np.array([0, 1], np.int32), plate=np.ones(2, np.int8), marks=None),
+        offsets=offsets_of(grid_of(solid), plates=False),
         grid=grid_of(solid),
+        hollow=grid_of(solid),
         bricks=bricks,
         connection=connect(bricks, CATALOGUE),
         notes=("A remark.",),
@@ -127,3 +140,73 @@ def test_matrix_belongs_to_grid_scale_and_units(described):
     """The corner of the grid, taken back to scene units, is the origin of the LDraw file."""
     corner = np.array([-8.0, 16.0, 3.2]) / 0.5 / 1000.0
     np.testing.assert_allclose(np.array(described["mesh_to_ldraw"]) @ [*corner, 1], [0, 0, 0, 1], atol=1e-12)
+
+
+def described_grid(grid, **changes):
+    """Return the report of a build, in bricks, whose unit bricks and more are others."""
+    changes = {"grid": grid, "offsets": offsets_of(grid, plates=False)} | changes
+    build = vars(build_of([("3001", 1, 1, 0, 4, Role.SHELL)])) | changes
+    return report(SimpleNamespace(**build), CATALOGUE, version="", mm_per_unit=1.0)
+
+
+def test_detail_counts_layers_and_columns():
+    """A plate alone and a brick of two colours are columns of plates; marks are counted by criterion, or unknown."""
+    grid = grid_of(np.ones((4, 5, 6), bool))
+    grid.cover[1, 0, 2, 3], grid.colour[1, 0, 2, 3] = Cover.EMPTY, COLOUR_EMPTY
+    grid.colour[3, 1, :2, 0] = 15
+    marks = Marks(number=np.array([0, 1, 1, 0], bool), length=np.ones(4, bool), area=np.zeros(4, bool))
+    cut = Cut(slices=None, layer=np.array([0, 1, 1, 1, 2, 3, 3, 3], np.int32), plate=np.ones(8, np.int8), marks=marks)
+    assert described_grid(grid, cut=cut)["detail"] == {
+        "layers": 4,
+        "marked_by_number": 2,
+        "marked_by_length": 4,
+        "marked_by_area": 0,
+        "sliced_in_plates": 2,
+        "layers_in_plates": 2,
+        "columns_of_plates": 3,
+    }
+    unmarked = described_grid(grid_of(np.ones((2, 3, 3), bool)))["detail"]
+    assert unmarked["marked_by_number"] is unmarked["marked_by_length"] is unmarked["marked_by_area"] is None
+    assert unmarked["layers_in_plates"] == unmarked["columns_of_plates"] == 0
+
+
+def test_offsets_are_counted():
+    """Trajectories, bricks and visible cells left alone are those of all levels together."""
+    ring = np.zeros((2, 4, 4), np.uint16)
+    ring[1, 1:3, 1:3] = [[1, 1], [1, 2]]
+    alone = np.zeros(ring.shape, bool)
+    alone[0, 0] = True
+    offsets = Offsets(ring=ring, left_alone=alone, trajectories=np.array([0, 2]))
+    facts = described_grid(grid_of(np.ones((2, 4, 4), bool)), offsets=offsets)
+    assert facts["offsets"] == {"trajectories": 2, "bricks": 4, "left_alone": 4}
+
+
+@pytest.mark.parametrize("plates", [False, True])
+def test_overhangs_are_counted_by_kind(plates):
+    """A beam and a slab stick out of a pillar, a cube floats: by plates as by bricks one of each kind."""
+    solid = np.zeros((4, 9, 12), bool)
+    solid[:3, 4, 4] = True
+    solid[1, 4, 5:8] = True
+    solid[2, 4:7, :4] = True
+    solid[3, 0, 11] = True
+    grid = grid_of(solid)
+    facts = described_grid(grid, offsets=offsets_of(grid, plates=plates))
+    assert facts["overhangs"] == {"point": 1, "edge": 1, "face": 1}
+
+
+def test_hollowing_counts_cells_and_cases():
+    """Of a cube of seven, five cubed are no shell, of which three cubed stay empty; a step is case (a)."""
+    grid = grid_of(np.ones((7, 7, 7), bool))
+    hollowing = described_grid(grid, hollow=hollow(grid, shell=1))["hollowing"]
+    assert hollowing["solid"] == 3 * 7**3
+    assert hollowing["must"] == 3 * (7**3 - 5**3)
+    assert hollowing["may"] == 3 * (5**3 - 3**3)
+    assert hollowing["cases"] == {"inside": 0, "crossing": 0, "covering": 12, "apart": 0}
+    upper = described_grid(grid, settings=Settings(hollow_rule="upper"))["hollowing"]
+    assert upper["cases"]["covering"] == 6
+    step = grid_of(np.arange(5) < np.array([4, 2])[:, None, None] * np.ones((1, 3, 1)))
+    by_bricks, by_plates = (
+        described_grid(step, offsets=offsets_of(step, plates=plates))["hollowing"]["cases"] for plates in (False, True)
+    )
+    assert by_bricks == {"inside": 1, "crossing": 0, "covering": 1, "apart": 0}
+    assert by_plates == {"inside": 1, "crossing": 0, "covering": 9, "apart": 0}

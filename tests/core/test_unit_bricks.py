@@ -10,9 +10,10 @@ from hypothesis.extra.numpy import arrays
 from scipy import ndimage
 
 from legorize_addon.core.grid import Grid
+from legorize_addon.core.levels import levels_of
 from legorize_addon.core.mesh import TriangleMesh, scaled
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Cover, Role
-from legorize_addon.core.unit_bricks import half_covered, outer_air, visible
+from legorize_addon.core.unit_bricks import half_covered, mean_areas, outer_air, visible
 from tests.core.solids import box, joined, mesh_of, sphere, volume
 from tests.core.textured import (
     blob,
@@ -262,7 +263,8 @@ def test_half_covered_is_the_mean_over_the_slices_of_a_layer(seed):
     rng = np.random.default_rng(seed)
     layer = np.sort(rng.integers(0, 5, rng.integers(1, 9))).astype(np.int32)
     area = rng.choice([0.0, 16, 31.9, 32, 64], (len(layer), 3, 2))
-    half = half_covered(area, layer, 6)
+    levels = levels_of(np.zeros(len(layer)), layer, np.zeros(len(layer), np.int8), Grid(np.zeros(3), 6, 3, 2))
+    half = half_covered(mean_areas(area, levels, 6) / 64)
     for number in range(6):
         there = area[layer == number]
         expected = there.mean(axis=0) >= 32 - 1e-6 if len(there) else np.zeros((3, 2), bool)

@@ -10,9 +10,10 @@ from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.colours import SurfaceColours, surface_colours
 from legorize_addon.core.coverage import Pieces, cut_at_grid
 from legorize_addon.core.grid import Grid, fit_grid
+from legorize_addon.core.levels import Levels, levels_of
 from legorize_addon.core.mesh import TriangleMesh
 from legorize_addon.core.model import UnitGrid
-from legorize_addon.core.samples import SurfaceSamples, horizontal_samples, trajectory_samples
+from legorize_addon.core.samples import SurfaceSamples, horizontal_samples, standing_pieces, trajectory_samples
 from legorize_addon.core.slicing import adaptive_heights, slice_mesh
 from legorize_addon.core.trajectories import Trajectories, link_loops
 from legorize_addon.core.unit_bricks import unit_bricks
@@ -142,7 +143,13 @@ class Stages:
     grid: Grid
     heights: np.ndarray
     layer: np.ndarray
+    plate: np.ndarray
     trajectories: Trajectories
+
+    @property
+    def levels(self) -> Levels:
+        """What the slices stand for."""
+        return levels_of(self.heights, self.layer, self.plate, self.grid)
 
     def bricks(self, *, keep_thin=True, longest=False) -> UnitGrid:
         """Make the unit bricks."""
@@ -151,8 +158,7 @@ class Stages:
             self.trajectories,
             self.surface,
             self.grid,
-            layer=self.layer,
-            heights=self.heights,
+            levels=self.levels,
             keep_thin=keep_thin,
             longest=longest,
             catalogue=load_catalogue(),
@@ -167,8 +173,9 @@ class Stages:
 
     def steep(self) -> SurfaceSamples:
         """Sample the trajectories."""
-        pieces, level = self.pieces()
-        return trajectory_samples(self.mesh, self.trajectories, pieces, level, self.layer, self.heights, self.grid)
+        pieces, _ = self.pieces()
+        standing = standing_pieces(self.trajectories, pieces, self.levels)
+        return trajectory_samples(self.mesh, self.trajectories, pieces, standing, self.levels, self.grid)
 
     def level(self) -> SurfaceSamples:
         """Sample the level surface."""
@@ -188,11 +195,11 @@ def stages(mesh: TriangleMesh, *, grid=None, cusp=3.2, n_colours=64, symmetric=T
         rng=np.random.default_rng(0),
     )
     grid = grid or fit_grid(mesh, symmetric=symmetric)
-    heights, layer, _ = adaptive_heights(
+    heights, layer, plate = adaptive_heights(
         mesh, ground=float(grid.origin[2]), n_layers=grid.n_layers, cusp=cusp, colour=surface.of_faces(mesh)
     )
     loops = link_loops(mesh, slice_mesh(mesh, heights), surface)
-    return Stages(mesh, surface, grid, heights, layer, loops)
+    return Stages(mesh, surface, grid, heights, layer, plate, loops)
 
 
 def cells(grid: UnitGrid) -> np.ndarray:

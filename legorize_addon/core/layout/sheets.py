@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import COLOUR_ANY, COLOUR_EMPTY, Cover, Mask, UnitGrid
+from ..joints import brick_columns
+from ..model import COLOUR_EMPTY, Cover, Mask, Role, UnitGrid
 from ..units import PLATES_PER_BRICK
 from .shapes import Index, Plane, Rows
 
@@ -60,8 +61,7 @@ class Sheets:
 def split(grid: UnitGrid) -> list[Sheets]:
     """Split a grid into sheets of bricks and of plates.
 
-    Three plates of a column that are all solid and of one colour (cells of any
-    colour agree with every other) become a brick; all other cells are plates.
+    Bricks are laid in :func:`~..joints.brick_columns`; all other cells are plates.
 
     Parameters
     ----------
@@ -74,10 +74,7 @@ def split(grid: UnitGrid) -> list[Sheets]:
         Bricks first, then plates. Sheets without cells are left out, and so is
         a height without sheets.
     """
-    top = grid.colour.max(axis=1)
-    bottom = np.where(grid.colour == COLOUR_ANY, np.iinfo(np.int16).max, grid.colour).min(axis=1)
-    # free colours are -1 at the top and the greatest at the bottom: they never disagree
-    brick = grid.solid.all(axis=1) & (bottom >= top)
+    brick, top = brick_columns(grid)
     must = grid.cover == Cover.MUST
     level = np.arange(len(brick) * PLATES_PER_BRICK, dtype=np.int32)
     bricks = Sheets(
@@ -85,7 +82,7 @@ def split(grid: UnitGrid) -> list[Sheets]:
         level=level[::PLATES_PER_BRICK],
         colour=np.where(brick, top, np.int16(COLOUR_EMPTY)),
         must=must.any(axis=1) & brick,
-        role=grid.role.min(axis=1),
+        role=_outermost(grid.role),
     )
     plane = (-1, *brick.shape[1:])
     plates = Sheets(
@@ -97,3 +94,10 @@ def split(grid: UnitGrid) -> list[Sheets]:
     )
     filled = [each.take((each.colour != COLOUR_EMPTY).any(axis=(1, 2))) for each in (bricks, plates)]
     return [each for each in filled if len(each)]
+
+
+def _outermost(role: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Return the lowest role of each column's plates, inside being the last of all."""
+    inside, last = np.uint8(Role.INSIDE), np.uint8(np.iinfo(np.uint8).max)
+    lowest = np.where(role == inside, last, role).min(axis=1)
+    return np.where(lowest == last, inside, lowest)

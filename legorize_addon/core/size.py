@@ -1,0 +1,106 @@
+"""How large the model gets, and whether that can be built."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from .errors import SettingsError
+from .mesh import TriangleMesh
+from .model import UnitGrid
+from .units import BRICK, PLATES_PER_BRICK, STUD
+
+MOST_CELLS: Final = 60_000_000
+"""Unit cells that a grid may have: beyond, the arrays of a run outgrow 16 GB."""
+
+_ORIGINAL_SCALE: Final = 10.0
+"""Scale factor k at which an object keeps its size (paper, section 3)."""
+
+
+def model_scale(mesh: TriangleMesh, *, size_by: str, width: int, height: int, scale: float) -> float:
+    """Return the factor from the size of the mesh to that of the model.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        In world mm.
+    size_by : {"width", "height", "scale"}
+        Which of the following numbers sets the size.
+    width : int
+        Studs along the longer horizontal side.
+    height : int
+        Bricks.
+    scale : float
+        Scale factor k of the paper.
+
+    Returns
+    -------
+    float
+        Model mm per world mm.
+
+    Raises
+    ------
+    SettingsError
+        The mesh has no extent along what shall have the asked size.
+
+    References
+    ----------
+    Paper, section 3: a factor k of 10 keeps the size.
+    """
+    size = np.ptp(mesh.vertices, axis=0)
+    if size_by == "scale":
+        return scale / _ORIGINAL_SCALE
+    if size_by == "width":
+        wanted, extent, word = width * STUD, size[:2].max(), "width"
+    else:
+        wanted, extent, word = height * BRICK, size[2], "height"
+    if extent <= 1e-9 * size.max():
+        raise SettingsError(f"The mesh has a {word} of {extent:g} mm: set the size by another measure than {word}.")
+    return float(wanted / extent)
+
+
+def check_size(mesh: TriangleMesh, *, plates: bool) -> None:
+    """Refuse a model that would not fit in memory.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        In its final size.
+    plates : bool
+        Whether the grid is one of plates.
+
+    Raises
+    ------
+    SettingsError
+        The grid would have more than ``MOST_CELLS`` cells.
+    """
+    studs, layers = np.ptp(mesh.vertices, axis=0)[:2] / STUD, np.ptp(mesh.vertices[:, 2]) / BRICK
+    cells = float(np.prod(np.ceil(1.1 * studs) + 2) * (np.ceil(layers) + 1)) * (PLATES_PER_BRICK if plates else 1)
+    if cells > MOST_CELLS:
+        raise SettingsError(
+            f"The model would be {studs[0]:.0f} x {studs[1]:.0f} studs and {layers:.0f} bricks high, {cells:.2g} cells "
+            f"of at most {MOST_CELLS:.2g}: choose a smaller size."
+        )
+
+
+def check_any(grid: UnitGrid, mesh: TriangleMesh) -> None:
+    """Refuse a model without bricks.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+    mesh : TriangleMesh
+        In its final size.
+
+    Raises
+    ------
+    SettingsError
+        The grid has no solid cell.
+    """
+    if not grid.solid.any():
+        size = np.ptp(mesh.vertices, axis=0)
+        raise SettingsError(
+            f"The model would be {size[0]:.2g} x {size[1]:.2g} x {size[2]:.2g} mm, too small for one brick of "
+            f"{STUD:g} x {STUD:g} x {BRICK:g} mm: choose a larger size."
+        )

@@ -1,0 +1,146 @@
+"""What hollowing leaves, against a shell of two cells that the same layout builds."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from legorize_addon.core.catalogue import Catalogue, load_catalogue
+from legorize_addon.core.hollowing import hollow
+from legorize_addon.core.joints import with_joints
+from legorize_addon.core.layout import FILLER, lay
+from legorize_addon.core.model import COLOUR_EMPTY, Bricks, Cover, UnitGrid
+from legorize_addon.core.pipeline import Build, legorize
+from legorize_addon.core.report import report
+from legorize_addon.core.settings import Settings
+from legorize_addon.core.shopping import count_parts, masses
+from legorize_addon.core.unit_bricks import outer_air
+
+from .meshes import read_mesh
+from .tables import Row, Table
+
+Mask = NDArray[np.bool_]
+
+SHELL: Final = 2
+"""Cells of the fixed shell."""
+
+SAVED: Final = 0.2
+"""Goal: share of its bricks and of its mass that hollowing saves."""
+
+
+def measure(paths: Sequence[Path], *, width: int) -> list[Table]:
+    """Build every model hollowed, and with the fixed shell.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        Model files.
+    width : int
+        Studs along the longer horizontal side.
+
+    Returns
+    -------
+    list of Table
+    """
+    catalogue = load_catalogue()
+    rows: list[Row] = []
+    for path in paths:
+        print(f"{path.stem}, {width} studs", file=sys.stderr, flush=True)
+        build = legorize(read_mesh(path), Settings(width=width))
+        fixed = lay(fixed_shell(build.grid), catalogue, rng=np.random.default_rng(build.settings.seed), filler=FILLER)
+        rows.append({"model": path.stem} | _cells(build) | _saved(build, fixed, catalogue) | _soundness(build))
+    title = (
+        f"Hollowing at {width} studs, against a shell of {SHELL} cells: at least {SAVED:.0%} fewer bricks and less "
+        "mass, no hole in what must be built, and no cell cut off from the ground"
+    )
+    return [Table("hollowing", title, (*rows, _means(rows)))]
+
+
+def fixed_shell(grid: UnitGrid) -> UnitGrid:
+    """Return a grid whose shell of two cells must be built, and nothing else may.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        The solid model.
+
+    Returns
+    -------
+    UnitGrid
+        Ready to be laid.
+    """
+    shell = hollow(grid, shell=SHELL)
+    left_out = shell.cover == Cover.MAY
+    return with_joints(
+        replace(
+            shell,
+            cover=np.where(left_out, np.uint8(Cover.EMPTY), shell.cover),
+            colour=np.where(left_out, np.int16(COLOUR_EMPTY), shell.colour),
+        )
+    )
+
+
+def _cells(build: Build) -> Row:
+    solid = int(build.grid.solid.sum())
+    return {
+        "solid": solid,
+        "must_share": int((build.hollow.cover == Cover.MUST).sum()) / solid,
+        "may_share": int((build.hollow.cover == Cover.MAY).sum()) / solid,
+    }
+
+
+def _saved(build: Build, fixed: Bricks, catalogue: Catalogue) -> Row:
+    facts = report(build, catalogue, version="", mm_per_unit=1.0)
+    mass = float(masses(count_parts(fixed, catalogue), catalogue).sum())
+    fewer, lighter = 1 - len(build.bricks) / len(fixed), 1 - facts["mass_g"] / mass
+    return {
+        "hollow_ratio": facts["hollow_ratio"],
+        "bricks": len(build.bricks),
+        "fixed_bricks": len(fixed),
+        "bricks_saved": fewer,
+        "mass_g": facts["mass_g"],
+        "fixed_mass_g": mass,
+        "mass_saved": lighter,
+        "saved_met": min(fewer, lighter) >= SAVED,
+        "floating": build.connection.n_floating,
+    }
+
+
+def _soundness(build: Build) -> Row:
+    """Count cells behind a hole, and cells that stand on the ground only in the solid model."""
+    solid, left = _levels(build.grid.solid), _levels(build.hollow.solid)
+    must = _levels(build.hollow.cover == Cover.MUST)
+    behind_holes = int((outer_air(must) & solid).sum())
+    cut_off = int((must & _standing(solid) & ~_standing(left)).sum())
+    return {
+        "behind_holes": behind_holes,
+        "cut_off": cut_off,
+        "sound_met": behind_holes == cut_off == 0,
+        "hollowing_s": build.timings["hollowing"],
+    }
+
+
+def _levels(cells: Mask) -> Mask:
+    return cells.reshape(-1, *cells.shape[2:])
+
+
+def _standing(solid: Mask) -> Mask:
+    """Return the cells that are joined, face to face, to the lowest level of the model."""
+    label, _ = ndimage.label(solid)
+    lowest = np.flatnonzero(solid.any(axis=(1, 2)))[0]
+    standing: Mask = np.isin(label, np.unique(label[lowest][solid[lowest]]))
+    return standing
+
+
+def _means(rows: Sequence[Row]) -> Row:
+    """Return the mean shares over the models."""
+    shares = ("must_share", "may_share", "hollow_ratio", "bricks_saved", "mass_saved")
+    means: Row = {name: float(np.mean([row[name] for row in rows])) for name in shares}
+    return dict.fromkeys(rows[0]) | {"model": "mean"} | means

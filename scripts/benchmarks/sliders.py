@@ -1,0 +1,89 @@
+"""How quickly the layer slider and the section slider answer on a large model; Blender's module is needed here."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from statistics import median
+from typing import Final
+
+import bpy
+import numpy as np
+
+from legorize_addon.core.catalogue import load_catalogue
+from legorize_addon.core.model import Bricks, Role
+from legorize_addon.scene import show_build
+from legorize_addon.section import AXES, Section
+from legorize_addon.view import cut_away, roles_shown, show_layers, show_role
+
+from .tables import Row, Table
+
+LIMIT: Final = 50.0
+"""Goal for each slider in ms."""
+
+MOVES: Final = 10
+LAYERS: Final = 60
+ROLES: Final = (Role.SHELL, Role.INSIDE, Role.PLATE, Role.OFFSET)
+BREADTH: Final = 200
+"""Studs along x and y."""
+
+
+def measure(*, bricks: int) -> list[Table]:
+    """Return the time on the wall of moves of each slider, with all that Blender evaluates after them.
+
+    Parameters
+    ----------
+    bricks : int
+        Number of bricks of the model.
+
+    Returns
+    -------
+    list of Table
+        One table with a row for each slider.
+    """
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    scene = bpy.context.scene
+    build = show_build(
+        scene, large_model(bricks), load_catalogue(), origin=(0.0, 0.0, 0.0), scale=1.0, mm_per_unit=1.0, name="large"
+    )
+    bpy.context.view_layer.update()
+    tops = [1 + move * 37 % LAYERS for move in range(MOVES)]
+    rows = [_row("top layer", [milliseconds(lambda top=top: show_layers(scene, build, top)) for top in tops])]
+    show_layers(scene, build, LAYERS)
+    for axis in AXES:
+        cuts = [Section(axis, 0.1 + 0.8 * move / MOVES) for move in range(MOVES)]
+        rows.append(_row(f"section {axis}", [milliseconds(lambda cut=cut: cut_away(build, cut)) for cut in cuts]))
+    cut_away(build, Section())
+    role = next(iter(roles_shown(build)))
+    switched = [milliseconds(lambda on=on: show_role(build, role, visible=on)) for on in (False, True) * (MOVES // 2)]
+    rows.append(_row("a role's switch", switched) | {"goal_met": None})
+    title = f"Sliders at {bricks} bricks in Blender {bpy.app.version_string}: median within {LIMIT:.0f} ms"
+    return [Table("sliders", title, tuple(rows))]
+
+
+def large_model(n: int) -> Bricks:
+    """Return bricks as a large model has them: every role in every layer, and 36 of 144 kinds in each layer."""
+    rng = np.random.default_rng(0)
+    layer = np.sort(np.arange(n) % LAYERS)
+    return Bricks(
+        part=rng.integers(0, 12, n).astype(np.int16),
+        corner=np.column_stack([*rng.integers(0, BREADTH, (2, n)), 3 * layer]).astype(np.int32),
+        turn=rng.integers(0, 4, n).astype(np.uint8),
+        colour=load_catalogue().codes[(layer // 5 + rng.integers(0, 3, n)) % 12],
+        role=rng.choice(np.array(ROLES, dtype=np.uint8), n),
+        piece=np.zeros(n, dtype=np.int16),
+        step=np.zeros(n, dtype=np.int32),
+    )
+
+
+def milliseconds(move: Callable[[], None]) -> float:
+    """Return the time on the wall of a move and of all that Blender evaluates after it."""
+    start = time.perf_counter()
+    move()
+    bpy.context.view_layer.update()
+    return 1e3 * (time.perf_counter() - start)
+
+
+def _row(slider: str, taken: list[float]) -> Row:
+    middle = median(taken)
+    return {"slider": slider, "median_ms": middle, "most_ms": max(taken), "goal_met": middle <= LIMIT}

@@ -1,0 +1,33 @@
+"""Sizes that cannot be built; the scale itself is shown with the pipeline."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.errors import SettingsError
+from legorize_addon.core.model import COLOUR_EMPTY, Cover, Role, UnitGrid
+from legorize_addon.core.size import MOST_CELLS, check_any, check_size
+from tests.core.solids import box
+
+
+def test_plates_count_three_times():
+    """A box that just fits in bricks does not fit in plates."""
+    n = round((MOST_CELLS / 1.21) ** (1 / 3))
+    mesh = box((0, 0, 0), (8 * n * 0.9, 8 * n * 0.9, 9.6 * n * 0.9))
+    check_size(mesh, plates=False)
+    with pytest.raises(SettingsError, match=r"of at most .*: choose a smaller size\.$"):
+        check_size(mesh, plates=True)
+
+
+def test_nothing_to_build():
+    """A grid without a solid cell is refused with the size of the model, one with a cell is not."""
+    nothing = np.zeros((1, 3, 2, 2), np.uint8)
+    empty = UnitGrid(
+        np.full((1, 3, 2, 2), COLOUR_EMPTY, np.int16), nothing + Cover.EMPTY, nothing + Role.SHELL, np.zeros(3)
+    )
+    with pytest.raises(SettingsError, match=r"1 x 2 x 3 mm, too small for one brick .*\.$"):
+        check_any(empty, box((0, 0, 0), (1, 2, 3)))
+    cover = nothing.copy()
+    cover[0, 0, 0, 0] = Cover.MUST
+    check_any(UnitGrid(empty.colour, cover, empty.role, empty.origin), box((0, 0, 0), (1, 2, 3)))
