@@ -15,12 +15,16 @@ from numpy.typing import NDArray
 
 from .core.catalogue import Catalogue
 from .core.model import CELL_SIZE, Bricks, Floats
+from .core.units import PLATE
 
 Rows = NDArray[np.integer]
 
 COLUMNS: Final = ("part", "turn", "colour", "role", "piece", "step")
 VARIANT: Final = "variant"
 """Attribute that chooses the instanced object."""
+
+HEIGHT: Final = "height"
+"""Attribute with the height of a brick in plates."""
 
 ROW: Final = "row"
 """Attribute with the row of a brick in the table it came from."""
@@ -64,6 +68,16 @@ def positions(bricks: Bricks, catalogue: Catalogue) -> Floats:
     return (bricks.corner + _half(sizes(bricks.part, bricks.turn, catalogue))) * CELL_SIZE
 
 
+def middles(bricks: Bricks, catalogue: Catalogue) -> Floats:
+    """Return the middles of the bricks' bodies in model mm, shape (n, 3) float64."""
+    return positions(bricks, catalogue) + np.outer(heights(bricks, catalogue), (0.0, 0.0, PLATE / 2))
+
+
+def heights(bricks: Bricks, catalogue: Catalogue) -> NDArray[np.int32]:
+    """Return the heights of the bricks in plates, shape (n,) int32."""
+    return np.array([part.height for part in catalogue.parts], dtype=np.int32)[bricks.part]
+
+
 def box_corners(bricks: Bricks, catalogue: Catalogue) -> Floats:
     """Return the corners of the bricks' bounding boxes, studs left out.
 
@@ -79,13 +93,12 @@ def box_corners(bricks: Bricks, catalogue: Catalogue) -> Floats:
     (8 n, 3) float64 array
         Eight points a brick in model mm.
     """
-    height = np.array([part.height for part in catalogue.parts])[bricks.part]
-    size = np.column_stack([sizes(bricks.part, bricks.turn, catalogue), height])
+    size = np.column_stack([sizes(bricks.part, bricks.turn, catalogue), heights(bricks, catalogue)])
     unit = np.stack(np.meshgrid([0, 1], [0, 1], [0, 1]), axis=-1).reshape(-1, 3)
     return ((bricks.corner[:, None] + unit * size[:, None]) * CELL_SIZE).reshape(-1, 3)
 
 
-def points_mesh(name: str, bricks: Bricks, position: Floats, variant: Rows, row: Rows) -> bpy.types.Mesh:
+def points_mesh(name: str, bricks: Bricks, catalogue: Catalogue, variant: Rows, row: Rows) -> bpy.types.Mesh:
     """Return a new mesh with one point a brick.
 
     Parameters
@@ -94,8 +107,8 @@ def points_mesh(name: str, bricks: Bricks, position: Floats, variant: Rows, row:
         Name of the mesh.
     bricks : Bricks
         The table, n rows.
-    position : (n, 3) float64 array
-        Points in mm.
+    catalogue : Catalogue
+        Parts and colours.
     variant : (n,) integer array
         Row of each brick's part and colour among the instanced objects.
     row : (n,) integer array
@@ -106,9 +119,10 @@ def points_mesh(name: str, bricks: Bricks, position: Floats, variant: Rows, row:
     bpy.types.Mesh
     """
     mesh = bpy.data.meshes.new(name)
-    mesh.vertices.add(len(position))
-    mesh.vertices.foreach_set("co", position.astype(np.float32).ravel())
-    columns = {column: getattr(bricks, column) for column in COLUMNS} | {VARIANT: variant, ROW: row}
+    mesh.vertices.add(len(bricks))
+    mesh.vertices.foreach_set("co", positions(bricks, catalogue).astype(np.float32).ravel())
+    columns = {column: getattr(bricks, column) for column in COLUMNS}
+    columns |= {VARIANT: variant, ROW: row, HEIGHT: heights(bricks, catalogue)}
     for key, values in columns.items():
         mesh.attributes.new(key, "INT", "POINT").data.foreach_set("value", values.astype(np.int32))
     return mesh

@@ -19,7 +19,7 @@ from .properties import current_build, label
 from .render import AZIMUTH, render_still
 from .scene import read_bricks
 
-VIEWS: Final = [(view, label(view), "") for view in AZIMUTH]
+VIEWS: Final = [*((view, label(view), "") for view in AZIMUTH), ("section", "Section", "Onto the cut")]
 
 
 class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
@@ -62,7 +62,7 @@ class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
     height: IntProperty(name="Height", description="Height of the picture in pixels", default=960, min=16, max=16384)
     view: EnumProperty(
         name="View",
-        description="The corner from which the model is seen",
+        description="The corner from which the model is seen, or the side on which it is cut open",
         items=VIEWS,
         default="front_right",
     )

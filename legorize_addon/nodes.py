@@ -2,8 +2,8 @@
 
 The tree "Legorize Bricks" sets, on every point of a mesh, the object of a
 collection that the point's attribute ``variant`` counts to, turned by its
-attribute ``turn``. A plane hides the points beyond it and leaves the data as
-they are.
+attribute ``turn``. A plane hides the bricks whose middles lie beyond it and
+leaves the data as they are.
 """
 
 from __future__ import annotations
@@ -15,21 +15,20 @@ import bpy
 from mathutils import Color
 
 from .core.catalogue import Colour
+from .core.units import PLATE
 
 TREE_NAME: Final = "Legorize Bricks"
 TREE_KEY: Final = "legorize_tree"
-TREE_VERSION: Final = 1
+TREE_VERSION: Final = 2
 MATERIAL_KEY: Final = "legorize_colour"
 MODIFIER_NAME: Final = "Bricks"
 PARTS: Final = "Parts"
-SECTION_NORMAL: Final = "Section Normal"
-SECTION_OFFSET: Final = "Section Offset"
+SECTION: Final = "Section"
 
 INTERFACE: Final = (
     ("Geometry", "INPUT", "NodeSocketGeometry"),
     (PARTS, "INPUT", "NodeSocketCollection"),
-    (SECTION_NORMAL, "INPUT", "NodeSocketVector"),
-    (SECTION_OFFSET, "INPUT", "NodeSocketFloat"),
+    (SECTION, "INPUT", "NodeSocketObject"),
     ("Geometry", "OUTPUT", "NodeSocketGeometry"),
 )
 
@@ -41,9 +40,16 @@ NODES: Final[dict[str, tuple[str, tuple[int, int], dict[str, Any], dict[str, Any
     "Turn": ("GeometryNodeInputNamedAttribute", (-400, -400), {"data_type": "INT"}, {"Name": "turn"}),
     "Angle": ("ShaderNodeMath", (-200, -400), {"operation": "MULTIPLY"}, {1: math.pi / 2}),
     "Rotation": ("FunctionNodeAxisAngleToRotation", (0, -400), {}, {"Axis": (0.0, 0.0, 1.0)}),
-    "Position": ("GeometryNodeInputPosition", (-600, 300), {}, {}),
-    "Distance": ("ShaderNodeVectorMath", (-400, 200), {"operation": "DOT_PRODUCT"}, {}),
-    "Kept": ("FunctionNodeCompare", (-200, 200), {"data_type": "FLOAT", "operation": "LESS_EQUAL"}, {}),
+    "Height": ("GeometryNodeInputNamedAttribute", (-1200, 500), {"data_type": "INT"}, {"Name": "height"}),
+    "Half": ("ShaderNodeMath", (-1000, 500), {"operation": "MULTIPLY"}, {1: PLATE / 2}),
+    "Up": ("ShaderNodeCombineXYZ", (-800, 500), {}, {}),
+    "Position": ("GeometryNodeInputPosition", (-800, 350), {}, {}),
+    "Middle": ("ShaderNodeVectorMath", (-600, 400), {"operation": "ADD"}, {}),
+    "Plane": ("GeometryNodeObjectInfo", (-1000, 200), {"transform_space": "RELATIVE"}, {}),
+    "Inverse": ("FunctionNodeInvertMatrix", (-800, 200), {}, {}),
+    "Seen": ("FunctionNodeTransformPoint", (-600, 200), {}, {}),
+    "Distance": ("ShaderNodeSeparateXYZ", (-400, 200), {}, {}),
+    "Kept": ("FunctionNodeCompare", (-200, 200), {"data_type": "FLOAT", "operation": "LESS_EQUAL"}, {1: 0.0}),
     "Children": ("GeometryNodeCollectionInfo", (-200, 0), {}, {"Separate Children": True, "Reset Children": True}),
     "Instances": ("GeometryNodeInstanceOnPoints", (200, 0), {}, {"Pick Instance": True}),
 }
@@ -56,10 +62,16 @@ LINKS: Final = (
     ("Turn", "Attribute", "Angle", 0),
     ("Angle", "Value", "Rotation", "Angle"),
     ("Rotation", "Rotation", "Instances", "Rotation"),
-    ("Position", "Position", "Distance", 0),
-    ("In", SECTION_NORMAL, "Distance", 1),
-    ("Distance", "Value", "Kept", 0),
-    ("In", SECTION_OFFSET, "Kept", 1),
+    ("Height", "Attribute", "Half", 0),
+    ("Half", "Value", "Up", "Z"),
+    ("Position", "Position", "Middle", 0),
+    ("Up", "Vector", "Middle", 1),
+    ("In", SECTION, "Plane", "Object"),
+    ("Plane", "Transform", "Inverse", "Matrix"),
+    ("Middle", "Vector", "Seen", "Vector"),
+    ("Inverse", "Matrix", "Seen", "Transform"),
+    ("Seen", "Vector", "Distance", "Vector"),
+    ("Distance", "Z", "Kept", 0),
     ("Kept", "Result", "Instances", "Selection"),
     ("Instances", "Instances", "Out", "Geometry"),
 )
@@ -82,36 +94,22 @@ def brick_tree() -> bpy.types.NodeTree:
     return tree
 
 
-def add_bricks_modifier(target: bpy.types.Object, parts: bpy.types.Collection) -> None:
+def add_bricks_modifier(target: bpy.types.Object, parts: bpy.types.Collection, section: bpy.types.Object) -> None:
     """Let an object's points show as bricks.
 
     Parameters
     ----------
     target : bpy.types.Object
-        Mesh object whose vertices carry ``variant`` and ``turn``.
+        Mesh object whose vertices carry ``variant``, ``turn`` and ``height``.
     parts : bpy.types.Collection
         Collection whose objects, by ascending name, are the variants.
+    section : bpy.types.Object
+        Empty on whose +z side bricks are hidden.
     """
     modifier = target.modifiers.new(MODIFIER_NAME, "NODES")
     modifier.node_group = brick_tree()
     set_input(modifier, PARTS, parts)
-
-
-def set_section(target: bpy.types.Object, normal: tuple[float, float, float], offset: float) -> None:
-    """Hide an object's bricks beyond a plane.
-
-    Parameters
-    ----------
-    target : bpy.types.Object
-        Object with the modifier of :func:`add_bricks_modifier`.
-    normal : tuple of three float
-        Direction towards the hidden side; all zero shows everything.
-    offset : float
-        Distance of the plane from the model's origin along the normal, in mm.
-    """
-    modifier = target.modifiers[MODIFIER_NAME]
-    set_input(modifier, SECTION_NORMAL, normal)
-    set_input(modifier, SECTION_OFFSET, offset)
+    set_input(modifier, SECTION, section)
 
 
 def set_input(modifier: bpy.types.NodesModifier, name: str, value: Any) -> None:

@@ -182,7 +182,7 @@ class LEGORIZE_OT_build(Reporting, bpy.types.Operator):
             detail=view.detail,
         )
         view.build = collection
-        view.show_sources, view.cut_from = False, "NONE"
+        view.show_sources = False
         _select_only(context, collection[BUILD_KEY]["root"])
         self.report({"INFO"}, f"Built of {len(build.bricks)} bricks.")
         for note in notes:

@@ -17,6 +17,7 @@ from .export_operators import LEGORIZE_OT_export_ldr, LEGORIZE_OT_render_still
 from .operators import LEGORIZE_OT_build, LEGORIZE_OT_clear
 from .properties import current_build, label
 from .scene import BUILD_KEY, builds
+from .view import roles_shown
 
 MM_PER_CM: Final = 10.0
 PIXELS_PER_LETTER: Final = 8.0
@@ -114,14 +115,19 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
     bl_label = "Layers"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the layer slider, the cut, and what else may be shown."""
+        """Draw the layer slider, the cut, the roles, and what else may be shown."""
         view = context.scene.legorize
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
-        self.layout.prop(view, "top_layer", text=f"Top of {current_build(context.scene)[BUILD_KEY]['layers']}")
-        self.layout.prop(view, "cut_from")
-        if view.cut_from != "NONE":
-            self.layout.prop(view, "cut_share")
+        build = current_build(context.scene)
+        self.layout.prop(view, "top_layer", text=f"Top of {build[BUILD_KEY]['layers']}")
+        self.layout.row().prop(view, "section_axis", expand=True)
+        if view.section_axis != "none":
+            self.layout.prop(view, "section_at", slider=True)
+            self.layout.prop(view, "section_flip")
+        shown = self.layout.column(heading="Show", align=True)
+        for role in roles_shown(build):
+            shown.prop(view.roles, role.name.lower())
         self.layout.prop(view, "show_sources")
         self.layout.prop(view, "detail")
 

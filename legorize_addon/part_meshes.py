@@ -145,6 +145,33 @@ def parts_collection(kinds: Sequence[tuple[Part, Colour]], detail: Detail, name:
     return collection
 
 
+def parts_in_use(parts: bpy.types.Collection, rows: NDArray[np.integer], name: str) -> bpy.types.Collection:
+    """Return a new collection, inside that of all parts, with those that one layer needs.
+
+    Geometry Nodes looks at every part of a collection for every object, and
+    compares each with all others: few of few make sections quick.
+
+    Parameters
+    ----------
+    parts : bpy.types.Collection
+        Made by :func:`parts_collection`.
+    rows : (n,) integer array
+        The variants to take, ascending.
+    name : str
+        Name of the layer, for the collection.
+
+    Returns
+    -------
+    bpy.types.Collection
+    """
+    collection = bpy.data.collections.new(f"{parts.name} {name}")
+    parts.children.link(collection)
+    variants = parts.objects.values()
+    for row in rows.tolist():
+        collection.objects.link(variants[row])
+    return collection
+
+
 def set_detail(parts: bpy.types.Collection, catalogue: Catalogue, detail: Detail) -> None:
     """Exchange the meshes of a collection made by :func:`parts_collection`.
 

@@ -7,7 +7,7 @@ defaults, limits and texts.
 
 from __future__ import annotations
 
-from dataclasses import Field, fields
+from dataclasses import Field, fields, replace
 from typing import Any, Final
 
 import bpy
@@ -15,15 +15,23 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from .core.catalogue import load_catalogue
+from .core.model import Role
 from .core.settings import Settings, choices, setting_type
 from .part_meshes import set_detail
 from .scene import BUILD_KEY, builds, show_sources
-from .view import cut_away, show_layers
+from .section import AXES, Section
+from .view import cut_away, roles_shown, section_of, show_layers, show_role
 
-DIRECTIONS: Final = {"NONE": (0, 0, 0), "LEFT": (-1, 0, 0), "RIGHT": (1, 0, 0), "FRONT": (0, -1, 0), "BACK": (0, 1, 0)}
-"""Directions towards the side that is cut away."""
-
-SIDES: Final = [(side, side.capitalize(), "") for side in DIRECTIONS]
+CUTS: Final = ("none", *AXES)
+CUT_ITEMS: Final = [("none", "Off", ""), *((axis, axis.upper(), "") for axis in AXES)]
+ROLE_TEXTS: Final = {
+    Role.SHELL: "the bricks that are seen from outside",
+    Role.INSIDE: "the bricks that only carry",
+    Role.PLATE: "the plates of finer layers",
+    Role.OFFSET: "the bricks under overhanging faces",
+    Role.SUPPORT_OUTSIDE: "the supports to be taken away in the end",
+    Role.SUPPORT_INSIDE: "the supports that stay inside",
+}
 
 
 def label(name: str) -> str:
@@ -103,22 +111,77 @@ def _set_top_layer(self: bpy.types.PropertyGroup, value: int) -> None:
         show_layers(self.id_data, build, max(1, min(value, build[BUILD_KEY]["layers"])))
 
 
+def _section(self: bpy.types.PropertyGroup) -> Section:
+    build = current_build(self.id_data)
+    return section_of(build) if build else Section()
+
+
+def _cut(self: bpy.types.PropertyGroup, **changes: Any) -> None:
+    build = current_build(self.id_data)
+    if build:
+        cut_away(build, replace(section_of(build), **changes))
+
+
+def _section_axis(self: bpy.types.PropertyGroup) -> int:
+    return CUTS.index(_section(self).axis)
+
+
+def _set_section_axis(self: bpy.types.PropertyGroup, value: int) -> None:
+    _cut(self, axis=CUTS[value])
+
+
+def _section_at(self: bpy.types.PropertyGroup) -> float:
+    return _section(self).at
+
+
+def _set_section_at(self: bpy.types.PropertyGroup, value: float) -> None:
+    _cut(self, at=value)
+
+
+def _section_flip(self: bpy.types.PropertyGroup) -> bool:
+    return _section(self).flip
+
+
+def _set_section_flip(self: bpy.types.PropertyGroup, value: bool) -> None:
+    _cut(self, flip=value)
+
+
 def _update_sources(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     build = current_build(self.id_data)
     if build:
         show_sources(build, visible=self.show_sources)
 
 
-def _update_cut(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    build = current_build(self.id_data)
-    if build:
-        cut_away(build, DIRECTIONS[self.cut_from], self.cut_share)
-
-
 def _update_detail(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     build = current_build(self.id_data)
     if build:
         set_detail(build[BUILD_KEY]["parts"], load_catalogue(), self.detail)
+
+
+def _role_property(role: Role) -> Any:
+    """Return the Blender property that shows or hides a role."""
+
+    def is_shown(self: bpy.types.PropertyGroup) -> bool:
+        build = current_build(self.id_data)
+        return bool(build) and roles_shown(build).get(role, False)
+
+    def show(self: bpy.types.PropertyGroup, visible: bool) -> None:
+        build = current_build(self.id_data)
+        if build and role in roles_shown(build):
+            show_role(build, role, visible=visible)
+
+    text = f"Show {ROLE_TEXTS[role]}, in the viewport and in renders"
+    return BoolProperty(name=label(role.name), description=text, get=is_shown, set=show)
+
+
+LegorizeRoles = type(
+    "LegorizeRoles",
+    (bpy.types.PropertyGroup,),
+    {
+        "__doc__": "Which roles of bricks are shown.",
+        "__annotations__": {role.name.lower(): _role_property(role) for role in Role},
+    },
+)
 
 
 class LegorizeView(bpy.types.PropertyGroup):
@@ -141,20 +204,28 @@ class LegorizeView(bpy.types.PropertyGroup):
         "brings them back",
         update=_update_sources,
     )
-    cut_from: EnumProperty(
-        name="Cut away",
-        description="The side from which bricks are hidden to show the inside",
-        items=SIDES,
-        update=_update_cut,
+    roles: PointerProperty(type=LegorizeRoles)
+    section_axis: EnumProperty(
+        name="Section",
+        description="The axis that a cut through the model is upright to; bricks beyond it are hidden, not removed",
+        items=CUT_ITEMS,
+        get=_section_axis,
+        set=_set_section_axis,
     )
-    cut_share: FloatProperty(
-        name="Share",
-        description="How much of the model's extent is cut away",
+    section_at: FloatProperty(
+        name="Cut at",
+        description="Share of the model's extent at which the cut lies: bricks are hidden whose middle lies beyond",
         subtype="FACTOR",
         min=0.0,
         max=1.0,
-        default=0.5,
-        update=_update_cut,
+        get=_section_at,
+        set=_set_section_at,
+    )
+    section_flip: BoolProperty(
+        name="Other side",
+        description="Hide the bricks on this side of the cut instead of those beyond it",
+        get=_section_flip,
+        set=_set_section_flip,
     )
     detail: EnumProperty(
         name="Detail",
@@ -168,7 +239,7 @@ class LegorizeView(bpy.types.PropertyGroup):
     )
 
 
-classes = (LegorizeSettings, LegorizeView)
+classes = (LegorizeSettings, LegorizeRoles, LegorizeView)
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
 
 

@@ -23,14 +23,22 @@ from .brick_points import box_corners
 from .core.catalogue import load_catalogue
 from .core.errors import BuildError
 from .core.model import Floats
-from .scene import BUILD_KEY, builds, read_bricks
+from .scene import BUILD_KEY, builds
+from .section import hidden_side
+from .view import shown_bricks
 
-View = Literal["front_left", "front_right", "back_left", "back_right"]
+View = Literal["front_left", "front_right", "back_left", "back_right", "section"]
 
 AZIMUTH: Final[dict[View, float]] = {"front_left": -35.0, "front_right": 35.0, "back_left": -145.0, "back_right": 145.0}
 """Direction in which the camera stands, in degrees from -y counter-clockwise as seen from above."""
 
 ELEVATION: Final = 24.0
+BESIDE: Final = 28.0
+"""How far beside the middle of an upright cut the camera stands, in degrees."""
+
+ABOVE: Final = 55.0
+"""Elevation from which a level cut is seen, in degrees."""
+
 FOCAL_LENGTH: Final = 85.0
 MARGIN: Final = 0.08
 """Share of the camera's distance that is left free around the model."""
@@ -66,7 +74,8 @@ def render_still(
     resolution : tuple of two int, optional
         Width and height in pixels.
     view : str, optional
-        Corner from which the model is seen.
+        Corner from which the model is seen; "section" looks onto the cut
+        through the first build that is cut open, else as "front_right".
 
     Raises
     ------
@@ -76,10 +85,11 @@ def render_still(
     partial = path.with_name(f".{path.name}.part.png")
     with _writable(partial, path), _studio(scene) as studio:
         corners = _corners(studio)
+        azimuth, elevation = _place(studio, view)
         _set_up_render(studio, samples, resolution, partial)
-        _add_light(studio, AZIMUTH[view])
+        _add_light(studio, azimuth)
         _add_ground(studio, corners)
-        _add_camera(studio, corners, AZIMUTH[view])
+        _add_camera(studio, corners, azimuth, elevation)
         bpy.ops.render.render("EXEC_DEFAULT", write_still=True, scene=studio.name)
 
 
@@ -122,11 +132,27 @@ def _corners(studio: bpy.types.Scene) -> Floats:
     found = []
     for build in studio.collection.children:
         matrix = np.array(build[BUILD_KEY]["root"].matrix_world)
-        corners = box_corners(read_bricks(build, shown_only=True), load_catalogue())
+        corners = box_corners(shown_bricks(build), load_catalogue())
         found.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
     if not found:
         raise BuildError("The scene has 0 brick models to take a picture of: legorize an object first.")
     return np.concatenate(found)
+
+
+def _place(studio: bpy.types.Scene, view: View) -> tuple[float, float]:
+    """Return the azimuth and elevation of the camera in degrees."""
+    if view != "section":
+        return AZIMUTH[view], ELEVATION
+    sides = [hidden_side(build[BUILD_KEY]["plane"]) for build in studio.collection.children]
+    side = next((side for side in sides if side is not None), None)
+    if side is None:
+        return AZIMUTH["front_right"], ELEVATION
+    x, y, z = side
+    if math.hypot(x, y) < abs(z):
+        # what is open from below only cannot be looked into, for the ground
+        return AZIMUTH["front_right"], ABOVE if z > 0 else ELEVATION
+    straight = math.degrees(math.atan2(x, -y))
+    return min(straight - BESIDE, straight + BESIDE, key=abs), ELEVATION
 
 
 def _set_up_render(studio: bpy.types.Scene, samples: int, resolution: tuple[int, int], path: Path) -> None:
@@ -196,11 +222,11 @@ def _add_ground(studio: bpy.types.Scene, corners: Floats) -> None:
     studio.collection.objects.link(bpy.data.objects.new("Legorize Ground", mesh))
 
 
-def _add_camera(studio: bpy.types.Scene, corners: Floats, azimuth: float) -> None:
+def _add_camera(studio: bpy.types.Scene, corners: Floats, azimuth: float, elevation: float) -> None:
     lens = bpy.data.cameras.new("Legorize Camera")
     lens.lens = FOCAL_LENGTH
     camera = bpy.data.objects.new("Legorize Camera", lens)
-    camera.rotation_euler = _look(azimuth, ELEVATION)
+    camera.rotation_euler = _look(azimuth, elevation)
     studio.collection.objects.link(camera)
     studio.camera = camera
     studio.view_layers[0].update()

@@ -18,17 +18,19 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .brick_points import points_mesh, positions, read_points, sizes
+from .brick_points import box_corners, points_mesh, read_points, sizes
 from .core.catalogue import Catalogue, load_catalogue
 from .core.errors import BuildError
 from .core.model import Bricks, Floats, Role
 from .core.settings import Settings
 from .core.units import PLATES_PER_BRICK, STUD
 from .nodes import add_bricks_modifier, brick_tree
-from .part_meshes import Detail, parts_collection
+from .part_meshes import Detail, parts_collection, parts_in_use
+from .section import Section, add_plane
 
 BUILD_KEY: Final = "legorize"
 LAYER_KEY: Final = "legorize_layer"
+ROLE_KEY: Final = "legorize_role"
 OWN_KEY: Final = "legorize_own"
 
 
@@ -93,17 +95,23 @@ def show_build(
     build = bpy.data.collections.new(f"Legorize {name}")
     scene.collection.children.link(build)
     root = _add_root(build, np.asarray(origin, dtype=np.float64), 1.0 / (scale * mm_per_unit))
+    plane = _own(build, add_plane(build.name, root))
     parts = parts_collection(pairs, detail, name)
-    _add_layers(build, bricks, variant.reshape(-1), catalogue, root, parts)
+    _add_layers(build, bricks, variant.reshape(-1), catalogue, plane, parts)
+    corners = box_corners(bricks, catalogue)
     build[BUILD_KEY] = {
         "origin": [float(value) for value in origin],
         "scale": scale,
         "mm_per_unit": mm_per_unit,
         "root": root,
+        "plane": plane,
         "parts": parts,
         "part_numbers": [part.number for part in catalogue.parts],
         "layers": n_layers(bricks),
         "top_layer": n_layers(bricks),
+        "extent": {"low": corners.min(axis=0).tolist(), "high": corners.max(axis=0).tolist()},
+        "section": asdict(Section()),
+        "roles": {Role(role).name: True for role in np.unique(bricks.role).tolist()},
         "sources": {str(i): _hidden_state(source) for i, source in enumerate(sources)},
         "settings": {} if settings is None else asdict(settings),
         "summary": summary(bricks, catalogue),
@@ -113,15 +121,13 @@ def show_build(
     return build
 
 
-def read_bricks(build: bpy.types.Collection, *, shown_only: bool = False) -> Bricks:
+def read_bricks(build: bpy.types.Collection) -> Bricks:
     """Return the table of bricks of a build, row by row as it was shown.
 
     Parameters
     ----------
     build : bpy.types.Collection
         Collection made by :func:`show_build`, in this or an earlier session.
-    shown_only : bool, optional
-        Leave out the layers that are hidden in renders.
 
     Returns
     -------
@@ -133,11 +139,14 @@ def read_bricks(build: bpy.types.Collection, *, shown_only: bool = False) -> Bri
     BuildError
         No brick is left, or a part of the build is not in the catalogue.
     """
-    hidden = {points for layer in layers_of(build) if layer.hide_render for points in layer.objects}
-    meshes = [points.data for points in point_objects(build) if not (shown_only and points in hidden)]
-    if not meshes:
+    return bricks_of(build, point_objects(build))
+
+
+def bricks_of(build: bpy.types.Collection, found: Sequence[bpy.types.Object]) -> Bricks:
+    """Return the table of the bricks that some point objects of a build hold, as :func:`read_bricks` does."""
+    if not found:
         raise BuildError(f"The collection {build.name!r} has 0 bricks to show: legorize the object again.")
-    return read_points(meshes, build[BUILD_KEY]["part_numbers"], load_catalogue())
+    return read_points([points.data for points in found], build[BUILD_KEY]["part_numbers"], load_catalogue())
 
 
 def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
@@ -161,7 +170,7 @@ def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
     variants = list(state["parts"].objects)
     meshes = {thing.data for thing in [*own, *variants] if thing.data is not None}
     materials = {slot.material for thing in variants for slot in thing.material_slots if slot.material is not None}
-    bpy.data.batch_remove([*own, *variants, state["parts"], *layers_of(build), build])
+    bpy.data.batch_remove([*own, *variants, *state["parts"].children, state["parts"], *layers_of(build), build])
     _remove_unused([*meshes, *materials])
     _remove_unused([brick_tree()])
 
@@ -220,13 +229,17 @@ def summary(bricks: Bricks, catalogue: Catalogue) -> dict[str, int | float]:
 
 
 def _add_root(build: bpy.types.Collection, origin: Floats, unit_per_mm: float) -> bpy.types.Object:
-    root = bpy.data.objects.new(build.name, None)
-    root[OWN_KEY] = True
+    root = _own(build, bpy.data.objects.new(build.name, None))
     root.empty_display_size = STUD
     root.location = origin * unit_per_mm
     root.scale = (unit_per_mm, unit_per_mm, unit_per_mm)
-    build.objects.link(root)
     return root
+
+
+def _own(collection: bpy.types.Collection, thing: bpy.types.Object) -> bpy.types.Object:
+    thing[OWN_KEY] = True
+    collection.objects.link(thing)
+    return thing
 
 
 def _add_layers(
@@ -234,22 +247,22 @@ def _add_layers(
     bricks: Bricks,
     variant: NDArray[np.integer],
     catalogue: Catalogue,
-    root: bpy.types.Object,
+    plane: bpy.types.Object,
     parts: bpy.types.Collection,
 ) -> None:
-    position = positions(bricks, catalogue)
     for layer, groups in _rows_by_layer(bricks):
         collection = bpy.data.collections.new(f"Layer {layer + 1:03d}")
         collection[LAYER_KEY] = layer
         build.children.link(collection)
+        used = np.unique(variant[np.concatenate([rows for _, rows in groups])])
+        own_parts = parts_in_use(parts, used, collection.name)
         for role, rows in groups:
             name = f"{collection.name} {role.name.lower().replace('_', ' ')}"
-            mesh = points_mesh(name, bricks.take(rows), position[rows], variant[rows], rows)
-            points = bpy.data.objects.new(name, mesh)
-            points[OWN_KEY] = True
-            points.parent = root
-            collection.objects.link(points)
-            add_bricks_modifier(points, parts)
+            mesh = points_mesh(name, bricks.take(rows), catalogue, np.searchsorted(used, variant[rows]), rows)
+            points = _own(collection, bpy.data.objects.new(name, mesh))
+            points[ROLE_KEY] = int(role)
+            points.parent = plane.parent
+            add_bricks_modifier(points, own_parts, plane)
 
 
 def _rows_by_layer(bricks: Bricks) -> Iterator[tuple[int, list[tuple[Role, NDArray[np.intp]]]]]:

@@ -1,4 +1,4 @@
-"""What is shown of a build: its lower layers, its part behind a cut, its source while it is read.
+"""What is shown of a build: its lower layers, its roles, its part before a cut, its source while it is read.
 
 Nothing here touches the bricks' data.
 """
@@ -7,13 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import asdict
+from typing import Final
 
 import bpy
-import numpy as np
 
-from .brick_points import read_positions
-from .nodes import set_section
-from .scene import BUILD_KEY, LAYER_KEY, layers_of, point_objects
+from .brick_points import middles
+from .core.catalogue import load_catalogue
+from .core.errors import BuildError
+from .core.model import Bricks, Role
+from .scene import BUILD_KEY, LAYER_KEY, ROLE_KEY, bricks_of, layers_of, point_objects
+from .section import Section, beyond, place_plane
+
+HIDDEN_KEY: Final = "legorize_hidden"
+"""Key, on objects of a hidden role, of how the user had hidden them: in the viewport, in renders."""
 
 
 def show_layers(scene: bpy.types.Scene, build: bpy.types.Collection, top: int) -> None:
@@ -30,34 +37,95 @@ def show_layers(scene: bpy.types.Scene, build: bpy.types.Collection, top: int) -
     """
     build[BUILD_KEY]["top_layer"] = top
     hidden = {layer: layer[LAYER_KEY] >= top for layer in layers_of(build)}
-    for layer, hide in hidden.items():
-        if layer.hide_render != hide:
-            layer.hide_render = hide
-    # the eye of the outliner: unlike Collection.hide_viewport it makes Blender evaluate nothing again
+    # renders look at the whole scene anew. Setting the flags one by one would make the viewport do so too, at once,
+    # and the eyes of the outliner, unlike Collection.hide_viewport, do without
+    build.children.foreach_set("hide_render", [hidden.get(child, child.hide_render) for child in build.children])
     for view_layer in scene.view_layers:
         for entry in _layer_collections(view_layer.layer_collection):
             if entry.collection in hidden:
                 entry.hide_viewport = hidden[entry.collection]
 
 
-def cut_away(build: bpy.types.Collection, direction: tuple[int, int, int], share: float) -> None:
-    """Hide the bricks beyond an upright plane; the data stay as they are.
+def show_role(build: bpy.types.Collection, role: Role, *, visible: bool) -> None:
+    """Show or hide the bricks of a role in all layers, in the viewport and in renders.
+
+    Objects that the user had hidden one by one stay hidden, and the eyes of
+    the outliner are left to the user.
 
     Parameters
     ----------
     build : bpy.types.Collection
         The build.
-    direction : tuple of three int
-        Unit vector along an axis, towards the hidden side; all zero shows everything.
-    share : float
-        Share of the model's extent along the axis that is hidden, in [0, 1].
+    role : Role
+        One that occurs in it.
+    visible : bool
+        Whether to show it.
     """
-    found = point_objects(build)
-    along = read_positions([points.data for points in found]) @ np.array(direction, dtype=np.float64)
-    # bricks are hidden whole, by their middle: the margin makes share 0 hide none
-    low, high = along.min() - 1.0, along.max() + 1.0
-    for points in found:
-        set_section(points, direction, high - share * (high - low) if any(direction) else 0.0)
+    build[BUILD_KEY]["roles"][role.name] = visible
+    for points in point_objects(build):
+        if points.get(ROLE_KEY) != role or (HIDDEN_KEY in points) != visible:
+            continue
+        if visible:
+            points.hide_viewport, points.hide_render = map(bool, points[HIDDEN_KEY])
+            del points[HIDDEN_KEY]
+        else:
+            points[HIDDEN_KEY] = [points.hide_viewport, points.hide_render]
+            points.hide_viewport = points.hide_render = True
+
+
+def roles_shown(build: bpy.types.Collection) -> dict[Role, bool]:
+    """Return the roles that occur in a build, in their order, and whether each is shown."""
+    state = build[BUILD_KEY]["roles"]
+    return {role: bool(state[role.name]) for role in Role if role.name in state}
+
+
+def cut_away(build: bpy.types.Collection, section: Section) -> None:
+    """Hide the bricks beyond a plane, in the viewport and in renders.
+
+    Parameters
+    ----------
+    build : bpy.types.Collection
+        The build.
+    section : Section
+        The cut.
+    """
+    state = build[BUILD_KEY]
+    state["section"] = asdict(section)
+    place_plane(state["plane"], section, (state["extent"]["low"], state["extent"]["high"]))
+
+
+def section_of(build: bpy.types.Collection) -> Section:
+    """Return the cut through a build, as :func:`cut_away` made it."""
+    state = build[BUILD_KEY]["section"]
+    return Section(axis=state["axis"], at=state["at"], flip=bool(state["flip"]))
+
+
+def shown_bricks(build: bpy.types.Collection) -> Bricks:
+    """Return the table of the bricks that renders show.
+
+    Parameters
+    ----------
+    build : bpy.types.Collection
+        The build.
+
+    Returns
+    -------
+    Bricks
+        Those whose layer and object are not hidden in renders, and that lie
+        before the cut.
+
+    Raises
+    ------
+    BuildError
+        No brick is left.
+    """
+    hidden = {points for layer in layers_of(build) if layer.hide_render for points in layer.objects}
+    shown = [points for points in point_objects(build) if not points.hide_render and points not in hidden]
+    bricks = bricks_of(build, shown)
+    bricks = bricks.take(~beyond(build[BUILD_KEY]["plane"], middles(bricks, load_catalogue())))
+    if not len(bricks):
+        raise BuildError(f"The cut leaves 0 bricks of {build.name!r} to show: move the section.")
+    return bricks
 
 
 @contextmanager

@@ -2,16 +2,20 @@
 
 ::
 
-    python scripts/benchmark.py slicing  [MESH ...] [--out DIR]   against trimesh and shapely
-    python scripts/benchmark.py units    [MESH ...] [--out DIR]   against trimesh, the exact rule, dense sampling
-    python scripts/benchmark.py pipeline [MESH ...] [--out DIR]   every stage, every result
-    python scripts/benchmark.py judge    [MESH ...] --judge DIR   an external judge, on our bricks and on a peer's
+    python scripts/benchmark.py slicing   [MESH ...] [--out DIR]   against trimesh and shapely
+    python scripts/benchmark.py units     [MESH ...] [--out DIR]   against trimesh, the exact rule, dense sampling
+    python scripts/benchmark.py pipeline  [MESH ...] [--out DIR]   every stage, every result
+    python scripts/benchmark.py detail    [MESH ...] [--judge DIR] what plates gain and cost
+    python scripts/benchmark.py hollowing [MESH ...] [--out DIR]   against a shell of two cells
+    python scripts/benchmark.py judge     [MESH ...] --judge DIR   an external judge, on our bricks and on a peer's
+    python scripts/benchmark.py sliders  [--bricks N] [--out DIR] what Blender takes to show layers and sections
 
 Without a mesh the bundled sample is measured; ``--models DIR`` takes all model
-files of a folder. Blender is not needed, the packages of the dependency group
-``checks`` are. Tables are printed as Markdown and written as CSV and JSON.
-Times are CPU seconds of all threads, the least of several runs; compare only
-those of one run, and trust the ratios more than the seconds.
+files of a folder. The packages of the dependency group ``checks`` are needed,
+and Blender's module for the sliders alone. Tables are printed as Markdown and
+written as CSV and JSON. Times are CPU seconds of all threads, the least of
+several runs, but of the sliders those on the wall; compare only those of one
+run, and trust the ratios more than the seconds.
 """
 
 from __future__ import annotations
@@ -26,11 +30,12 @@ ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 from legorize_addon.core.errors import LegorizeError  # noqa: E402 - found through the line above
-from scripts.benchmarks import judge, pipeline, slicing, units  # noqa: E402
+from scripts.benchmarks import detail, hollowing, judge, pipeline, slicing, units  # noqa: E402
 from scripts.benchmarks.meshes import models_in  # noqa: E402
 from scripts.benchmarks.tables import Table, write  # noqa: E402
 
 SAMPLE: Final = ROOT / "assets" / "sample.glb"
+OUT: Final = ROOT / "out" / "benchmark"
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -49,6 +54,11 @@ def main(arguments: Sequence[str]) -> int:
 
 def measured(options: argparse.Namespace) -> list[Table]:
     """Return the tables of the chosen benchmark."""
+    if options.command == "sliders":
+        # its module brings Blender along, which the others do without
+        from scripts.benchmarks import sliders
+
+        return sliders.measure(bricks=options.bricks)
     paths = [*options.meshes, *(models_in(options.models) if options.models else ())] or [SAMPLE]
     if options.command == "slicing":
         return slicing.measure(
@@ -64,6 +74,10 @@ def measured(options: argparse.Namespace) -> list[Table]:
         )
     if options.command == "pipeline":
         return pipeline.measure(paths, widths=options.widths, repeats=options.repeats)
+    if options.command == "detail":
+        return detail.measure(paths, widths=options.widths, judge=options.judge, out=options.out)
+    if options.command == "hollowing":
+        return hollowing.measure(paths, width=options.width)
     return judge.measure(paths, judge=options.judge, out=options.out, width=options.width, ldr_dir=options.ldr_dir)
 
 
@@ -75,17 +89,22 @@ def parser() -> argparse.ArgumentParser:
         ("slicing", "slices with loops, colours and areas", 48, 3),
         ("units", "unit bricks with their colours", 100, 3),
         ("pipeline", "every stage on every model", None, 1),
+        ("detail", "what plates gain and cost", None, None),
+        ("hollowing", "what hollowing leaves", 64, None),
         ("judge", "an external judge", 48, None),
     ):
         command = commands.add_parser(name, help=text, description=text)
         command.add_argument("meshes", metavar="MESH", type=Path, nargs="*", help="model file")
         command.add_argument("--models", metavar="DIR", type=Path, help="folder with model files")
-        command.add_argument("--out", metavar="DIR", type=Path, default=ROOT / "out" / "benchmark", help="for results")
+        command.add_argument("--out", metavar="DIR", type=Path, default=OUT, help="for results")
         if width is not None:
             command.add_argument("--width", type=int, default=width, help="studs (default: %(default)s)")
         if repeats is not None:
             command.add_argument("--repeats", type=int, default=repeats, help="runs (default: %(default)s)")
         add_options(name, command)
+    command = commands.add_parser("sliders", help="the sliders in Blender", description="the sliders in Blender")
+    command.add_argument("--bricks", type=int, default=50_000, help="of the model (default: %(default)s)")
+    command.add_argument("--out", metavar="DIR", type=Path, default=OUT, help="for results")
     return made
 
 
@@ -101,7 +120,10 @@ def add_options(name: str, command: argparse.ArgumentParser) -> None:
         command.add_argument("--points", type=int, default=2_000_000, help="of the dense sampling")
     elif name == "pipeline":
         command.add_argument("--widths", **counts, default=[24, 48, 96], help="studs (default: %(default)s)")
-    else:
+    elif name == "detail":
+        command.add_argument("--widths", **counts, default=[32, 64], help="studs (default: %(default)s)")
+        command.add_argument("--judge", metavar="DIR", type=Path, help="judge.py, which else is not asked")
+    elif name == "judge":
         command.add_argument("--judge", metavar="DIR", type=Path, required=True, help="judge.py and peer_voxels.py")
         command.add_argument("--ldr-dir", metavar="DIR", type=Path, help="NAME/model.ldr made by scripts/legorize.py")
 

@@ -46,6 +46,8 @@ try:
     from legorize_addon.read_mesh import read_objects
     from legorize_addon.render import render_still
     from legorize_addon.scene import builds, clear_build, show_build
+    from legorize_addon.section import AXES, Section
+    from legorize_addon.view import cut_away
 except ModuleNotFoundError as missing:
     print(f"Legorize needs the Python package {missing.name}: install its extension, or the packages.", file=sys.stderr)
     sys.exit(1)
@@ -69,7 +71,9 @@ def main(arguments: Sequence[str]) -> int:
     try:
         options = vars(parser().parse_args(arguments))
         source, out = options.pop("source"), options.pop("out")
-        wanted = {name: options.pop(name) for name in ("render", "save_blend")}
+        wanted = {name: options.pop(name) for name in ("render", "save_blend", "section")}
+        if wanted["section"] and not wanted["render"]:
+            raise SettingsError("A section is only to be seen in the picture: add --render, or leave --section out.")
         return run(source, out, settings_of(options), **wanted)
     except LegorizeError as error:
         print(error, file=sys.stderr)
@@ -82,6 +86,11 @@ def parser() -> Parser:
     made.add_argument("source", metavar="IN", type=Path, help="file with the mesh")
     made.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the results")
     made.add_argument("--render", action="store_true", help="write a picture, render.png")
+    made.add_argument(
+        "--section", metavar="AXIS=SHARE", type=section,
+        help="hide the bricks beyond a cut in the picture, which looks onto it: x=0.5 shows the half with x below the "
+        "middle of the model",
+    )  # fmt: skip
     made.add_argument("--save-blend", action="store_true", help="write the scene with the bricks, build.blend")
     sizes = made.add_mutually_exclusive_group()
     for entry in fields(Settings):
@@ -104,13 +113,27 @@ def add_flag(group: Any, entry: Field[Any]) -> None:
     group.add_argument(f"--{entry.name.replace('_', '-')}", **options)
 
 
+def section(text: str) -> Section:
+    """Return the cut that a text such as x=0.5 asks for."""
+    axis, _, share = text.partition("=")
+    try:
+        at = float(share)
+    except ValueError:
+        at = -1.0
+    if axis not in AXES or not 0.0 <= at <= 1.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no section, which is x, y or z, =, and a number from 0 to 1")
+    return Section(axis=axis, at=at)
+
+
 def settings_of(options: dict[str, Any]) -> Settings:
     """Return the settings that the flags ask for."""
     named = [name for name in SIZES[1:] if name in options]
     return Settings(**options, **({"size_by": named[0]} if named else {}))
 
 
-def run(source: Path, out: Path, settings: Settings, *, render: bool, save_blend: bool) -> int:
+def run(
+    source: Path, out: Path, settings: Settings, *, render: bool, save_blend: bool, section: Section | None = None
+) -> int:
     """Legorize a file into a folder."""
     with new_folder(out) as folder:
         seconds = {}
@@ -127,12 +150,14 @@ def run(source: Path, out: Path, settings: Settings, *, render: bool, save_blend
             for name, text in texts(build, catalogue, facts, source.stem).items():
                 (folder / name).write_text(text, encoding="utf-8", newline="")
         if render or save_blend:
-            show_build(
+            shown = show_build(
                 bpy.context.scene, build.bricks, catalogue, origin=build.grid.origin, scale=build.scale,
                 mm_per_unit=mm_per_unit(), name=source.stem, sources=objects, settings=settings, notes=build.notes,
             )  # fmt: skip
         if render:
-            render_still(bpy.context.scene, folder / "render.png")
+            cut_away(shown, section or Section())
+            render_still(bpy.context.scene, folder / "render.png", view="section" if section else "front_right")
+            cut_away(shown, Section())
         if save_blend:
             save(folder / "build.blend")
     print(f"{out}: {facts['counts']['bricks']} bricks in {facts['grid']['layers']} layers.")

@@ -8,10 +8,11 @@ enters.
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Final
+from dataclasses import dataclass, replace
+from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
@@ -22,7 +23,7 @@ _ROUNDS: Final = 8
 """Most rounds: each joins what touches what the rounds before have joined."""
 
 
-def brick_columns(grid: UnitGrid) -> tuple[Mask, np.ndarray]:
+def brick_columns(grid: UnitGrid) -> tuple[Mask, NDArray[np.int16]]:
     """Tell which cell columns are laid in bricks.
 
     Parameters
@@ -44,6 +45,44 @@ def brick_columns(grid: UnitGrid) -> tuple[Mask, np.ndarray]:
     return brick, top
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Touching:
+    """The solid cells of a grid and which of them touch.
+
+    Attributes
+    ----------
+    cell : (n,) int64 array
+        Flat index of each solid cell among all plates, rising.
+    column : (n,) int64 array
+        The lowest solid cell of the brick's height that each belongs to, by row of `cell`.
+    upright, sideways : (2, m) int64 arrays
+        Pairs of rows that are stacked, and that lie side by side.
+    """
+
+    cell: Ints
+    column: Ints
+    upright: Ints
+    sideways: Ints
+
+    @classmethod
+    def of(cls, solid: Mask) -> Touching:
+        """List the solid cells, (n_layers, 3, n_y, n_x), and their neighbours."""
+        cell = np.flatnonzero(solid)
+        row = np.full(solid.size + solid[0, 0].size, -1, dtype=np.int64)
+        row[cell] = np.arange(len(cell))
+        n_y, n_x = solid.shape[2:]
+        above, behind, right = (row[cell + step] for step in (n_x * n_y, n_x, 1))
+        right[(cell + 1) % n_x == 0] = -1
+        behind[cell // n_x % n_y == n_y - 1] = -1
+        here = np.arange(len(cell))
+        upright, *sideways = (np.stack([here, there])[:, there >= 0] for there in (above, behind, right))
+        column = here.copy()
+        same = upright[:, cell[upright[1]] // (n_x * n_y) % PLATES_PER_BRICK != 0]
+        for _ in range(PLATES_PER_BRICK - 1):
+            column[same[1]] = column[same[0]]
+        return cls(cell, column, upright, np.concatenate(sideways, axis=1))
+
+
 def with_joints(grid: UnitGrid) -> UnitGrid:
     """Lay brick columns in plates where nothing else can hold what touches them.
 
@@ -60,73 +99,49 @@ def with_joints(grid: UnitGrid) -> UnitGrid:
     brick, _ = brick_columns(grid)
     if not (grid.solid & ~brick[:, None]).any():
         return grid
+    touching = Touching.of(grid.solid)
+    colour = grid.colour.reshape(-1)[touching.cell]
+    whole = every_plate(brick).reshape(-1)[touching.cell]
     for _ in range(_ROUNDS):
-        opened = brick & _opened(grid, brick)
+        opened = _opened(touching, colour, whole)
         if not opened.any():
             break
-        brick &= ~opened
-    role = np.where(grid.solid & ~brick[:, None], np.uint8(Role.PLATE), grid.role)
+        whole &= ~opened
+    role = grid.role.copy()
+    role.reshape(-1)[touching.cell[~whole]] = Role.PLATE
     return replace(grid, role=role)
 
 
-def _opened(grid: UnitGrid, brick: Mask) -> Mask:
-    """Return the brick columns beside plates of another part, one of both being loose, (n_layers, n_y, n_x)."""
-    node, n_nodes = nodes(grid.solid, brick)
-    part, loose = parts_of(grid, brick, node, n_nodes)
-    shape = node.shape
-    colour, plates = grid.colour.reshape(shape), np.repeat(brick, PLATES_PER_BRICK, axis=0)
-    found = np.zeros(shape, dtype=bool)
-    for axis in (1, 2):
-        here, there = beside(shape, axis)
-        a, b = node[here], node[there]
-        touch = (a >= 0) & (b >= 0) & (plates[here] != plates[there]) & _agree(colour[here], colour[there])
-        touch &= (part[a] != part[b]) & (loose[part[a]] | loose[part[b]])
-        found[here] |= touch
-        found[there] |= touch
-    return found.reshape(grid.solid.shape).any(axis=1)
+def every_plate(columns: NDArray[Any]) -> NDArray[Any]:
+    """Repeat what holds of columns, (n_layers, n_y, n_x), for their plates, (n_layers, 3, n_y, n_x)."""
+    layers, rows, across = columns.shape
+    return np.broadcast_to(columns[:, None], (layers, PLATES_PER_BRICK, rows, across))
 
 
-def nodes(solid: Mask, brick: Mask) -> tuple[Ints, int]:
-    """Give a number to each thing that is laid apart: brick columns, and single cells elsewhere.
+def parts_of(touching: Touching, colour: NDArray[np.int16], whole: Mask) -> tuple[Ints, Mask]:
+    """Tell which cells can hold to each other: what is stacked, or side by side and coverable by one brick or plate.
 
     Parameters
     ----------
-    solid : (n_layers, 3, n_y, n_x) bool array
-    brick : (n_layers, n_y, n_x) bool array
-        Columns that are laid in bricks.
+    touching : Touching
+    colour : (n,) int16 array
+        Colour of each cell.
+    whole : (n,) bool array
+        Whether each cell is laid in a brick.
 
     Returns
     -------
-    node : (n_plates, n_y, n_x) int64 array
-        -1 where there is nothing.
-    n_nodes : int
-    """
-    first = solid & ~brick[:, None]
-    first[:, 0] |= brick
-    number = np.cumsum(first.ravel()).reshape(first.shape) - 1
-    node = np.where(solid, np.where(brick[:, None], number[:, :1], number), -1)
-    return node.reshape(-1, *solid.shape[2:]), int(first.sum())
-
-
-def parts_of(grid: UnitGrid, brick: Mask, node: Ints, n_nodes: int) -> tuple[Ints, Mask]:
-    """Tell which nodes can hold to each other: what is stacked, or side by side and coverable by one brick or plate.
-
-    Parameters
-    ----------
-    grid : UnitGrid
-    brick : (n_layers, n_y, n_x) bool array
-    node : (n_plates, n_y, n_x) int64 array
-    n_nodes : int
-
-    Returns
-    -------
-    part : (n_nodes,) int64 array
+    part : (n,) int64 array
     loose : (n_parts,) bool array
         All parts but the largest.
     """
-    upright, sideways = _contacts(grid, brick, node)
-    stacked = np.zeros(n_nodes, dtype=bool)
-    stacked[upright.ravel()] = True
+    node = np.where(whole, touching.column, np.arange(len(whole)))
+    upright = node[touching.upright]
+    stacked = np.zeros(len(whole), dtype=bool)
+    stacked[upright[:, upright[0] != upright[1]].ravel()] = True
+    first, second = touching.sideways
+    cover = (whole[first] == whole[second]) & _agree(colour[first], colour[second])
+    sideways = node[touching.sideways[:, cover]]
     # a part across two cells holds to both if each has something below or above
     strong = stacked[sideways].all(axis=0)
     ends = np.concatenate([sideways[:, ~strong], sideways[::-1, ~strong]], axis=1)
@@ -134,34 +149,26 @@ def parts_of(grid: UnitGrid, brick: Mask, node: Ints, n_nodes: int) -> tuple[Int
     # what has neither holds to one neighbour and passes nothing on
     hanging = hanging[:, np.unique(hanging[0], return_index=True)[1]]
     pairs = np.concatenate([upright, sideways[:, strong], hanging], axis=1)
-    graph = coo_array((np.ones(pairs.shape[1], dtype=bool), tuple(pairs)), shape=(n_nodes, n_nodes))
-    n_parts, part = connected_components(graph, directed=False)
-    loose = np.ones(n_parts, dtype=bool)
-    loose[np.bincount(part).argmax()] = False
-    return part.astype(np.int64), loose
+    graph = coo_array((np.ones(pairs.shape[1], dtype=bool), tuple(pairs)), shape=(len(whole), len(whole)))
+    _, part = connected_components(graph, directed=False)
+    _, part = np.unique(part[node], return_inverse=True)
+    loose = np.ones(int(part.max(initial=0)) + 1, dtype=bool)
+    loose[np.bincount(part.ravel(), minlength=1).argmax()] = False
+    return part.ravel(), loose
 
 
-def _contacts(grid: UnitGrid, brick: Mask, node: Ints) -> tuple[Ints, Ints]:
-    """Return the pairs of nodes that are stacked, and those side by side that one part can cover, (2, n) each."""
-    colour, plates = grid.colour.reshape(node.shape), np.repeat(brick, PLATES_PER_BRICK, axis=0)
-    pairs = []
-    for axis in range(3):
-        here, there = beside(node.shape, axis)
-        a, b = node[here], node[there]
-        join = (a >= 0) & (b >= 0) & (a != b)
-        if axis > 0:
-            join &= (plates[here] == plates[there]) & _agree(colour[here], colour[there])
-        pairs.append(np.stack([a[join], b[join]]))
-    return pairs[0], np.concatenate(pairs[1:], axis=1)
+def _opened(touching: Touching, colour: NDArray[np.int16], whole: Mask) -> Mask:
+    """Return the cells of brick columns beside plates of another part, one of both being loose, (n,)."""
+    part, loose = parts_of(touching, colour, whole)
+    first, second = touching.sideways
+    touch = (whole[first] != whole[second]) & (part[first] != part[second])
+    touch &= (loose[part[first]] | loose[part[second]]) & _agree(colour[first], colour[second])
+    found = np.zeros(len(whole), dtype=bool)
+    found[touching.column[touching.sideways[:, touch]].ravel()] = True
+    opened: Mask = found[touching.column] & whole
+    return opened
 
 
-def _agree(first: np.ndarray, second: np.ndarray) -> Mask:
+def _agree(first: NDArray[np.int16], second: NDArray[np.int16]) -> Mask:
     agree: Mask = (first == second) | (first == COLOUR_ANY) | (second == COLOUR_ANY)
     return agree
-
-
-def beside(shape: tuple[int, ...], axis: int) -> tuple[tuple[slice, ...], tuple[slice, ...]]:
-    """Return the slices of the cells of an array, and of their next cells along an axis."""
-    here = tuple(slice(None, -1) if each == axis else slice(None) for each in range(len(shape)))
-    there = tuple(slice(1, None) if each == axis else slice(None) for each in range(len(shape)))
-    return here, there

@@ -86,4 +86,4 @@ def levels_of(heights: Floats, layer: NDArray[np.int32], plate: NDArray[np.int8]
     alone = np.bincount(layer, minlength=1)[layer] == 1
     first = levels_a_layer * layer.astype(np.int64) + np.where(alone, 0, plate)
     slice_, level = ranges(first, np.where(alone, levels_a_layer, 1))
-    return Levels(slice_, level, level + 0.5, np.full(len(level), grid.height))
+    return Levels(slice_, level, (level + 0.5).astype(np.float64), np.full(len(level), grid.height))

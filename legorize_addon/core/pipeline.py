@@ -11,11 +11,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from .backing import with_backing
 from .catalogue import Catalogue, load_catalogue
 from .colour_joints import with_colour_joints
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .connection import Connection, connect
 from .detail import Detail
+from .facing import facing_of
 from .grid import Grid, fit_grid
 from .hollowing import hollow
 from .joints import with_joints
@@ -231,6 +233,7 @@ def _unit_grid(
 ) -> UnitGrid:
     """Return the unit bricks, of which there must be one at least."""
     lattice = frame.plates() if _in_plates(settings) else frame
+    facing = facing_of(mesh, surface) if settings.backing else None
     grid = unit_bricks(
         mesh,
         trajectories,
@@ -242,10 +245,11 @@ def _unit_grid(
         catalogue=catalogue,
         closed=repairs.watertight,
         detail=_detail(cut.layer, frame, settings),
+        facing=facing,
         progress=progress,
     )
     check_any(grid, mesh)
-    return grid
+    return grid if facing is None else with_backing(grid, facing, depth=settings.backing)
 
 
 def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail | None:

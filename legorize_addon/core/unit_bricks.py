@@ -26,6 +26,7 @@ from .coverage import Pieces, covered, cut_at_grid
 from .detail import Detail, settled, settled_colours
 from .eight_neighbours import longest_colours
 from .exposure import air_around
+from .facing import Facing
 from .grid import Grid
 from .levels import Levels
 from .mesh import TriangleMesh
@@ -52,6 +53,7 @@ def unit_bricks(
     catalogue: Catalogue,
     closed: bool = True,
     detail: Detail | None = None,
+    facing: Facing | None = None,
     progress: Progress = silent,
 ) -> UnitGrid:
     """Turn trajectories into unit bricks.
@@ -77,6 +79,9 @@ def unit_bricks(
         whose windows are open stays hollow.
     detail : Detail, optional
         Where a grid of plates keeps them.
+    facing : Facing, optional
+        The way that a flat model is looked at, if from one side alone: what looks
+        that way colours the bricks, unless by length.
     progress : Progress, optional
         Told between the steps.
 
@@ -109,7 +114,8 @@ def unit_bricks(
     if longest:
         ballot = longest_colours(trajectories, pieces, standing[0], samples, solid, seen, catalogue, surface)
     else:
-        ballot = likeliest_colours(samples, air, seen, catalogue, surface)
+        shown = samples if facing is None else facing.weighed(samples)
+        ballot = likeliest_colours(shown, air, seen, catalogue, surface)
     colour = np.full(grid.shape, COLOUR_EMPTY, dtype=np.int16)
     colour[solid] = COLOUR_ANY
     colour[seen] = ballot.winners(seen, grid.height)

@@ -22,6 +22,8 @@ from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.ldraw import read_ldr
 from legorize_addon.core.settings import Settings
+from legorize_addon.scene import builds as scene_builds
+from legorize_addon.view import shown_bricks
 from tests.blender.builders import add_image, add_object, image_material
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -176,6 +178,30 @@ def test_picture_and_scene(script: ModuleType, tmp_path: Path, monkeypatch: pyte
     assert "Legorize box" in bpy.data.collections
 
 
+@pytest.mark.parametrize("axis", "xyz")
+def test_section_in_the_picture(axis: str, script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The picture is taken of the lower half of the bricks, from the section's side; the saved scene is whole."""
+    seen = []
+
+    def look(scene: bpy.types.Scene, path: Path, *, view: str) -> None:
+        [build] = scene_builds(scene)
+        seen.append((shown_bricks(build).corner[:, "xyz".index(axis)], view))
+
+    monkeypatch.setattr(script, "render_still", look)
+    add_box(BOX)
+    flags = ["--section", f"{axis}=0.5", "--render", "--save-blend", "--width", "8", "--no-hollow"]
+    assert script.main([str(save(tmp_path / "box.glb")), "--out", str(tmp_path / "out"), *flags]) == 0
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "build.blend"))
+    [build] = scene_builds(bpy.context.scene)
+    whole = shown_bricks(build)
+    assert len(whole) == report(tmp_path / "out")["counts"]["bricks"]
+    [(low, view)] = seen
+    assert view == "section"
+    assert 0 < len(low) < len(whole)
+    along = whole.corner[:, "xyz".index(axis)]
+    assert low.max() <= (along.min() + along.max() + 3) / 2
+
+
 def test_saved_scene_can_be_legorized_again(script: ModuleType, tmp_path: Path) -> None:
     """A scene that holds a build gives the model of what the build was made of, not of its bricks."""
     add_box(BOX)
@@ -234,6 +260,12 @@ def test_every_setting_is_a_flag(script: ModuleType) -> None:
         (["--width", "3", "--height", "4"], "not allowed with"),
         (["--widht", "3"], "--widht"),
         (["--palette", "99999"], "99999"),
+        (["--section", "x=0.5"], "add --render"),
+        (["--section", "w=0.5", "--render"], "'w=0.5' is no section"),
+        (["--section", "x", "--render"], "'x' is no section"),
+        (["--section", "x=half", "--render"], "'x=half' is no section"),
+        (["--section", "z=1.5", "--render"], "from 0 to 1"),
+        (["--section", "y=nan", "--render"], "from 0 to 1"),
     ],
 )
 def test_impossible_settings(

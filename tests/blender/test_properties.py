@@ -11,6 +11,7 @@ import pytest
 
 import legorize_addon
 from legorize_addon import panels
+from legorize_addon.core.model import Role
 from legorize_addon.core.settings import Settings, choices
 from legorize_addon.properties import current_build, settings_of
 from legorize_addon.scene import BUILD_KEY, clear_build, layers_of
@@ -116,18 +117,46 @@ def test_top_layer_keeps_to_the_model(view) -> None:
     assert view.top_layer == 1
 
 
-def test_cut_detail_and_source_follow(view) -> None:
+def test_section_keeps_to_its_build(view) -> None:
+    """The cut is kept with the build: another build has its own, and the panel shows that of its build."""
+    first = show(table([(0, x, 0, 0, 0, 4) for x in range(10)]), name="a")
+    assert (view.section_axis, view.section_at, view.section_flip) == ("none", 0.5, False)
+    view.section_at = 0.2
+    assert len(instances()) == 10
+    view.section_axis = "x"
+    assert max(matrix[0, 3] for _, _, matrix in instances()) < 16
+    assert len(instances()) == 2
+    view.section_flip = True
+    assert len(instances()) == 8
+    second = show(table([(0, 0, y, 0, 0, 4) for y in range(10)]), name="b")
+    view.build = second
+    assert view.section_axis == "none"
+    view.section_axis, view.section_at = "y", 0.4
+    assert len(instances()) == 8 + 4
+    view.build = first
+    assert (view.section_axis, view.section_at, view.section_flip) == ("x", pytest.approx(0.2), True)
+    view.section_axis = "none"
+    assert len(instances()) == 10 + 4
+
+
+def test_roles_follow(view) -> None:
+    """There is a switch for each role; those of roles that the build does not have are off and do nothing."""
+    show(table([(0, x, 0, 0, 0, 4, role) for x, role in enumerate((Role.SHELL, Role.PLATE, Role.PLATE))]))
+    assert {role.name.lower() for role in Role} <= set(view.roles.bl_rna.properties.keys())
+    assert [getattr(view.roles, role.name.lower()) for role in Role] == [True, False, True, False, False, False]
+    view.roles.plate = False
+    assert len(instances()) == 1
+    view.roles.offset = True
+    assert not view.roles.offset
+    view.roles.plate = True
+    assert len(instances()) == 3
+
+
+def test_detail_and_source_follow(view) -> None:
     """The other properties act on the build at once."""
     bpy.ops.mesh.primitive_cube_add()
     cube = bpy.context.object
     show(table([(0, x, 0, 0, 0, 4) for x in range(10)]), cube)
-    view.cut_share = 0.2
-    assert len(instances()) == 10
-    view.cut_from = "LEFT"
-    assert min(matrix[0, 3] for _, _, matrix in instances()) > 16
-    assert len(instances()) == 8
-    view.cut_from = "NONE"
-    assert len(instances()) == 10
     view.detail = "low"
     assert {mesh["legorize_mesh"] for mesh, _, _ in instances()} == {"3005 low"}
     view.show_sources = True
@@ -139,8 +168,10 @@ def test_cut_detail_and_source_follow(view) -> None:
 def test_properties_without_a_build_do_nothing(view) -> None:
     """Turning knobs in an empty scene changes nothing."""
     before = content()
-    view.top_layer, view.cut_from, view.detail, view.show_sources = 3, "FRONT", "low", True
+    view.top_layer, view.section_axis, view.detail, view.show_sources = 3, "y", "low", True
+    view.section_at, view.section_flip, view.roles.shell = 0.1, True, False
     assert content() == before
+    assert (view.section_axis, view.section_at, view.roles.shell) == ("none", 0.5, False)
     assert view.top_layer == 1
 
 

@@ -11,7 +11,8 @@ from PIL import Image
 
 from legorize_addon.core.errors import BuildError
 from legorize_addon.render import AZIMUTH, render_still
-from legorize_addon.view import show_layers
+from legorize_addon.section import Section
+from legorize_addon.view import cut_away, show_layers
 
 from .bricks import content, show, table
 
@@ -51,6 +52,59 @@ def test_hidden_layers_are_left_out(tmp_path) -> None:
     pixels = picture(tmp_path / "still.png")
     assert share(pixels, BLUE) == 0
     assert share(pixels, RED) > 0.1
+
+
+def test_section_is_looked_onto(tmp_path) -> None:
+    """A cut shows what it lays open, from its own side; the section view goes with it, whichever side is hidden."""
+    rows = [
+        (0, x, y, z, 0, RED if x in (0, 9) or y in (0, 9) else BLUE)
+        for x in range(10)
+        for y in range(10)
+        for z in (0, 3)
+    ]
+    build = show(table(rows))
+    for axis, flip in [("x", False), ("x", True), ("y", False), ("y", True)]:
+        cut_away(build, Section(axis, 0.5, flip))
+        pixels = picture(tmp_path / "still.png", view="section")
+        assert share(pixels, BLUE) > 0.05, (axis, flip)
+    cut_away(build, Section("y", 0.5))
+    assert share(picture(tmp_path / "still.png", view="front_right"), RED) > share(pixels, RED)
+
+
+def test_level_section_is_seen_from_above(tmp_path) -> None:
+    """A level cut shows the layer below it whole, with nothing of what lies above."""
+    build = show(table([(11, 0, y, z, 0, BLUE if z == 3 else RED) for y in (0, 2, 4) for z in (0, 3, 6)]))
+    cut_away(build, Section("z", 0.6))
+    pixels = picture(tmp_path / "still.png", view="section")
+    assert share(pixels, BLUE) > 2 * share(pixels, RED) > 0
+
+
+def test_section_view_without_a_section(tmp_path) -> None:
+    """A model that is not cut is seen from the front right."""
+    show(table([(0, x, y, 0, 0, RED if y == 0 else BLUE) for x in range(8) for y in range(2)]))
+    pictures = [picture(tmp_path / "still.png", view=view) for view in ("section", "front_right")]
+    np.testing.assert_array_equal(*pictures)
+
+
+def test_hidden_layers_are_left_out_of_any_render(tmp_path) -> None:
+    """Renders of the user's own scene leave hidden layers out as well, whatever was rendered before."""
+    scene = bpy.context.scene
+    build = show(table([(11, 0, 0, 0, 0, RED), (11, 0, 0, 3, 0, BLUE)]))
+    bpy.ops.object.camera_add(location=(16, 8, 200))
+    scene.camera = bpy.context.object
+    scene.render.engine, scene.cycles.samples, scene.render.filepath = "CYCLES", 1, str(tmp_path / "mine.png")
+    scene.render.resolution_x, scene.render.resolution_y = SIZE
+    scene.world = bpy.data.worlds.new("grey")
+    for persistent in (False, True):
+        scene.render.use_persistent_data = persistent
+        for top, shown, hidden in [(2, BLUE, RED), (1, RED, BLUE), (2, BLUE, RED)]:
+            show_layers(scene, build, top)
+            bpy.context.view_layer.update()
+            bpy.ops.render.render(write_still=True)
+            with Image.open(tmp_path / "mine.png") as image:
+                pixels = np.asarray(image.convert("RGB")) / 255
+            assert share(pixels, shown) > 0.01, (persistent, top)
+            assert share(pixels, hidden) == 0, (persistent, top)
 
 
 def test_views_differ(tmp_path) -> None:

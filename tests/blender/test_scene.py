@@ -23,7 +23,7 @@ from legorize_addon.scene import (
     show_sources,
     sources_of,
 )
-from legorize_addon.view import cut_away, readable, show_layers
+from legorize_addon.view import readable
 
 from .bricks import assert_same, content, instances, random_table, show, table
 
@@ -145,6 +145,15 @@ def test_layers_and_roles_are_told_apart() -> None:
     ]
 
 
+def test_layers_know_only_their_own_parts() -> None:
+    """Each layer picks from the kinds of bricks in it, not from those of the whole model."""
+    build = show(table([*tower(3), (CATALOGUE.part_row("3001"), 4, 0, 3, 0, 1)]))
+    parts = build[BUILD_KEY]["parts"]
+    assert len(parts.objects) == 2
+    assert [len(own.objects) for own in parts.children] == [1, 2, 1]
+    assert sorted(mesh["legorize_mesh"] for mesh, _, _ in instances()) == ["3001 high"] + 3 * ["3005 high"]
+
+
 def test_summary_is_right() -> None:
     """The figures of the panel: bricks, kinds, the size in studs and layers, the mass."""
     four = CATALOGUE.part_row("3001")
@@ -241,39 +250,6 @@ def test_moved_point_is_a_moved_brick() -> None:
     points = point_objects(build)[1].data
     points.vertices[0].co.x += 2 * STUD + 0.01
     assert read_bricks(build).corner.tolist() == [[0, 0, 0], [2, 0, 3]]
-
-
-@pytest.mark.parametrize("top", [1, 2, 4, 9])
-def test_upper_layers_are_hidden(top: int) -> None:
-    """Just the layers below the top one are shown, by the eye and in renders; the bricks stay."""
-    bricks = table(tower(4))
-    build = show(bricks)
-    show_layers(bpy.context.scene, build, top)
-    hidden = [index >= top for index in range(4)]
-    assert [layer.hide_render for layer in layers_of(build)] == hidden
-    entry = bpy.context.view_layer.layer_collection.children[build.name]
-    assert [child.hide_viewport for child in entry.children] == hidden
-    assert [points.visible_get() for points in point_objects(build)] == [not hide for hide in hidden]
-    assert_same(read_bricks(build), bricks)
-    assert len(read_bricks(build, shown_only=True)) == min(top, 4)
-    show_layers(bpy.context.scene, build, 4)
-    assert not any(layer.hide_render for layer in layers_of(build))
-
-
-@pytest.mark.parametrize("direction", [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)])
-def test_cut_hides_what_lies_beyond(direction: tuple[int, int, int]) -> None:
-    """A cut hides the share of the bricks that it says, on its side, and none or all at the ends."""
-    bricks = table([(ONE, x, y, 0, 0, 4) for x in range(10) for y in range(10)])
-    build = show(bricks)
-    for share, kept in [(0.0, 100), (0.3, 70), (1.0, 0)]:
-        cut_away(build, direction, share)
-        along = [matrix[:3, 3] @ direction for _, _, matrix in instances()]
-        assert len(along) == kept
-        everything = np.array([matrix @ direction[:2] for matrix in (bricks.corner[:, :2] + 0.5) * STUD])
-        np.testing.assert_allclose(np.sort(along), np.sort(everything)[:kept], atol=1e-3)
-    assert_same(read_bricks(build), bricks)
-    cut_away(build, (0, 0, 0), 0.5)
-    assert len(instances()) == 100
 
 
 def test_detail_changes_the_meshes_only() -> None:
