@@ -6,18 +6,24 @@
 ``colours``             dominant colours of the textures -> brick colours that can be bought
                         (``texels``, ``colour_difference``)
 ``grid``                where the cells of 8 x 8 x 9.6 mm lie, and the height of the first layer
-``slicing``             heights of the slices; planes x triangles -> segments
+``slicing``             heights of the slices (``marking``); planes x triangles -> segments
 ``trajectories``        segments -> closed, oriented, nested loops with a colour on every edge
                         (``linking``, ``loops``, ``nesting``, ``simplify``)
-``unit_bricks``         loops on the grid -> which cells are bricks, in which colour
-                        (``coverage``, ``pass_through``; ``rays``, ``samples``; ``thin_features``,
+``unit_bricks``         loops on the grid -> which cells are bricks or plates, in which colour
+                        (``levels``, ``coverage``, ``pass_through``; ``rays``, ``samples``; ``thin_features``,
                         ``bridges``; ``exposure``, ``skins``, ``cell_colours``, ``eight_neighbours``)
-``hollowing``           which cells must be built, may be built, or stay empty
+``detail``              where plates stay and where three of them are a brick again
+``overhangs``           horizontal faces between trajectories: offset bricks, kinds of overhang
+                        (``offset_bricks``)
+``hollowing``           which cells must be built, may be built, or stay empty (``regions``, ``ceilings``)
+``reinforcement``       plates under roofs of one layer
+``joints``              where bricks become plates, or change colour, so that parts can hold (``colour_joints``)
 ``layout``              which bricks cover the cells
 ``connection``          what holds to what
 ``ldraw``               bricks <-> LDraw text
 ``shopping``            parts lists and the shops' files
 ``report``              what was built, in numbers
+``size``                the scale, and what is too large or too small
 ``pipeline``            the stages in order: :func:`legorize_addon.core.pipeline.legorize`
 ======================  ====================================================================
 

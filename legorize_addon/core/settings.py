@@ -116,6 +116,12 @@ class Settings:
         """Refuse values of a wrong type or out of range."""
         for entry in fields(self):
             _check(entry, getattr(self, entry.name))
+        if self.open_bottom and not self.hollow:
+            raise SettingsError(
+                "open_bottom is on but hollow is off: a solid model has no open side; turn one of them."
+            )
+        if self.hollow_rule == "upper" and not self.hollow:
+            raise SettingsError("hollow_rule is 'upper' but hollow is off: turn hollow on, or set the rule to 'both'.")
 
 
 def setting_type(entry: Field[Any]) -> Any:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy import ndimage
 
 from legorize_addon.core.catalogue import footprint, load_catalogue
 from legorize_addon.core.errors import Cancelled, LegorizeError, MeshError, SettingsError
@@ -14,7 +15,8 @@ from legorize_addon.core.model import COLOUR_ANY, Cover
 from legorize_addon.core.pipeline import Build, legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.size import MOST_CELLS, check_size, model_scale
-from tests.core.solids import box, joined, mesh_of, moebius, reversed_mesh, sheet, sphere, without
+from tests.core.light import holes
+from tests.core.solids import box, joined, mesh_of, moebius, reversed_mesh, sheet, sphere, tube, without
 from tests.core.textured import blob, cylinder, hollow_box, painted, rgb_of, split_at_x, table, torus
 
 STAGES = ["mesh", "colours", "slicing", "trajectories", "unit bricks", "overhangs", "hollowing", "layout"]
@@ -335,6 +337,42 @@ def test_floating_part_is_told():
     build = legorize(KINDS["apart"], Settings(width=15))
     assert any("hang in the air" in note for note in build.notes)
     assert legorize(box(), SMALL).notes == ()
+
+
+def lattice(cells) -> np.ndarray:
+    """Put the plates of a grid one above the other."""
+    return cells.reshape(-1, *cells.shape[2:])
+
+
+@pytest.mark.parametrize("plates", ["none", "pays", "all"])
+@pytest.mark.parametrize("kind", ["ball", "torus", "table", "blob", "open cup", "box with a cavity"])
+def test_no_hole_shows_the_inside(kind, plates):
+    """From 26 directions no light meets a hollowed-out cell before a brick, and all that must stay is joined."""
+    build = legorize(KINDS[kind], Settings(width=20, plates=plates))
+    solid, must, built = (
+        lattice(cells) for cells in (build.grid.solid, build.hollow.cover == Cover.MUST, build.hollow.solid)
+    )
+    assert holes(solid, must) == 0
+    # every cell that must be built reaches the ground through cells that must or may be
+    label, _ = ndimage.label(built)
+    whole, _ = ndimage.label(solid | built)
+    lowest = np.unique(label[0][label[0] > 0])
+    grounded = np.isin(label, lowest)
+    reachable = np.isin(whole, np.unique(whole[0][whole[0] > 0]))
+    assert (grounded | ~must | ~reachable).all()
+
+
+def test_cavities_and_tunnels_stay():
+    """The tunnel of a tube and the cavity of a box are nowhere filled."""
+    cavity = legorize(KINDS["box with a cavity"], Settings(width=24))
+    middle = cavity.grid.solid.shape
+    inner = lattice(cavity.hollow.solid)[middle[0] * 3 // 2 - 6 : middle[0] * 3 // 2 + 6]
+    centre = inner[:, middle[2] // 2 - 3 : middle[2] // 2 + 3, middle[3] // 2 - 3 : middle[3] // 2 + 3]
+    assert not centre.any()
+    pipe = legorize(tube(80.0, 56.0, 96.0), Settings(width=20))
+    y, x = (np.arange(n) - (n - 1) / 2 for n in pipe.grid.solid.shape[2:])
+    tunnel = np.hypot(y[:, None], x) * 8 < 52.0
+    assert not lattice(pipe.hollow.solid)[:, tunnel].any()
 
 
 def test_hollow_leaves_the_inside_empty():

@@ -90,3 +90,11 @@ def test_what_is_not_a_word_has_no_choices():
     """Only settings of listed words have choices."""
     assert WORDS
     assert all(not choices(entry) for name, entry in ENTRIES.items() if name not in WORDS)
+
+
+@pytest.mark.parametrize(("first", "second"), [("open_bottom", True), ("hollow_rule", "upper")])
+def test_settings_that_contradict_each_other_are_refused(first, second):
+    """What shapes a hollow model is refused for a solid one, in one sentence that names both settings."""
+    with pytest.raises(SettingsError, match=rf"^{first} .* hollow is off.*\.$"):
+        Settings(hollow=False, **{first: second})
+    assert getattr(Settings(**{first: second}), first) == second
