@@ -13,6 +13,8 @@ becomes a mosaic of the upper surface.
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,7 +23,7 @@ from .model import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Cover, Ints, Mask, Role,
 from .unit_bricks import outer_air, visible
 from .units import PLATES_PER_BRICK
 
-_MARGIN = 1
+_MARGIN: Final = 1
 """Free cells around the model along x and y."""
 
 
@@ -42,7 +44,8 @@ def with_backing(grid: UnitGrid, facing: Facing, *, depth: int) -> UnitGrid:
     -------
     UnitGrid
         Larger towards the back by what has no room. The backing must be built,
-        in any colour, and so must what it hides.
+        in any colour, and so must brick columns
+        that it hides.
     """
     solid = grid.solid.reshape(-1, *grid.solid.shape[2:])
     if not solid.any() or depth == 0:
@@ -105,8 +108,9 @@ def _painted(grid: UnitGrid, behind: Mask) -> UnitGrid:
     """Return the grid with the backing, and no colours where it hides them."""
     plates = (-1, *grid.solid.shape[2:])
     solid = (grid.solid | behind).reshape(plates)
-    hidden = (solid & ~visible(solid, outer_air(solid))).reshape(behind.shape)
-    free = behind | hidden
+    seen = visible(solid, outer_air(solid)).reshape(behind.shape)
+    # a column that is a brick stays one: all three plates are free or none is
+    free = behind | (grid.solid & ~seen.any(axis=1, keepdims=True))
     cover: NDArray[np.uint8] = np.where(behind, np.uint8(Cover.MUST), grid.cover)
     colour: NDArray[np.int16] = np.where(free, np.int16(COLOUR_ANY), grid.colour)
     role: NDArray[np.uint8] = np.where(free, np.uint8(Role.INSIDE), grid.role)

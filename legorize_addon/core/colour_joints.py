@@ -20,13 +20,16 @@ _ROUNDS: Final = 16
 """Most rounds: in each every loose part is joined to one that it touches."""
 
 
-def with_colour_joints(grid: UnitGrid) -> UnitGrid:
+def with_colour_joints(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     """Join loose parts to what they touch, by a plate in the colour of the other side.
 
     Parameters
     ----------
     grid : UnitGrid
         The hollowed model, jointed as far as colours allow.
+    plates : bool
+        Whether brick columns may be laid in plates for it; else whole columns
+        change their colour.
 
     Returns
     -------
@@ -41,12 +44,17 @@ def with_colour_joints(grid: UnitGrid) -> UnitGrid:
     price = _visible_faces(touching, colour)
     joined = False
     for _ in range(_ROUNDS):
-        changed, other = _joints(touching, colour, whole, price)
+        changed, other = _joints(touching, colour, whole, price, plates=plates)
         if len(changed) == 0:
             break
         joined = True
-        colour[changed] = colour[other]
-        whole &= ~np.isin(touching.column, touching.column[np.concatenate([changed, other])])
+        if plates:
+            colour[changed] = colour[other]
+            whole &= ~np.isin(touching.column, touching.column[np.concatenate([changed, other])])
+        else:
+            taken = np.arange(len(colour))
+            taken[touching.column[changed]] = other
+            colour = colour[taken[touching.column]]
     if not joined:
         return grid
     codes, role = grid.colour.copy(), grid.role.copy()
@@ -55,7 +63,9 @@ def with_colour_joints(grid: UnitGrid) -> UnitGrid:
     return replace(grid, colour=codes, role=role)
 
 
-def _joints(touching: Touching, colour: NDArray[np.int16], whole: Mask, price: Ints) -> tuple[Ints, Ints]:
+def _joints(
+    touching: Touching, colour: NDArray[np.int16], whole: Mask, price: Ints, *, plates: bool
+) -> tuple[Ints, Ints]:
     """Return, for each loose part that touches another one, the cell to change and the cell whose colour it takes."""
     part, loose = parts_of(touching, colour, whole)
     pairs = touching.sideways
@@ -64,8 +74,9 @@ def _joints(touching: Touching, colour: NDArray[np.int16], whole: Mask, price: I
     pairs = np.concatenate([pairs, pairs[::-1]], axis=1)
     # a cell that changes must stay on something of its own: a whole column stays on its other plates
     stacked = np.zeros(len(colour), dtype=bool)
-    stacked[touching.upright.ravel()] = True
-    pairs = pairs[:, stacked[pairs[0]]]
+    upright = touching.upright if plates else touching.column[touching.upright]
+    stacked[upright[:, upright[0] != upright[1]].ravel()] = True
+    pairs = pairs[:, stacked[pairs[0] if plates else touching.column[pairs[0]]]]
     parts = part[pairs]
     offers = np.concatenate([np.vstack([each, pairs])[:, loose[each]] for each in parts], axis=1)
     order = np.lexsort((offers[1], price[offers[1]], offers[0]))

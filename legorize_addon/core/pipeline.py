@@ -157,7 +157,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
             literal=settings.cell_colour == "longest",
         )
     with stage("hollowing"):
-        shell = with_colour_joints(with_joints(reinforced(_hollowed(grid, settings))))
+        shell = _jointed(_hollowed(grid, settings), settings)
     with stage("layout"):
         bricks = lay(shell, catalogue, rng=rng, filler=_filler(palette, catalogue), progress=progress)
         connection = connect(bricks, catalogue)
@@ -262,13 +262,21 @@ def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail
 
 def _hollowed(grid: UnitGrid, settings: Settings) -> UnitGrid:
     """Return what must and what may be built."""
+    # behind a picture, the first row or layer of its backing has to stay
+    shell = settings.shell + bool(settings.backing)
     return hollow(
         grid,
-        shell=settings.shell if settings.hollow else None,
+        shell=shell if settings.hollow else None,
         rule=settings.hollow_rule,
         ceilings=settings.ceilings,
         open_bottom=settings.open_bottom,
     )
+
+
+def _jointed(shell: UnitGrid, settings: Settings) -> UnitGrid:
+    """Return the shell with what it takes to hold together."""
+    plates = _in_plates(settings)
+    return with_colour_joints(with_joints(reinforced(shell, plates=plates)), plates=plates)
 
 
 def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:

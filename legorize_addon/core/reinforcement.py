@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from scipy import ndimage
 
-from .joints import brick_columns
+from .joints import brick_columns, every_plate
 from .model import COLOUR_ANY, Cover, Mask, Role, UnitGrid
 from .units import PLATES_PER_BRICK
 
@@ -24,38 +24,40 @@ _OVERLAP: Final = 2
 """Studs by which the plates under a roof reach below the bricks around."""
 
 
-def reinforced(grid: UnitGrid) -> UnitGrid:
-    """Put plates of any colour under what nothing else holds.
+def reinforced(grid: UnitGrid, *, plates: bool) -> UnitGrid:
+    """Put plates, or bricks, of any colour under what nothing else holds.
 
     Parameters
     ----------
     grid : UnitGrid
         The hollowed model.
+    plates : bool
+        Whether to use plates: of role ``PLATE``; bricks have the role ``INSIDE``.
 
     Returns
     -------
     UnitGrid
-        With more cells that must be built, of role ``PLATE``, in cells that were
-        empty.
+        With more cells that must be built, in cells that were empty.
     """
     brick, colour = brick_columns(grid)
     solid = _stacked(grid.solid)
-    plates = solid & ~np.repeat(brick, PLATES_PER_BRICK, axis=0)
+    single = solid & ~np.repeat(brick, PLATES_PER_BRICK, axis=0)
     added = np.zeros_like(solid)
-    for present, code, height in ((brick, colour, PLATES_PER_BRICK), (plates, _stacked(grid.colour), 1)):
+    for present, code, height in ((brick, colour, PLATES_PER_BRICK), (single, _stacked(grid.colour), 1)):
         below, above = _vertical(solid, height)
         under = _unheld(present, present & (below | above), code) & ~below
         # sheet k lies on level k * height
         added[_levels_below(under, height)] = True
-    added &= ~solid
-    if not added.any():
+    cells = (added & ~solid).reshape(grid.cover.shape)
+    if not plates:
+        cells = every_plate(cells.any(axis=1) & ~grid.solid.any(axis=1))
+    if not cells.any():
         return grid
-    cells = added.reshape(grid.cover.shape)
     return replace(
         grid,
         colour=np.where(cells, np.int16(COLOUR_ANY), grid.colour),
         cover=np.where(cells, np.uint8(Cover.MUST), grid.cover),
-        role=np.where(cells, np.uint8(Role.PLATE), grid.role),
+        role=np.where(cells, np.uint8(Role.PLATE if plates else Role.INSIDE), grid.role),
     )
 
 

@@ -9,8 +9,8 @@ from typing import Any, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .catalogue import Catalogue, footprint
-from .connection import Connection
+from .catalogue import Catalogue
+from .connection import NOBODY, Connection
 from .joints import brick_columns
 from .ldraw import ldraw_matrix
 from .marking import Marks
@@ -137,7 +137,7 @@ def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         "hollowing": _hollowing(build, levels),
         "counts": _counts(build, catalogue, parts),
         "mass_g": round(float(masses(parts, catalogue).sum()), 2),
-        "hollow_ratio": round(1 - _filled(build.bricks, catalogue) / int(build.grid.solid.sum()), 4),
+        "hollow_ratio": round(1 - _filled(build) / int(build.grid.solid.sum()), 4),
         "connection": _connection(build.connection),
         "unavailable_part_colours": _pairs(not_made(parts, catalogue), catalogue),
         "unknown_elements": _pairs(no_element, catalogue),
@@ -229,12 +229,15 @@ def _counts(build: Built, catalogue: Catalogue, parts: PartsList) -> dict[str, A
     }
 
 
-def _filled(bricks: Bricks, catalogue: Catalogue) -> int:
-    """Return the number of cells (stud squares, a plate high) that bricks of the model fill."""
-    # a turn moves cells but keeps their number
-    cells = np.array([len(footprint(part, 0)) * part.height for part in catalogue.parts])
-    support = np.isin(bricks.role, (Role.SUPPORT_OUTSIDE, Role.SUPPORT_INSIDE))
-    return int(cells[bricks.part[~support]].sum())
+def _filled(build: Built) -> int:
+    """Return the number of the model's cells that bricks fill, other than supports; some bricks fill further cells."""
+    owner, low = build.connection.owner, build.connection.low
+    support = np.isin(build.bricks.role, (Role.SUPPORT_OUTSIDE, Role.SUPPORT_INSIDE))
+    cell = np.argwhere(owner != NOBODY)
+    cell = cell[~support[owner[tuple(cell.T)]]] + low[::-1]
+    solid = build.grid.solid.reshape(-1, *build.grid.solid.shape[2:])
+    within = ((cell >= 0) & (cell < solid.shape)).all(axis=1)
+    return int(solid[tuple(cell[within].T)].sum())
 
 
 def _connection(connection: Connection) -> dict[str, int]:

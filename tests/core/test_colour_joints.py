@@ -36,7 +36,7 @@ def test_claw_is_joined_by_one_plate():
     """One cell of the two colours' contact changes its colour, and the built model is one piece."""
     grid = claw()
     assert n_parts(grid) == 2
-    found = with_colour_joints(grid)
+    found = with_colour_joints(grid, plates=True)
     changed = found.colour != grid.colour
     assert changed.sum() == 1
     assert n_parts(found) == 1
@@ -51,7 +51,7 @@ def test_hidden_cells_are_taken_first():
     wide[:, :, :, :3] = RED
     wide[2:, :, 0:3, 3:5] = BLUE
     grid = grid_of(wide)
-    found = with_colour_joints(grid)
+    found = with_colour_joints(grid, plates=True)
     [[layer, plate, y, x]] = np.argwhere(found.colour != grid.colour)
     around = np.pad(grid.colour == COLOUR_EMPTY, ((0, 0), (0, 0), (1, 1), (1, 1)), constant_values=True)
     open_sides = sum(around[layer, plate, y + 1 + dy, x + 1 + dx] for dy, dx in ((0, 1), (0, -1), (1, 0), (-1, 0)))
@@ -61,13 +61,13 @@ def test_hidden_cells_are_taken_first():
 def test_what_does_not_touch_stays_apart():
     """A claw a stud away from the block is left as it is."""
     grid = claw(gap=1)
-    assert with_colour_joints(grid) is grid
+    assert with_colour_joints(grid, plates=True) is grid
 
 
 def test_one_piece_stays_as_it_is():
     """A model that holds together is not changed."""
     grid = grid_of(np.full((2, 3, 4, 4), RED))
-    assert with_colour_joints(grid) is grid
+    assert with_colour_joints(grid, plates=True) is grid
 
 
 @settings(max_examples=30)
@@ -76,7 +76,18 @@ def test_joints_never_part_what_held(seed):
     """Occupied cells stay, colours are only copied from neighbours, and there are no more parts than before."""
     rng = np.random.default_rng(seed)
     grid = grid_of(rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, BLUE], (3, 3, 5, 6), p=[0.4, 0.05, 0.35, 0.2]))
-    found = with_colour_joints(grid)
+    found = with_colour_joints(grid, plates=True)
     np.testing.assert_array_equal(found.solid, grid.solid)
     assert np.isin(found.colour, np.unique(grid.colour)).all()
     assert n_parts(found) <= n_parts(grid)
+
+
+def test_bricks_alone_stay_bricks():
+    """Where only bricks are asked for, a whole column changes its colour, and no cell becomes a plate."""
+    grid = claw()
+    found = with_colour_joints(grid, plates=False)
+    changed = found.colour != grid.colour
+    assert changed.sum() == 3
+    assert changed.all(axis=1).sum() == 1
+    np.testing.assert_array_equal(found.role, grid.role)
+    assert n_parts(found) == 1

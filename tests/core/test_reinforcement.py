@@ -42,7 +42,7 @@ def components(grid: UnitGrid) -> int:
 def test_roof_of_one_layer_gets_a_second_one(roof_plates):
     """The roof of a shed falls apart as it is; with plates under its middle, reaching no wall, it is one piece."""
     grid = shed(roof_plates, side=24)
-    found = reinforced(grid)
+    found = reinforced(grid, plates=True)
     added = found.solid & ~grid.solid
     assert added.any()
     assert added[1, 2].sum() == added.sum()
@@ -59,18 +59,18 @@ def test_narrow_roof_is_held_by_its_walls():
     colour[1] = RED
     colour[0, :, :, [0, -1]] = RED
     for grid in (grid_of(colour), grid_of(np.full((2, 3, 9, 9), RED)), grid_of(np.full((1, 3, 9, 9), RED))):
-        assert reinforced(grid) is grid
+        assert reinforced(grid, plates=True) is grid
 
 
 def test_patch_of_another_colour_is_held_from_below():
     """A blue patch in a red roof near its wall cannot be held by red bricks: plates go under it and its rim."""
     grid = shed(3, side=6)
     grid.colour[2, :, 2:4, 2:4] = BLUE
-    added = reinforced(grid).solid & ~grid.solid
+    added = reinforced(grid, plates=True).solid & ~grid.solid
     assert added[1, 2, 2:4, 2:4].all()
     assert added[1, 2, 1:5, 1:5].all()
     plain = shed(3, side=6)
-    assert not (reinforced(plain).solid & ~plain.solid).any()
+    assert not (reinforced(plain, plates=True).solid & ~plain.solid).any()
 
 
 @settings(max_examples=30)
@@ -79,10 +79,21 @@ def test_only_empty_cells_below_the_model_are_filled(seed):
     """What was there stays as it is; every added plate lies right below a cell of the model."""
     rng = np.random.default_rng(seed)
     grid = grid_of(rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, BLUE], (3, 3, 6, 7), p=[0.5, 0.1, 0.3, 0.1]))
-    found = reinforced(grid)
+    found = reinforced(grid, plates=True)
     np.testing.assert_array_equal(found.colour[grid.solid], grid.colour[grid.solid])
     np.testing.assert_array_equal(found.role[grid.solid], grid.role[grid.solid])
     added = (found.solid & ~grid.solid).reshape(9, 6, 7)
     above = np.roll(grid.solid.reshape(9, 6, 7), -1, axis=0)
     above[-1] = False
     assert not (added & ~above).any()
+
+
+def test_bricks_alone_get_bricks():
+    """Where only bricks are asked for, the second layer is one of bricks."""
+    grid = shed(3, side=24)
+    found = reinforced(grid, plates=False)
+    added = found.solid & ~grid.solid
+    assert added.any()
+    assert (added.all(axis=1) == added.any(axis=1)).all()
+    assert (found.role[added] == Role.INSIDE).all()
+    assert components(found) == 1
