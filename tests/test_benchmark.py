@@ -14,19 +14,23 @@ trimesh = pytest.importorskip("trimesh", reason="benchmarks need the dependency 
 pytest.importorskip("shapely", reason="benchmarks need the dependency group checks")
 Image = pytest.importorskip("PIL.Image", reason="benchmarks need pillow")
 
-from legorize_addon.core.errors import BuildError, MeshError  # noqa: E402 - after the packages that may be missing
+from legorize_addon.core.catalogue import load_catalogue  # noqa: E402 - after the packages that may be missing
+from legorize_addon.core.errors import BuildError, MeshError  # noqa: E402
+from legorize_addon.core.model import Cover, UnitGrid  # noqa: E402
+from legorize_addon.core.pipeline import legorize  # noqa: E402
 from legorize_addon.core.settings import Settings  # noqa: E402
 from legorize_addon.core.slicing import slice_mesh  # noqa: E402
 from legorize_addon.core.trajectories import link_loops  # noqa: E402
 from scripts import benchmark  # noqa: E402
-from scripts.benchmarks import clock, judge, meshes, slicing  # noqa: E402
+from scripts.benchmarks import clock, hollowing, judge, meshes, slicing, surface  # noqa: E402
 from scripts.benchmarks.tables import Table  # noqa: E402
 
 RED, BLUE = (180, 0, 0), (30, 90, 168)
 JUDGED = {
-    "parts": 1, "collision_cells": 0, "unread_parts": 0, "mirrored": False, "surface_to_brick_mean": 0.3,
-    "surface_lost_share": 0.0, "volume_ratio": 1.0, "colour_error_mean": 8.0, "colour_error_floor": 7.0,
-    "colour_wrong_share": 0.0, "components": 1, "floating_bricks": 0,
+    "parts": 1, "collision_cells": 0, "unread_parts": 0, "mirrored": False,
+    "surface_to_brick_mean": 0.3, "surface_to_brick_p95": 0.5, "surface_lost_share": 0.0, "volume_ratio": 1.0,
+    "colour_error_mean": 8.0, "colour_error_floor": 7.0, "colour_wrong_share": 0.0,
+    "components": 1, "floating_bricks": 0,
 }  # fmt: skip
 
 
@@ -190,6 +194,107 @@ def test_judge_command_keeps_what_it_knows_of_the_peer(box: Path, tmp_path: Path
     assert (tmp_path / "out" / "peer" / "box-8.ldr").read_text() == "x"
     [ratios] = tables["judge_ratios"]
     assert (ratios["sound_met"], ratios["colour_met"], ratios["volume_met"]) == (True, False, True)
+
+
+def test_points_on_outer_faces() -> None:
+    """A plate has nine points on each level face and three on each upright one; faces of a sealed hollow have none."""
+    points, cell = surface.outer_faces(np.ones((1, 1, 1), dtype=bool))
+    assert (cell == 0).all()
+    level = points[np.isin(points[:, 2], (0, 1))]
+    assert len(level) == 18
+    np.testing.assert_allclose(np.unique(level[:, :2].round(9)), np.array([1, 3, 5]) / 6)
+    upright = points[points[:, 2] == 0.5]
+    assert len(upright) == 12
+    assert (np.isin(upright[:, :2], (0, 1)).sum(axis=1) == 1).all()
+    hollow = np.ones((3, 3, 3), dtype=bool)
+    hollow[1, 1, 1] = False
+    assert len(surface.outer_faces(hollow)[0]) == 2 * 9 * 9 + 4 * 9 * 3
+
+
+def test_hidden_surface_is_not_measured(tmp_path: Path) -> None:
+    """Of a box within a box only the outer one counts, and bricks that fill it are near everywhere."""
+    scene = trimesh.Scene([trimesh.creation.box([side, side, side]) for side in (0.96, 0.48)])
+    (tmp_path / "boxes.glb").write_bytes(scene.export(file_type="glb"))
+    build = legorize(meshes.read_mesh(tmp_path / "boxes.glb"), Settings(width=12))
+    seen = surface.seen_surface(build, 20_000)
+    middle = build.mesh.vertices.mean(axis=0)
+    # inside lies a quarter as much
+    assert len(seen.points) == pytest.approx(20_000 / 1.25, rel=1e-3)
+    # 12 studs are 10 bricks high
+    np.testing.assert_allclose(np.abs(seen.points - middle).max(axis=1), 48)
+    like = surface.likeness(seen, build, load_catalogue())
+    assert like.p95 <= np.hypot(1 / 6, 0.2)
+    assert like.lost == 0
+
+
+def test_detail_command(box: Path, tmp_path: Path) -> None:
+    """Of a box as high as ten plates, bricks miss the top by a plate and plates miss nothing."""
+    tables = run(tmp_path, "detail", box, "--widths", 16)
+    none, pays, every = tables["detail"]
+    assert [row["allowed"] for row in (none, pays, every)] == ["none", "pays", "all"]
+    # between the points of the faces lies a third of a stud, or a plate
+    between = round(np.hypot(1 / 6, 0.2), 3)
+    assert none["surface_p95"] >= 0.4 > between >= pays["surface_p95"] == every["surface_p95"]
+    assert none["surface_lost"] == every["floating"] == none["plates"] == 0 < every["plates"]
+    assert every["components"] == 1
+    [gains, mean] = tables["detail_gains"]
+    assert gains["all_mean"] == mean["all_mean"] == pytest.approx(1 - every["surface_mean"] / none["surface_mean"])
+    assert gains["kept_share"] == gains["plates_share"] == 1
+    assert (gains["distance_met"], gains["colour_met"], gains["pays_met"]) == (True, True, None)
+    assert (mean["distance_met"], mean["pays_met"]) == (True, False)
+
+
+def test_detail_asks_the_judge(box: Path, tmp_path: Path) -> None:
+    """Each way is judged from a file of its own; a judge who sees no difference sees no gain."""
+    judging = f"import sys, pathlib\npathlib.Path(sys.argv[5]).write_text({json.dumps(JUDGED)!r})\n"
+    (tmp_path / "judge.py").write_text(judging)
+    tables = run(tmp_path, "detail", box, "--widths", 8, "--judge", tmp_path)
+    assert len({path.read_text() for path in (tmp_path / "out" / "detail").glob("box-8-*.ldr")}) > 1
+    assert [row["surface_p95"] for row in tables["detail"]] == [0.5, 0.5, 0.5]
+    gains, mean = tables["detail_gains"]
+    assert (gains["all_mean"], gains["kept_share"], gains["distance_met"]) == (0, None, True)
+    assert (mean["distance_met"], mean["colour_met"], mean["pays_met"]) == (False, False, None)
+
+
+def red_cube(side: int) -> UnitGrid:
+    """Return a solid cube of unit bricks."""
+    cells = np.ones((side, 3, side, side), dtype=bool)
+    return UnitGrid(
+        colour=np.where(cells, 4, 0).astype(np.int16),
+        cover=np.where(cells, Cover.MUST, Cover.EMPTY).astype(np.uint8),
+        role=np.zeros(cells.shape, dtype=np.uint8),
+        origin=np.zeros(3),
+    )
+
+
+def test_fixed_shell_is_two_cells() -> None:
+    """All but the inner five cubed of nine cubed must be built, and nothing else may."""
+    shell = hollowing.fixed_shell(red_cube(9))
+    assert (shell.cover == Cover.MUST).sum() == 3 * (9**3 - 5**3)
+    assert (shell.cover != Cover.MAY).all()
+
+
+def test_holes_and_loose_cells_are_found() -> None:
+    """A missing cell of the shell lets the air in; what is left above an empty layer has lost the ground."""
+    cube = red_cube(5)
+    assert hollowing.soundness(cube, cube) == {"behind_holes": 0, "cut_off": 0, "sound_met": True}
+    torn = red_cube(5)
+    torn.cover[2, 1, 0, 2] = Cover.EMPTY
+    assert hollowing.soundness(cube, torn) == {"behind_holes": 1, "cut_off": 0, "sound_met": False}
+    torn.cover[2] = Cover.EMPTY
+    assert hollowing.soundness(cube, torn) == {"behind_holes": 75, "cut_off": 150, "sound_met": False}
+
+
+def test_hollowing_command(tmp_path: Path) -> None:
+    """The walls of a cube stay, one cell thick, and no more than what carries its ceiling beside them."""
+    trimesh.creation.box([0.96, 0.96, 0.96]).export(tmp_path / "cube.glb")
+    row, mean = run(tmp_path, "hollowing", tmp_path / "cube.glb", "--width", 24)["hollowing"]
+    assert row["solid"] == 24 * 24 * 60
+    wall, twice = (1 - (24 - 2 * cells) ** 2 * (20 - 2 * cells) / (24 * 24 * 20) for cells in (1, 2))
+    assert wall <= row["must_share"] == mean["must_share"] < twice
+    assert row["bricks"] < row["fixed_bricks"]
+    assert row["mass_saved"] == pytest.approx(1 - row["mass_g"] / row["fixed_mass_g"])
+    assert (row["added_share"], row["sound_met"]) == (0, True)
 
 
 def test_judge_wants_the_bricks(tmp_path: Path) -> None:

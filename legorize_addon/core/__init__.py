@@ -16,8 +16,9 @@
 ``overhangs``           horizontal faces between trajectories: offset bricks, kinds of overhang
                         (``offset_bricks``)
 ``hollowing``           which cells must be built, may be built, or stay empty (``regions``, ``ceilings``)
-``reinforcement``       plates under roofs of one layer
-``joints``              where bricks become plates, or change colour, so that parts can hold (``colour_joints``)
+``holding``             what the shell needs to hold together: plates under roofs of one layer, plates in
+                        walls, single plates in the neighbour's colour (``reinforcement``, ``joints``,
+                        ``colour_joints``)
 ``layout``              which bricks cover the cells
 ``connection``          what holds to what
 ``ldraw``               bricks <-> LDraw text

@@ -44,8 +44,8 @@ def with_backing(grid: UnitGrid, facing: Facing, *, depth: int) -> UnitGrid:
     -------
     UnitGrid
         Larger towards the back by what has no room. The backing must be built,
-        in any colour, and so must brick columns
-        that it hides.
+        in any colour, and so must bricks and
+        plates that it hides.
     """
     solid = grid.solid.reshape(-1, *grid.solid.shape[2:])
     if not solid.any() or depth == 0:
@@ -109,8 +109,9 @@ def _painted(grid: UnitGrid, behind: Mask) -> UnitGrid:
     plates = (-1, *grid.solid.shape[2:])
     solid = (grid.solid | behind).reshape(plates)
     seen = visible(solid, outer_air(solid)).reshape(behind.shape)
-    # a column that is a brick stays one: all three plates are free or none is
-    free = behind | (grid.solid & ~seen.any(axis=1, keepdims=True))
+    # what is a brick stays one: all three plates are free or none is
+    brick = grid.solid.all(axis=1, keepdims=True)
+    free = behind | (grid.solid & ~np.where(brick, seen.any(axis=1, keepdims=True), seen))
     cover: NDArray[np.uint8] = np.where(behind, np.uint8(Cover.MUST), grid.cover)
     colour: NDArray[np.int16] = np.where(free, np.int16(COLOUR_ANY), grid.colour)
     role: NDArray[np.uint8] = np.where(free, np.uint8(Role.INSIDE), grid.role)

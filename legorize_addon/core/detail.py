@@ -25,8 +25,8 @@ from .cell_colours import Ballot, Codes
 from .model import COLOUR_ANY, COLOUR_EMPTY, Floats, Mask
 from .units import PLATES_PER_BRICK
 
-_CLEAR: Final = 40.0
-"""CIEDE2000 between colours that nobody takes for each other, such as red and blue."""
+_CLEAR: Final = 30.0
+"""CIEDE2000 between colours that nobody takes for each other, such as blue and green."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +40,7 @@ class Detail:
     least_gain : float
         Error that plates must save: in volume as a share of a brick, in colour
         as the share of its faces times the difference as a share of that between
-        red and blue. 0 keeps all plates that differ from a brick.
+        blue and green. 0 keeps all plates that differ from a brick.
     """
 
     marked: Mask

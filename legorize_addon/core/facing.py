@@ -17,7 +17,7 @@ from .mesh import TriangleMesh
 from .model import Floats, Mask
 from .rays import vertical_hits
 from .samples import SurfaceSamples
-from .units import STUD
+from .units import BRICK, STUD
 
 _FLAT: Final = 0.25
 """Greatest thickness of a flat model, as a share of its next larger side."""
@@ -29,7 +29,7 @@ _FORWARD: Final = 0.1
 """Cosine to the front from which on surface counts as part of the picture."""
 
 _EDGE: Final = 1e-6
-"""Weight of the picture's edges, which decide only where nothing of the front is on a brick."""
+"""Weight of what looks aside, which decides only where nothing of the front is on a brick."""
 
 _UP: Final = 2
 
@@ -52,6 +52,9 @@ class Facing:
     def weighed(self, samples: SurfaceSamples) -> SurfaceSamples:
         """Return the samples with what looks forward before all else, and without what looks backward.
 
+        What looks aside counts only behind the foremost brick: the edges of a
+        picture do not frame it, but a relief has walls.
+
         Parameters
         ----------
         samples : SurfaceSamples
@@ -60,10 +63,12 @@ class Facing:
         -------
         SurfaceSamples
         """
-        normal = samples.normal * samples.sides
+        along = _UP - self.axis
+        normal, height = samples.normal * samples.sides, self.sign * samples.place[:, along] * samples.sides[along]
         length = np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)
-        forward = self.sign * normal[:, _UP - self.axis] / length
-        kept = forward > -_FORWARD
+        forward = self.sign * normal[:, along] / length
+        behind = height < height.max(initial=-np.inf) - BRICK / STUD
+        kept = (forward > _FORWARD) | (behind & (forward > -_FORWARD))
         area = np.where(forward > _FORWARD, 1.0, _EDGE) * samples.area
         return replace(samples, area=area).at(kept)
 

@@ -13,14 +13,13 @@ from numpy.typing import NDArray
 
 from .backing import with_backing
 from .catalogue import Catalogue, load_catalogue
-from .colour_joints import with_colour_joints
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .connection import Connection, connect
 from .detail import Detail
 from .facing import facing_of
 from .grid import Grid, fit_grid
+from .holding import held_together
 from .hollowing import hollow
-from .joints import with_joints
 from .layout import FILLER, lay
 from .levels import levels_of
 from .marking import Marks, differing_layers
@@ -29,7 +28,6 @@ from .model import Bricks, Mask, UnitGrid
 from .offset_bricks import with_offset_bricks
 from .overhangs import Offsets
 from .progress import Progress, silent
-from .reinforcement import reinforced
 from .settings import Settings
 from .size import check_any, check_size, model_scale
 from .slicing import Slices, adaptive_heights, slice_mesh
@@ -157,7 +155,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
             literal=settings.cell_colour == "longest",
         )
     with stage("hollowing"):
-        shell = _jointed(_hollowed(grid, settings), settings)
+        shell = held_together(_hollowed(grid, settings), plates=_in_plates(settings))
     with stage("layout"):
         bricks = lay(shell, catalogue, rng=rng, filler=_filler(palette, catalogue), progress=progress)
         connection = connect(bricks, catalogue)
@@ -271,12 +269,6 @@ def _hollowed(grid: UnitGrid, settings: Settings) -> UnitGrid:
         ceilings=settings.ceilings,
         open_bottom=settings.open_bottom,
     )
-
-
-def _jointed(shell: UnitGrid, settings: Settings) -> UnitGrid:
-    """Return the shell with what it takes to hold together."""
-    plates = _in_plates(settings)
-    return with_colour_joints(with_joints(reinforced(shell, plates=plates)), plates=plates)
 
 
 def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:

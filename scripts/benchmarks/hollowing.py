@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from legorize_addon.core.catalogue import Catalogue, load_catalogue
+from legorize_addon.core.holding import held_together
 from legorize_addon.core.hollowing import hollow
-from legorize_addon.core.joints import with_joints
 from legorize_addon.core.layout import FILLER, lay
 from legorize_addon.core.model import COLOUR_EMPTY, Bricks, Cover, UnitGrid
 from legorize_addon.core.pipeline import Build, legorize
@@ -55,7 +55,8 @@ def measure(paths: Sequence[Path], *, width: int) -> list[Table]:
         print(f"{path.stem}, {width} studs", file=sys.stderr, flush=True)
         build = legorize(read_mesh(path), Settings(width=width))
         fixed = lay(fixed_shell(build.grid), catalogue, rng=np.random.default_rng(build.settings.seed), filler=FILLER)
-        rows.append({"model": path.stem} | _cells(build) | _saved(build, fixed, catalogue) | _soundness(build))
+        facts = _cells(build) | _saved(build, fixed, catalogue) | soundness(build.grid, build.hollow)
+        rows.append({"model": path.stem, **facts, "hollowing_s": build.timings["hollowing"]})
     title = (
         f"Hollowing at {width} studs, against a shell of {SHELL} cells: at least {SAVED:.0%} fewer bricks and less "
         "mass, no hole in what must be built, and no cell cut off from the ground"
@@ -78,21 +79,24 @@ def fixed_shell(grid: UnitGrid) -> UnitGrid:
     """
     shell = hollow(grid, shell=SHELL)
     left_out = shell.cover == Cover.MAY
-    return with_joints(
-        replace(
-            shell,
-            cover=np.where(left_out, np.uint8(Cover.EMPTY), shell.cover),
-            colour=np.where(left_out, np.int16(COLOUR_EMPTY), shell.colour),
-        )
+    shell = replace(
+        shell,
+        cover=np.where(left_out, np.uint8(Cover.EMPTY), shell.cover),
+        colour=np.where(left_out, np.int16(COLOUR_EMPTY), shell.colour),
     )
+    # as the pipeline prepares what hollowing leaves, plates and all
+    return held_together(shell, plates=True)
 
 
 def _cells(build: Build) -> Row:
-    solid = int(build.grid.solid.sum())
+    """Return the model's cells, which shares of them must and may be built, and how many more there must be."""
+    solid, cover = build.grid.solid, build.hollow.cover
+    within = cover[solid]
     return {
-        "solid": solid,
-        "must_share": int((build.hollow.cover == Cover.MUST).sum()) / solid,
-        "may_share": int((build.hollow.cover == Cover.MAY).sum()) / solid,
+        "solid": len(within),
+        "must_share": float((within == Cover.MUST).mean()),
+        "may_share": float((within == Cover.MAY).mean()),
+        "added_share": int((cover[~solid] == Cover.MUST).sum()) / len(within),
     }
 
 
@@ -113,18 +117,28 @@ def _saved(build: Build, fixed: Bricks, catalogue: Catalogue) -> Row:
     }
 
 
-def _soundness(build: Build) -> Row:
-    """Count cells behind a hole, and cells that stand on the ground only in the solid model."""
-    solid, left = _levels(build.grid.solid), _levels(build.hollow.solid)
-    must = _levels(build.hollow.cover == Cover.MUST)
+def soundness(grid: UnitGrid, left: UnitGrid) -> Row:
+    """Look for holes, and for cells that only the solid model joins to the ground.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        The solid model.
+    left : UnitGrid
+        What hollowing leaves of it.
+
+    Returns
+    -------
+    dict
+        ``behind_holes``: cells of the model that the outer air reaches where
+        nothing is built that may be left out; ``cut_off``: cells that must be
+        built and are not joined, face to face, to the lowest level by what must
+        or may be, though they were in the solid model.
+    """
+    solid, must = _levels(grid.solid), _levels(left.cover == Cover.MUST)
     behind_holes = int((outer_air(must) & solid).sum())
-    cut_off = int((must & _standing(solid) & ~_standing(left)).sum())
-    return {
-        "behind_holes": behind_holes,
-        "cut_off": cut_off,
-        "sound_met": behind_holes == cut_off == 0,
-        "hollowing_s": build.timings["hollowing"],
-    }
+    cut_off = int((must & _standing(solid) & ~_standing(_levels(left.solid))).sum())
+    return {"behind_holes": behind_holes, "cut_off": cut_off, "sound_met": behind_holes == cut_off == 0}
 
 
 def _levels(cells: Mask) -> Mask:
@@ -141,6 +155,6 @@ def _standing(solid: Mask) -> Mask:
 
 def _means(rows: Sequence[Row]) -> Row:
     """Return the mean shares over the models."""
-    shares = ("must_share", "may_share", "hollow_ratio", "bricks_saved", "mass_saved")
+    shares = ("must_share", "may_share", "added_share", "hollow_ratio", "bricks_saved", "mass_saved")
     means: Row = {name: float(np.mean([row[name] for row in rows])) for name in shares}
     return dict.fromkeys(rows[0]) | {"model": "mean"} | means

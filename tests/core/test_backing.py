@@ -199,11 +199,12 @@ def test_pictures_of_whole_cells(picture, standing):
 
 
 @pytest.mark.parametrize("standing", [False, True])
-def test_back_and_edges_do_not_show_through(standing):
-    """A thin slab with a picture on the front alone becomes the picture, whatever colour its other sides have."""
+@pytest.mark.parametrize("thickness", [1.6, 4.0, 8.0, 16.0])
+def test_back_and_edges_do_not_show_through(standing, thickness):
+    """A slab with a picture on the front alone becomes the picture, whatever colour its other sides have."""
     y, x = np.mgrid[: 10 if standing else 12, :16]
     wanted = np.where(x + y > 12, 4, np.where(x > y, 14, 1))
-    build = built(slab(of_cells(wanted, standing=standing), standing=standing, back=0, thickness=4.0), 16)
+    build = built(slab(of_cells(wanted, standing=standing), standing=standing, back=0, thickness=thickness), 16)
     assert (shown(build, standing=standing) == wanted).all()
 
 

@@ -81,12 +81,13 @@ def test_not_flat():
 @pytest.mark.parametrize("sign", [-1, 1])
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_front_counts_before_the_edges(axis, sign):
-    """What looks forward keeps its area, edges are next to nothing, what looks backward is dropped."""
-    normal = np.zeros((4, 3))
-    normal[:, 2 - axis] = sign * np.array([1.0, 0.5, 0.0, -1.0])
-    normal[1:3, 1 - axis] = 1.0
-    zero = np.zeros((4, 3))
-    samples = SurfaceSamples(zero, zero, zero.astype(np.int64), normal, np.arange(1.0, 5), np.arange(4, dtype=np.int16))
+    """What looks forward keeps its area, walls are next to nothing, edges and what looks backward are dropped."""
+    normal, place = np.zeros((5, 3)), np.full((5, 3), 4.0)
+    normal[:, 2 - axis] = sign * np.array([1.0, 0.5, 0.0, 0.0, -1.0])
+    normal[1:4, 1 - axis] = 1.0
+    place[:, 2 - axis] -= sign * np.array([0.0, 2.0, 2.0, 0.5, 2.0])
+    colour = np.arange(5, dtype=np.int16)
+    samples = SurfaceSamples(place, 0 * place, place.astype(np.int64), normal, np.arange(1.0, 6), colour)
     weighed = Facing(axis, sign).weighed(samples)
     assert weighed.colour.tolist() == [0, 1, 2]
     assert weighed.area.tolist() == pytest.approx([1, 2, 3e-6])

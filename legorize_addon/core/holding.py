@@ -1,0 +1,28 @@
+"""What a shell needs beyond its own cells and colours to hold together once it is laid."""
+
+from __future__ import annotations
+
+from .colour_joints import with_colour_joints
+from .joints import with_joints
+from .model import UnitGrid
+from .reinforcement import reinforced
+
+
+def held_together(grid: UnitGrid, *, plates: bool) -> UnitGrid:
+    """Reinforce thin roofs, then open walls for what sticks out of them, then join what differs in colour.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        The hollowed model.
+    plates : bool
+        Whether plates may be used for it, or bricks alone.
+
+    Returns
+    -------
+    UnitGrid
+    """
+    grid = reinforced(grid, plates=plates)
+    if plates:
+        grid = with_joints(grid)
+    return with_colour_joints(grid, plates=plates)
