@@ -82,7 +82,9 @@ def fit_grid(mesh: TriangleMesh, *, symmetric: bool, plates: bool = False) -> Gr
     # the enlargement of a small model is less than the one free cell that every side needs
     start -= np.where(low[:2] - start < STUD, STUD, 0)
     if symmetric:
-        odd = np.round(size / STUD).astype(int) % 2
+        # what is thin has one row of cells around its middle, unless all is too small
+        fewest = 1 if size.max() >= STUD / 2 else 0
+        odd = np.maximum(np.round(size / STUD), fewest).astype(int) % 2
         cells += (cells + odd) % 2
         start = middle - cells * STUD / 2
     else:

@@ -20,7 +20,7 @@ from .mesh_repair import WELD, redundant, small_holes, useless_slivers, weld
 from .mesh_topology import Edges, areas_and_longest_sides, edges_of, n_bodies, open_rim
 from .model import Floats, Ints, Mask
 
-FEWEST_TRIANGLES: Final = 4
+FEWEST_TRIANGLES: Final = 2
 """Triangles of the simplest body, a tetrahedron."""
 
 SMALLEST: Final = 1e-6
@@ -216,7 +216,9 @@ def _referenced(mesh: TriangleMesh) -> tuple[Floats, Ints]:
     if n_faces == 0:
         raise MeshError(f"The mesh has {_number(n_vertices, 'vertex')} and no faces: choose an object with a surface.")
     if n_faces < FEWEST_TRIANGLES:
-        raise MeshError(f"The mesh has only {_number(n_faces, 'triangle')}: a body has {FEWEST_TRIANGLES} or more.")
+        raise MeshError(
+            f"The mesh has only {_number(n_faces, 'triangle')}: a picture has {FEWEST_TRIANGLES}, a body more."
+        )
     worst = int(mesh.faces.min()) if mesh.faces.min() < 0 else int(mesh.faces.max())
     if not 0 <= worst < n_vertices:
         raise MeshError(f"A face has the vertex {worst}, but there are {n_vertices}: export the mesh again.")
