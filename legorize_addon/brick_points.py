@@ -30,6 +30,10 @@ ROW: Final = "row"
 """Attribute with the row of a brick in the table it came from."""
 
 
+MARGIN: Final = "margin"
+"""Attribute with what a brick has left before it fails, where that was found out."""
+
+
 def sizes(part: Rows, turn: Rows, catalogue: Catalogue) -> NDArray[np.int32]:
     """Return the studs that turned parts cover along x and y.
 
@@ -98,7 +102,9 @@ def box_corners(bricks: Bricks, catalogue: Catalogue) -> Floats:
     return ((bricks.corner[:, None] + unit * size[:, None]) * CELL_SIZE).reshape(-1, 3)
 
 
-def points_mesh(name: str, bricks: Bricks, catalogue: Catalogue, variant: Rows, row: Rows) -> bpy.types.Mesh:
+def points_mesh(
+    name: str, bricks: Bricks, catalogue: Catalogue, variant: Rows, row: Rows, margin: Floats | None = None
+) -> bpy.types.Mesh:
     """Return a new mesh with one point a brick.
 
     Parameters
@@ -113,6 +119,8 @@ def points_mesh(name: str, bricks: Bricks, catalogue: Catalogue, variant: Rows, 
         Row of each brick's part and colour among the instanced objects.
     row : (n,) integer array
         Row of each brick in the whole model's table.
+    margin : (n,) float64 array, optional
+        What each brick has left, see :class:`~legorize_addon.core.stability.Stability`.
 
     Returns
     -------
@@ -125,6 +133,8 @@ def points_mesh(name: str, bricks: Bricks, catalogue: Catalogue, variant: Rows, 
     columns |= {VARIANT: variant, ROW: row, HEIGHT: heights(bricks, catalogue)}
     for key, values in columns.items():
         mesh.attributes.new(key, "INT", "POINT").data.foreach_set("value", values.astype(np.int32))
+    if margin is not None:
+        mesh.attributes.new(MARGIN, "FLOAT", "POINT").data.foreach_set("value", margin.astype(np.float32))
     return mesh
 
 

@@ -3,12 +3,14 @@
 The tree "Legorize Bricks" sets, on every point of a mesh, the object of a
 collection that the point's attribute ``variant`` counts to, turned by its
 attribute ``turn``. A plane hides the bricks whose middles lie beyond it and
-leaves the data as they are.
+leaves the data as they are. A switch turns to another collection, which the
+attribute ``heat`` counts in: there the same parts have other colours.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, Final
 
 import bpy
@@ -19,16 +21,20 @@ from .core.units import PLATE
 
 TREE_NAME: Final = "Legorize Bricks"
 TREE_KEY: Final = "legorize_tree"
-TREE_VERSION: Final = 2
+TREE_VERSION: Final = 3
 MATERIAL_KEY: Final = "legorize_colour"
 MODIFIER_NAME: Final = "Bricks"
 PARTS: Final = "Parts"
 SECTION: Final = "Section"
+HEAT_PARTS: Final = "Heat parts"
+HEAT_MAP: Final = "Heat map"
 
 INTERFACE: Final = (
     ("Geometry", "INPUT", "NodeSocketGeometry"),
     (PARTS, "INPUT", "NodeSocketCollection"),
     (SECTION, "INPUT", "NodeSocketObject"),
+    (HEAT_PARTS, "INPUT", "NodeSocketCollection"),
+    (HEAT_MAP, "INPUT", "NodeSocketBool"),
     ("Geometry", "OUTPUT", "NodeSocketGeometry"),
 )
 
@@ -36,7 +42,10 @@ INTERFACE: Final = (
 NODES: Final[dict[str, tuple[str, tuple[int, int], dict[str, Any], dict[str, Any]]]] = {
     "In": ("NodeGroupInput", (-600, 0), {}, {}),
     "Out": ("NodeGroupOutput", (600, 0), {}, {}),
-    "Variant": ("GeometryNodeInputNamedAttribute", (-200, -200), {"data_type": "INT"}, {"Name": "variant"}),
+    "Variant": ("GeometryNodeInputNamedAttribute", (-400, -150), {"data_type": "INT"}, {"Name": "variant"}),
+    "Heat": ("GeometryNodeInputNamedAttribute", (-400, -270), {"data_type": "INT"}, {"Name": "heat"}),
+    "Pick": ("GeometryNodeSwitch", (-200, -200), {"input_type": "INT"}, {}),
+    "Choice": ("GeometryNodeSwitch", (-400, 0), {"input_type": "COLLECTION"}, {}),
     "Turn": ("GeometryNodeInputNamedAttribute", (-400, -400), {"data_type": "INT"}, {"Name": "turn"}),
     "Angle": ("ShaderNodeMath", (-200, -400), {"operation": "MULTIPLY"}, {1: math.pi / 2}),
     "Rotation": ("FunctionNodeAxisAngleToRotation", (0, -400), {}, {"Axis": (0.0, 0.0, 1.0)}),
@@ -56,9 +65,15 @@ NODES: Final[dict[str, tuple[str, tuple[int, int], dict[str, Any], dict[str, Any
 
 LINKS: Final = (
     ("In", "Geometry", "Instances", "Points"),
-    ("In", PARTS, "Children", "Collection"),
+    ("In", HEAT_MAP, "Choice", "Switch"),
+    ("In", PARTS, "Choice", "False"),
+    ("In", HEAT_PARTS, "Choice", "True"),
+    ("Choice", "Output", "Children", "Collection"),
     ("Children", "Instances", "Instances", "Instance"),
-    ("Variant", "Attribute", "Instances", "Instance Index"),
+    ("In", HEAT_MAP, "Pick", "Switch"),
+    ("Variant", "Attribute", "Pick", "False"),
+    ("Heat", "Attribute", "Pick", "True"),
+    ("Pick", "Output", "Instances", "Instance Index"),
     ("Turn", "Attribute", "Angle", 0),
     ("Angle", "Value", "Rotation", "Angle"),
     ("Rotation", "Rotation", "Instances", "Rotation"),
@@ -112,6 +127,12 @@ def add_bricks_modifier(target: bpy.types.Object, parts: bpy.types.Collection, s
     set_input(modifier, SECTION, section)
 
 
+def bricks_modifier(target: bpy.types.Object) -> bpy.types.NodesModifier:
+    """Return the modifier that :func:`add_bricks_modifier` added, whatever it is called by now."""
+    modifiers = [modifier for modifier in target.modifiers if modifier.type == "NODES"]
+    return next(modifier for modifier in modifiers if modifier.node_group and TREE_KEY in modifier.node_group)
+
+
 def set_input(modifier: bpy.types.NodesModifier, name: str, value: Any) -> None:
     """Set an input of a Geometry-Nodes modifier by the name that its tree shows.
 
@@ -140,12 +161,31 @@ def colour_material(colour: Colour) -> bpy.types.Material:
     bpy.types.Material
         Glossy plastic; the viewport's solid mode shows the same colour.
     """
+    return plastic(f"Brick {colour.code} {colour.name}", colour.rgb, MATERIAL_KEY, colour.code)
+
+
+def plastic(name: str, rgb: Sequence[int], key: str, value: int) -> bpy.types.Material:
+    """Return the glossy material that is marked by a custom property, made at the first call in a file.
+
+    Parameters
+    ----------
+    name : str
+        Name of a new material.
+    rgb : sequence of three int
+        Colour in sRGB bytes, for the shader and for the viewport's solid mode.
+    key, value : str, int
+        Custom property by which the material is known.
+
+    Returns
+    -------
+    bpy.types.Material
+    """
     for material in bpy.data.materials:
-        if material.get(MATERIAL_KEY) == colour.code:
+        if material.get(key) == value:
             return material
-    material = bpy.data.materials.new(f"Brick {colour.code} {colour.name}")
-    material[MATERIAL_KEY] = colour.code
-    red, green, blue = Color([byte / 255 for byte in colour.rgb]).from_srgb_to_scene_linear()
+    material = bpy.data.materials.new(name)
+    material[key] = value
+    red, green, blue = Color([byte / 255 for byte in rgb]).from_srgb_to_scene_linear()
     material.diffuse_color = (red, green, blue, 1.0)
     material.roughness = 0.3
     if material.node_tree is None:

@@ -179,6 +179,7 @@ class LEGORIZE_OT_build(Reporting, bpy.types.Operator):
             sources=sources,
             settings=order.settings,
             notes=notes,
+            stability=build.stability,
             detail=view.detail,
         )
         view.build = collection

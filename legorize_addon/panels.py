@@ -11,9 +11,11 @@ from typing import Any, Final
 import bpy
 
 from . import job
+from .check import check_lines
 from .core.settings import Settings, choices
 from .core.units import BRICK, STUD
 from .export_operators import LEGORIZE_OT_export_ldr, LEGORIZE_OT_render_still
+from .heat_map import LEGEND, has_margins
 from .operators import LEGORIZE_OT_build, LEGORIZE_OT_clear
 from .properties import current_build, label
 from .scene import BUILD_KEY, builds
@@ -143,12 +145,27 @@ class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):
         column = self.layout.column(align=True)
         for text in _figures(state["summary"]):
             column.label(text=text)
-        width = int(context.region.width / (PIXELS_PER_LETTER * context.preferences.system.ui_scale))
         for note in state["notes"]:
-            lines = self.layout.column(align=True)
-            for row, text in enumerate(textwrap.wrap(note, max(width, 20))):
-                lines.label(text=text, icon="BLANK1" if row else "ERROR")
+            _wrapped(context, self.layout, note, "ERROR")
         self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
+
+
+class LEGORIZE_PT_stability(_BuildPanel, bpy.types.Panel):
+    """Whether the model stands."""
+
+    bl_label = "Stability"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the verdict, what is weak, and the switch of the heat map."""
+        build = current_build(context.scene)
+        for text, icon in check_lines(build[BUILD_KEY].get("check")):
+            _wrapped(context, self.layout, text, icon)
+        view = context.scene.legorize
+        switch = self.layout.row()
+        switch.enabled = has_margins(build)
+        switch.prop(view, "heat_map")
+        if view.heat_map:
+            _wrapped(context, self.layout, LEGEND, "INFO")
 
 
 class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
@@ -162,6 +179,14 @@ class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
         self.layout.operator(LEGORIZE_OT_render_still.bl_idname, icon="RENDER_STILL")
 
 
+def _wrapped(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str) -> None:
+    """Draw a text in as many lines as it takes, the first one with an icon."""
+    width = int(context.region.width / (PIXELS_PER_LETTER * context.preferences.system.ui_scale))
+    lines = layout.column(align=True)
+    for row, line in enumerate(textwrap.wrap(text, max(width, 20))):
+        lines.label(text=line, icon="BLANK1" if row else icon)
+
+
 def _figures(summary: Any) -> tuple[str, ...]:
     x, y, layers = summary["studs_x"], summary["studs_y"], summary["layers"]
     size = [length / MM_PER_CM for length in (x * STUD, y * STUD, layers * BRICK)]
@@ -173,5 +198,12 @@ def _figures(summary: Any) -> tuple[str, ...]:
     )
 
 
-classes = (LEGORIZE_PT_main, *_settings_panels(), LEGORIZE_PT_layers, LEGORIZE_PT_result, LEGORIZE_PT_export)
+classes = (
+    LEGORIZE_PT_main,
+    *_settings_panels(),
+    LEGORIZE_PT_layers,
+    LEGORIZE_PT_result,
+    LEGORIZE_PT_stability,
+    LEGORIZE_PT_export,
+)
 register, unregister = bpy.utils.register_classes_factory(classes)

@@ -19,9 +19,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .core.catalogue import Catalogue, Colour, Part, footprint
+from .core.catalogue import Catalogue, Part, footprint
 from .core.units import PLATE, STUD
-from .nodes import colour_material
 
 Detail = Literal["low", "high"]
 Floats = NDArray[np.float64]
@@ -117,12 +116,14 @@ def part_mesh(part: Part, detail: Detail) -> bpy.types.Mesh:
     return mesh
 
 
-def parts_collection(kinds: Sequence[tuple[Part, Colour]], detail: Detail, name: str) -> bpy.types.Collection:
-    """Return a new collection outside of all scenes with one object a part and colour.
+def parts_collection(
+    kinds: Sequence[tuple[Part, bpy.types.Material]], detail: Detail, name: str
+) -> bpy.types.Collection:
+    """Return a new collection outside of all scenes with one object a part and material.
 
     Parameters
     ----------
-    kinds : sequence of (Part, Colour)
+    kinds : sequence of (Part, bpy.types.Material)
         What is in use; the rows are the variants that points count to.
     detail : {"low", "high"}
         As for :func:`part_loft`.
@@ -135,12 +136,12 @@ def parts_collection(kinds: Sequence[tuple[Part, Colour]], detail: Detail, name:
         Its objects share the meshes and carry the material themselves.
     """
     collection = bpy.data.collections.new(f"Legorize parts {name}")
-    for row, (part, colour) in enumerate(kinds):
+    for row, (part, material) in enumerate(kinds):
         # Geometry Nodes counts a collection's objects by name: the row comes first
-        variant = bpy.data.objects.new(f"{row:04d} {part.number} {colour.name}", part_mesh(part, detail))
+        variant = bpy.data.objects.new(f"{row:04d} {part.number} {material.name}", part_mesh(part, detail))
         variant[PART_KEY] = part.number
         variant.material_slots[0].link = "OBJECT"
-        variant.material_slots[0].material = colour_material(colour)
+        variant.material_slots[0].material = material
         collection.objects.link(variant)
     return collection
 
@@ -173,7 +174,7 @@ def parts_in_use(parts: bpy.types.Collection, rows: NDArray[np.integer], name: s
 
 
 def set_detail(parts: bpy.types.Collection, catalogue: Catalogue, detail: Detail) -> None:
-    """Exchange the meshes of a collection made by :func:`parts_collection`.
+    """Exchange the meshes of a collection made by :func:`parts_collection`, and of those inside it.
 
     Parameters
     ----------
@@ -184,8 +185,13 @@ def set_detail(parts: bpy.types.Collection, catalogue: Catalogue, detail: Detail
     detail : {"low", "high"}
         As for :func:`part_loft`.
     """
-    for variant in parts.objects:
+    for variant in parts.all_objects:
         variant.data = part_mesh(catalogue.parts[catalogue.part_row(variant[PART_KEY])], detail)
+
+
+def detail_of(parts: bpy.types.Collection) -> Detail:
+    """Return the detail of the meshes of a collection made by :func:`parts_collection`."""
+    return "low" if parts.objects[0].data[MESH_KEY].endswith("low") else "high"
 
 
 def _to_mesh(loft: Loft, name: str) -> bpy.types.Mesh:

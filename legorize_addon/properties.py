@@ -17,6 +17,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 from .core.catalogue import load_catalogue
 from .core.model import Role
 from .core.settings import Settings, choices, setting_type
+from .heat_map import has_margins, heat_map_shown, show_heat_map
 from .part_meshes import set_detail
 from .scene import BUILD_KEY, builds, show_sources
 from .section import AXES, Section
@@ -146,6 +147,17 @@ def _set_section_flip(self: bpy.types.PropertyGroup, value: bool) -> None:
     _cut(self, flip=value)
 
 
+def _heat_map(self: bpy.types.PropertyGroup) -> bool:
+    build = current_build(self.id_data)
+    return bool(build) and heat_map_shown(build)
+
+
+def _set_heat_map(self: bpy.types.PropertyGroup, value: bool) -> None:
+    build = current_build(self.id_data)
+    if build and has_margins(build):
+        show_heat_map(build, visible=value)
+
+
 def _update_sources(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     build = current_build(self.id_data)
     if build:
@@ -226,6 +238,13 @@ class LegorizeView(bpy.types.PropertyGroup):
         description="Hide the bricks on this side of the cut instead of those beyond it",
         get=_section_flip,
         set=_set_section_flip,
+    )
+    heat_map: BoolProperty(
+        name="Heat map",
+        description="Colour each brick by the friction that it has left, in the viewport and in renders: green much, "
+        "yellow half, red none, black asked for more than it bears, magenta hangs in the air",
+        get=_heat_map,
+        set=_set_heat_map,
     )
     detail: EnumProperty(
         name="Detail",

@@ -19,12 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .brick_points import box_corners, points_mesh, read_points, sizes
+from .check import check_of
 from .core.catalogue import Catalogue, load_catalogue
 from .core.errors import BuildError
 from .core.model import Bricks, Floats, Role
 from .core.settings import Settings
+from .core.stability import Stability
 from .core.units import PLATES_PER_BRICK, STUD
-from .nodes import add_bricks_modifier, brick_tree
+from .nodes import add_bricks_modifier, brick_tree, colour_material
 from .part_meshes import Detail, parts_collection, parts_in_use
 from .section import Section, add_plane
 
@@ -46,6 +48,7 @@ def show_build(
     sources: Sequence[bpy.types.Object] = (),
     settings: Settings | None = None,
     notes: Sequence[str] = (),
+    stability: Stability | None = None,
     detail: Detail = "high",
 ) -> bpy.types.Collection:
     """Put a brick model into a scene, in place of an earlier one of the same source objects.
@@ -73,6 +76,8 @@ def show_build(
         What the model was made with, kept for the file's reader.
     notes : sequence of str, optional
         Remarks to show beside the result.
+    stability : Stability, optional
+        Whether these bricks stand, row by row, for the panel and the heat map.
     detail : {"low", "high"}, optional
         Detail of the part meshes.
 
@@ -96,8 +101,9 @@ def show_build(
     scene.collection.children.link(build)
     root = _add_root(build, np.asarray(origin, dtype=np.float64), 1.0 / (scale * mm_per_unit))
     plane = _own(build, add_plane(build.name, root))
-    parts = parts_collection(pairs, detail, name)
-    _add_layers(build, bricks, variant.reshape(-1), catalogue, plane, parts)
+    parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, name)
+    margin = None if stability is None else stability.margin
+    _add_layers(build, bricks, variant.reshape(-1), margin, catalogue, plane, parts)
     corners = box_corners(bricks, catalogue)
     build[BUILD_KEY] = {
         "origin": [float(value) for value in origin],
@@ -116,6 +122,7 @@ def show_build(
         "settings": {} if settings is None else asdict(settings),
         "summary": summary(bricks, catalogue),
         "notes": list(notes),
+        "check": {} if stability is None else check_of(stability, bricks),
     }
     show_sources(build, visible=False)
     return build
@@ -167,10 +174,12 @@ def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
     own = [thing for thing in build.all_objects if OWN_KEY in thing]
     for guest in [thing for thing in build.all_objects if OWN_KEY not in thing and len(thing.users_collection) == 1]:
         scene.collection.objects.link(guest)
-    variants = list(state["parts"].objects)
+    variants = list(state["parts"].all_objects)
     meshes = {thing.data for thing in [*own, *variants] if thing.data is not None}
     materials = {slot.material for thing in variants for slot in thing.material_slots if slot.material is not None}
-    bpy.data.batch_remove([*own, *variants, *state["parts"].children, state["parts"], *layers_of(build), build])
+    bpy.data.batch_remove(
+        [*own, *variants, *state["parts"].children_recursive, state["parts"], *layers_of(build), build]
+    )
     _remove_unused([*meshes, *materials])
     _remove_unused([brick_tree()])
 
@@ -246,6 +255,7 @@ def _add_layers(
     build: bpy.types.Collection,
     bricks: Bricks,
     variant: NDArray[np.integer],
+    margin: Floats | None,
     catalogue: Catalogue,
     plane: bpy.types.Object,
     parts: bpy.types.Collection,
@@ -258,7 +268,8 @@ def _add_layers(
         own_parts = parts_in_use(parts, used, collection.name)
         for role, rows in groups:
             name = f"{collection.name} {role.name.lower().replace('_', ' ')}"
-            mesh = points_mesh(name, bricks.take(rows), catalogue, np.searchsorted(used, variant[rows]), rows)
+            left = None if margin is None else margin[rows]
+            mesh = points_mesh(name, bricks.take(rows), catalogue, np.searchsorted(used, variant[rows]), rows, left)
             points = _own(collection, bpy.data.objects.new(name, mesh))
             points[ROLE_KEY] = int(role)
             points.parent = plane.parent

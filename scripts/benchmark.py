@@ -7,6 +7,7 @@
     python scripts/benchmark.py pipeline  [MESH ...] [--out DIR]   every stage, every result
     python scripts/benchmark.py detail    [MESH ...] [--judge DIR] what plates gain and cost
     python scripts/benchmark.py hollowing [MESH ...] [--out DIR]   against a shell of two cells
+    python scripts/benchmark.py stability [MESH ...] [--out DIR]   against HiGHS, and the StableLego cases
     python scripts/benchmark.py judge     [MESH ...] --judge DIR   an external judge, on our bricks and on a peer's
     python scripts/benchmark.py sliders  [--bricks N] [--out DIR] what Blender takes to show layers and sections
 
@@ -30,7 +31,7 @@ ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 from legorize_addon.core.errors import LegorizeError  # noqa: E402 - found through the line above
-from scripts.benchmarks import detail, hollowing, judge, pipeline, slicing, units  # noqa: E402
+from scripts.benchmarks import detail, hollowing, judge, pipeline, slicing, stability, units  # noqa: E402
 from scripts.benchmarks.meshes import models_in  # noqa: E402
 from scripts.benchmarks.tables import Table, write  # noqa: E402
 
@@ -76,6 +77,8 @@ def measured(options: argparse.Namespace) -> list[Table]:
         return pipeline.measure(paths, widths=options.widths, repeats=options.repeats)
     if options.command == "detail":
         return detail.measure(paths, widths=options.widths, judge=options.judge, out=options.out)
+    if options.command == "stability":
+        return stability.measure(paths, widths=options.widths, repeats=options.repeats, programme=options.programme)
     if options.command == "hollowing":
         return hollowing.measure(paths, width=options.width)
     return judge.measure(paths, judge=options.judge, out=options.out, width=options.width, ldr_dir=options.ldr_dir)
@@ -91,6 +94,7 @@ def parser() -> argparse.ArgumentParser:
         ("pipeline", "every stage on every model", None, 1),
         ("detail", "what plates gain and cost", None, None),
         ("hollowing", "what hollowing leaves", 64, None),
+        ("stability", "whether models stand", None, 3),
         ("judge", "an external judge", 48, None),
     ):
         command = commands.add_parser(name, help=text, description=text)
@@ -120,6 +124,9 @@ def add_options(name: str, command: argparse.ArgumentParser) -> None:
         command.add_argument("--points", type=int, default=2_000_000, help="of the dense sampling")
     elif name == "pipeline":
         command.add_argument("--widths", **counts, default=[24, 48, 96], help="studs (default: %(default)s)")
+    elif name == "stability":
+        command.add_argument("--widths", **counts, default=[24, 48], help="studs (default: %(default)s)")
+        command.add_argument("--programme", type=int, default=3000, help="bricks up to which HiGHS is timed")
     elif name == "detail":
         command.add_argument("--widths", **counts, default=[32, 64], help="studs (default: %(default)s)")
         command.add_argument("--judge", metavar="DIR", type=Path, help="judge.py, which else is not asked")

@@ -152,7 +152,8 @@ def run(
         if render or save_blend:
             shown = show_build(
                 bpy.context.scene, build.bricks, catalogue, origin=build.grid.origin, scale=build.scale,
-                mm_per_unit=mm_per_unit(), name=source.stem, sources=objects, settings=settings, notes=build.notes,
+                mm_per_unit=mm_per_unit(), name=source.stem, sources=objects, settings=settings,
+                stability=build.stability, notes=build.notes,
             )  # fmt: skip
         if render:
             cut_away(shown, section or Section())
@@ -175,7 +176,12 @@ def failed_checks(facts: dict[str, Any]) -> list[str]:
         (connection["collisions"], 0, "Cells that more than one brick claims: {}."),
         (colours["bricks"], 0, "Bricks in a colour in which their part was never made: {}."),
     )
-    return [sentence.format(count) for count, allowed, sentence in counts if count > allowed]
+    failed = [sentence.format(count) for count, allowed, sentence in counts if count > allowed]
+    if not facts["stability"]["stable"]:
+        failed.append(
+            "Stability is not proven: {verdict}, {failing} bricks bear too little.".format(**facts["stability"])
+        )
+    return failed
 
 
 def texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:

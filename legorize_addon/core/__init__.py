@@ -15,12 +15,15 @@
 ``detail``              where plates stay and where three of them are a brick again
 ``overhangs``           horizontal faces between trajectories: offset bricks, kinds of overhang
                         (``offset_bricks``)
+``backing``             bricks behind flat pictures and reliefs (``facing``)
 ``hollowing``           which cells must be built, may be built, or stay empty (``regions``, ``ceilings``)
-``holding``             what the shell needs to hold together: plates under roofs of one layer, plates in
-                        walls, single plates in the neighbour's colour (``reinforcement``, ``joints``,
-                        ``colour_joints``)
+``holding``             what the shell needs to hold together: something between bodies that nearly touch,
+                        plates under roofs of one layer, plates in walls, single plates in the
+                        neighbour's colour (``bodies``, ``reinforcement``, ``joints``, ``colour_joints``)
 ``layout``              which bricks cover the cells
 ``connection``          what holds to what
+``stability``           whether it stands: forces in balance, or a collapse, as proof (``statics``,
+                        ``equilibrium``, ``collapse``)
 ``ldraw``               bricks <-> LDraw text
 ``shopping``            parts lists and the shops' files
 ``report``              what was built, in numbers

@@ -49,12 +49,16 @@ def with_colour_joints(grid: UnitGrid, *, plates: bool) -> UnitGrid:
             break
         joined = True
         if plates:
-            colour[changed] = colour[other]
+            # what agrees already only has to be laid in plates
+            colour[changed] = np.where(colour[other] == COLOUR_ANY, colour[changed], colour[other])
             whole &= ~np.isin(touching.column, touching.column[np.concatenate([changed, other])])
         else:
+            of_column = touching.laid(colour, whole)
             taken = np.arange(len(colour))
             taken[touching.column[changed]] = other
-            colour = colour[taken[touching.column]]
+            colour = np.where(
+                np.isin(touching.column, touching.column[changed]), of_column[taken[touching.column]], colour
+            )
     if not joined:
         return grid
     codes, role = grid.colour.copy(), grid.role.copy()

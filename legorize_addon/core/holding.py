@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .bodies import with_bodies_joined
 from .colour_joints import with_colour_joints
 from .joints import with_joints
 from .model import UnitGrid
@@ -9,7 +10,7 @@ from .reinforcement import reinforced
 
 
 def held_together(grid: UnitGrid, *, plates: bool) -> UnitGrid:
-    """Reinforce thin roofs, then open walls for what sticks out of them, then join what differs in colour.
+    """Join bodies that nearly touch, reinforce thin roofs, open walls for what sticks out, join what differs in colour.
 
     Parameters
     ----------
@@ -22,7 +23,7 @@ def held_together(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     -------
     UnitGrid
     """
-    grid = reinforced(grid, plates=plates)
+    grid = reinforced(with_bodies_joined(grid, plates=plates), plates=plates)
     if plates:
         grid = with_joints(grid)
     return with_colour_joints(grid, plates=plates)

@@ -82,6 +82,12 @@ class Touching:
             column[same[1]] = column[same[0]]
         return cls(cell, column, upright, np.concatenate(sideways, axis=1))
 
+    def laid(self, colour: NDArray[np.int16], whole: Mask) -> NDArray[np.int16]:
+        """Return the colours that cells are laid in: all of a brick in the one that its cells agree on, (n,)."""
+        of_column = np.full(len(colour), COLOUR_ANY, dtype=np.int16)
+        np.maximum.at(of_column, self.column, colour)
+        return np.where(whole, of_column[self.column], colour)
+
 
 def with_joints(grid: UnitGrid) -> UnitGrid:
     """Lay brick columns in plates where nothing else can hold what touches them.
@@ -125,7 +131,7 @@ def parts_of(touching: Touching, colour: NDArray[np.int16], whole: Mask) -> tupl
     ----------
     touching : Touching
     colour : (n,) int16 array
-        Colour of each cell.
+        Colour of each cell; a brick has the one that its cells agree on.
     whole : (n,) bool array
         Whether each cell is laid in a brick.
 
@@ -140,7 +146,8 @@ def parts_of(touching: Touching, colour: NDArray[np.int16], whole: Mask) -> tupl
     stacked = np.zeros(len(whole), dtype=bool)
     stacked[upright[:, upright[0] != upright[1]].ravel()] = True
     first, second = touching.sideways
-    cover = (whole[first] == whole[second]) & _agree(colour[first], colour[second])
+    laid = touching.laid(colour, whole)
+    cover = (whole[first] == whole[second]) & agree(laid[first], laid[second])
     sideways = node[touching.sideways[:, cover]]
     # a part across two cells holds to both if each has something below or above
     strong = stacked[sideways].all(axis=0)
@@ -162,13 +169,14 @@ def _opened(touching: Touching, colour: NDArray[np.int16], whole: Mask) -> Mask:
     part, loose = parts_of(touching, colour, whole)
     first, second = touching.sideways
     touch = (whole[first] != whole[second]) & (part[first] != part[second])
-    touch &= (loose[part[first]] | loose[part[second]]) & _agree(colour[first], colour[second])
+    touch &= (loose[part[first]] | loose[part[second]]) & agree(colour[first], colour[second])
     found = np.zeros(len(whole), dtype=bool)
     found[touching.column[touching.sideways[:, touch]].ravel()] = True
     opened: Mask = found[touching.column] & whole
     return opened
 
 
-def _agree(first: NDArray[np.int16], second: NDArray[np.int16]) -> Mask:
-    agree: Mask = (first == second) | (first == COLOUR_ANY) | (second == COLOUR_ANY)
-    return agree
+def agree(first: NDArray[np.int16], second: NDArray[np.int16]) -> Mask:
+    """Return which pairs of colours one part can have: equal ones, and any with ``COLOUR_ANY``."""
+    same: Mask = (first == second) | (first == COLOUR_ANY) | (second == COLOUR_ANY)
+    return same

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from functools import partial
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from .backing import with_backing
 from .catalogue import Catalogue, load_catalogue
 from .colours import SurfaceColours, chosen_palette, surface_colours
-from .connection import Connection, connect
+from .connection import NOBODY, Connection, connect
 from .detail import Detail
 from .facing import facing_of
 from .grid import Grid, fit_grid
@@ -31,9 +32,14 @@ from .progress import Progress, silent
 from .settings import Settings
 from .size import check_any, check_size, model_scale
 from .slicing import Slices, adaptive_heights, slice_mesh
+from .stability import Stability, Verdict, stability
+from .thickening import thickened
 from .trajectories import Trajectories, link_loops
 from .unit_bricks import unit_bricks
 from .units import PLATES_PER_BRICK
+
+_THICKER: Final = (2, 4)
+"""Studs around torn joints within which walls are made thicker, once after the other."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,6 +93,8 @@ class Build:
         The layout.
     connection : Connection
         How the bricks hold together.
+    stability : Stability
+        Whether they stand, and the proof.
     notes : tuple of str
         Sentences for the user.
     timings : mapping of str to float
@@ -105,6 +113,7 @@ class Build:
     hollow: UnitGrid
     bricks: Bricks
     connection: Connection
+    stability: Stability
     notes: tuple[str, ...]
     timings: Mapping[str, float]
 
@@ -156,11 +165,9 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
         )
     with stage("hollowing"):
         shell = held_together(_hollowed(grid, settings), plates=_in_plates(settings))
-    with stage("layout"):
-        bricks = lay(shell, catalogue, rng=rng, filler=_filler(palette, catalogue), progress=progress)
-        connection = connect(bricks, catalogue)
-    notes = (*repairs.sentences(), *_remarks(connection))
-    made = (mesh, repairs, scale, surface, cut, trajectories, offsets, grid, shell, bricks, connection)
+    shell, bricks, connection, found = _standing(grid, shell, settings, palette, catalogue, rng, stage, progress)
+    notes = (*repairs.sentences(), *_remarks(connection, found))
+    made = (mesh, repairs, scale, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
     return Build(settings, *made, notes, timings)
 
 
@@ -271,6 +278,38 @@ def _hollowed(grid: UnitGrid, settings: Settings) -> UnitGrid:
     )
 
 
+def _standing(
+    grid: UnitGrid,
+    shell: UnitGrid,
+    settings: Settings,
+    palette: NDArray[np.int16],
+    catalogue: Catalogue,
+    rng: np.random.Generator,
+    stage: Callable[[str], AbstractContextManager[None]],
+    progress: Progress,
+) -> tuple[UnitGrid, Bricks, Connection, Stability]:
+    """Lay the bricks and test them by force; where they collapse, thicken the walls there and lay again."""
+    filler, tried = _filler(palette, catalogue), []
+    for reach in (*_THICKER, None):
+        with stage("layout"):
+            bricks = lay(shell, catalogue, rng=rng, tier=settings.layout, learned=settings.learned, filler=filler, progress=progress)
+            connection = connect(bricks, catalogue)
+        with stage("stability"):
+            found = stability(bricks, catalogue, connection, hold=settings.hold, progress=progress)
+        tried.append((shell, bricks, connection, found))
+        if reach is None or found.standing is not Verdict.COLLAPSES or len(found.torn) == 0:
+            break
+        weak = np.unique(found.torn[found.torn != NOBODY])
+        shell = thickened(shell, grid, bricks, catalogue, weak=weak, reach=reach)
+    return min(tried, key=_failing)
+
+
+def _failing(laid: tuple[UnitGrid, Bricks, Connection, Stability]) -> tuple[int, bool, float]:
+    """Return what a better layout has less of: loose bricks, doubt, load on its weakest brick."""
+    _, _, connection, found = laid
+    return connection.n_floating, found.standing is not Verdict.STABLE, -float(found.margin.min())
+
+
 def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:
     """Return the colour of bricks that nobody sees: the usual one, or that of the palette in which most parts exist."""
     if FILLER in palette:
@@ -285,11 +324,20 @@ def _stage(name: str, progress: Progress, timings: dict[str, float]) -> Iterator
     progress(name, 0.0)
     start = time.process_time()
     yield
-    timings[name] = time.process_time() - start
+    timings[name] = timings.get(name, 0.0) + time.process_time() - start
     progress(name, 1.0)
 
 
-def _remarks(connection: Connection) -> tuple[str, ...]:
-    if connection.n_floating == 0:
-        return ()
-    return (f"{connection.n_floating} bricks hang in the air: they touch no brick that stands on the ground.",)
+def _remarks(connection: Connection, found: Stability) -> tuple[str, ...]:
+    """Return what the user should know of how the bricks hold and stand."""
+    remarks = []
+    if connection.n_floating:
+        remarks.append(
+            f"{connection.n_floating} bricks hang in the air: they touch no brick that stands on the ground."
+        )
+    if found.standing is Verdict.COLLAPSES:
+        where = f", first at brick {found.torn[0].max()}" if len(found.torn) else ": it tips over"
+        remarks.append(f"The model collapses under its own weight{where}.")
+    if found.standing is Verdict.UNDECIDED:
+        remarks.append("Whether the model stands could not be decided: try a cautious hold, or the exact layout.")
+    return tuple(remarks)

@@ -20,6 +20,7 @@ from .overhangs import Offsets, OverhangKind, overhang_kinds
 from .regions import tally_cases
 from .settings import Settings
 from .shopping import PartsList, count_parts, masses, not_made, pick_a_brick_csv
+from .stability import Stability
 from .units import PLATES_PER_BRICK
 
 SCHEMA: Final = 1
@@ -83,6 +84,10 @@ class Built(Protocol):
         """How the bricks hold together."""
 
     @property
+    def stability(self) -> Stability:
+        """Whether they stand, and the proof."""
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """Sentences for the user."""
 
@@ -139,6 +144,7 @@ def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         "mass_g": round(float(masses(parts, catalogue).sum()), 2),
         "hollow_ratio": round(1 - _filled(build) / int(build.grid.solid.sum()), 4),
         "connection": _connection(build.connection),
+        "stability": _stability(build),
         "unavailable_part_colours": _pairs(not_made(parts, catalogue), catalogue),
         "unknown_elements": _pairs(no_element, catalogue),
         "timings_s": {stage: round(seconds, 4) for stage, seconds in build.timings.items()},
@@ -245,6 +251,24 @@ def _connection(connection: Connection) -> dict[str, int]:
         "components": connection.n_components,
         "floating": connection.n_floating,
         "collisions": connection.collisions,
+    }
+
+
+def _stability(build: Built) -> dict[str, Any]:
+    """Return the verdict, and whether its proof was confirmed by a check apart from the search."""
+    found = build.stability
+    enough = found.enough_hold
+    return {
+        "verdict": found.verdict.value,
+        "stable": found.stable,
+        "components": build.connection.n_components,
+        "worst_margin": round(float(found.margin.min(initial=1.0)), 4),
+        "failing": int((found.margin < 0).sum()),
+        "weakest": [int(row) for row in found.weakest(5)],
+        "hold_n": build.settings.hold,
+        "enough_hold_n": round(enough, 4) if np.isfinite(enough) else None,
+        "residual_n": float(f"{found.residual:.3g}"),
+        "proof_confirmed": found.check(),
     }
 
 

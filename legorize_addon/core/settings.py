@@ -107,6 +107,16 @@ class Settings:
         "whichever takes fewer bricks, or nothing.", group="Bricks")
     open_bottom: bool = setting(
         False, "Leave the side on the ground open.", group="Bricks")
+    layout: Literal["fast", "standard", "exact"] = setting(
+        "standard", "How much is done for few and well bonded bricks: a quick choice, linear programmes, or the fewest "
+        "bricks that can be found, which takes several times as long.", group="Bricks")
+    learned: bool = setting(
+        True, "Let the quick layout make the exchanges of bricks that a trained support vector machine proposes.",
+        group="Bricks")
+
+    hold: float = setting(
+        0.98, "Pull in N that the friction of one contact point of a stud bears; 0.7 is cautious.",
+        group="Check", low=0.05, high=5.0)
 
     seed: int = setting(
         0, "Seed of everything random: the same seed gives the same model.", group="Run", low=0, high=2**31 - 1)

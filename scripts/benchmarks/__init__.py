@@ -1,16 +1,18 @@
 """What ``benchmark.py`` measures.
 
-=============  ==================================================================
-``meshes``     reads model files without Blender; sizes and subdivides them
-``clock``      CPU seconds
-``tables``     results as Markdown, CSV and JSON
-``slicing``    slices with loops, colours and areas against trimesh and shapely
-``units``      unit bricks against trimesh, the exact rule and dense sampling
-``dense``      the colours of unit bricks from densely sampled surface
-``pipeline``   every stage on every model
-``judge``      an external judge on our bricks and on a peer's
-``surface``    how far the surface lies from the bricks, by the known alignment
-``detail``     what plates gain and cost
-``hollowing``  what hollowing leaves, against a fixed shell
-=============  ==================================================================
+==============  ==================================================================
+``meshes``      reads model files without Blender; sizes and subdivides them
+``clock``       CPU seconds
+``tables``      results as Markdown, CSV and JSON
+``slicing``     slices with loops, colours and areas against trimesh and shapely
+``units``       unit bricks against trimesh, the exact rule and dense sampling
+``dense``       the colours of unit bricks from densely sampled surface
+``pipeline``    every stage on every model
+``judge``       an external judge on our bricks and on a peer's
+``surface``     how far the surface lies from the bricks, by the known alignment
+``detail``      what plates gain and cost
+``hollowing``   what hollowing leaves, against a fixed shell
+``stability``   whether models stand, against HiGHS
+``stablelego``  the cases published with StableLego
+==============  ==================================================================
 """

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from legorize_addon.core.catalogue import Part, footprint, load_catalogue
 from legorize_addon.core.units import PLATE, STUD
+from legorize_addon.nodes import colour_material
 from legorize_addon.part_meshes import (
     GAP,
     SIDES,
@@ -140,7 +141,7 @@ def test_parts_collection_is_in_order_of_names() -> None:
     catalogue = load_catalogue()
     kinds = [(part, colour) for colour in catalogue.colours[:12] for part in catalogue.parts]
     for _ in range(2):
-        collection = parts_collection(kinds, "low", "test")
+        collection = parts_collection([(part, colour_material(colour)) for part, colour in kinds], "low", "test")
         by_name = sorted(collection.objects, key=lambda variant: variant.name)
         assert [(variant["legorize_part"], variant.active_material.name.split()[1]) for variant in by_name] == [
             (part.number, str(colour.code)) for part, colour in kinds

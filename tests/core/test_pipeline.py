@@ -19,7 +19,7 @@ from tests.core.light import holes
 from tests.core.solids import box, joined, mesh_of, moebius, reversed_mesh, sheet, sphere, tube, without
 from tests.core.textured import blob, cylinder, hollow_box, painted, rgb_of, split_at_x, table, torus
 
-STAGES = ["mesh", "colours", "slicing", "trajectories", "unit bricks", "overhangs", "hollowing", "layout"]
+STAGES = ["mesh", "colours", "slicing", "trajectories", "unit bricks", "overhangs", "hollowing", "layout", "stability"]
 """The stages in the order of the paper."""
 
 SMALL = Settings(width=12)
@@ -142,7 +142,8 @@ def test_progress_tells_every_stage_in_order():
     """Each stage is told at its start and its end, in order, and shares stay in [0, 1]."""
     told: list[tuple[str, float]] = []
     legorize(sphere(6, 10.0), SMALL, lambda stage, share: told.append((stage, share)))
-    assert list(dict.fromkeys(stage for stage, _ in told)) == STAGES
+    # loose bricks are joined within the layout, where there are any
+    assert [stage for stage in dict.fromkeys(stage for stage, _ in told) if stage != "connection"] == STAGES
     for stage in STAGES:
         shares = [share for name, share in told if name == stage]
         assert shares[0] == 0

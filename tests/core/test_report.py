@@ -19,6 +19,7 @@ from legorize_addon.core.overhangs import Offsets, offset_rings
 from legorize_addon.core.pipeline import Cut
 from legorize_addon.core.report import report
 from legorize_addon.core.settings import Settings
+from legorize_addon.core.stability import stability
 
 CATALOGUE = load_catalogue()
 
@@ -73,6 +74,7 @@ def build_of(rows):
         hollow=grid_of(solid),
         bricks=bricks,
         connection=connect(bricks, CATALOGUE),
+        stability=stability(bricks, CATALOGUE, connect(bricks, CATALOGUE)),
         notes=("A remark.",),
         timings={"slicing": 0.25},
     )
@@ -210,3 +212,14 @@ def test_hollowing_counts_cells_and_cases():
     )
     assert by_bricks == {"inside": 1, "crossing": 0, "covering": 1, "apart": 0}
     assert by_plates == {"inside": 1, "crossing": 0, "covering": 9, "apart": 0}
+
+
+def test_verdict_is_told_with_its_proof(described):
+    """The report names the verdict, the weakest bricks and the friction, and that the proof was confirmed."""
+    told = described["stability"]
+    assert told["verdict"] in ("stable", "collapses", "undecided")
+    assert told["stable"] == (told["verdict"] == "stable")
+    assert told["hold_n"] == 0.98
+    assert told["proof_confirmed"] is True
+    assert told["components"] == described["connection"]["components"]
+    assert told["worst_margin"] <= 1

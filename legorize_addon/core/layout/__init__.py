@@ -5,16 +5,25 @@
 ``shapes``          the parts in all their orientations, and their colours
 ``placements``      everything that may lie on a sheet
 ``problem``         the task of laying a sheet: placements and what each costs
+``live``            the placements that can still be laid
 ``greedy``          the fast tier: the placement with the most expensive cells first
+``linear``          the standard tier: linear programmes, made whole by dives
+``programme``       the linear programme and its dual
+``dominance``       placements that no programme needs
+``bond``            running bond in the middle of wide areas
+``blocks``          wide sheets in blocks
+``exact``           the exact tier: branch and bound for what the programmes leave open
+``bound``           how few bricks there could be: a proven lower bound
 ``exchange``        fewer small bricks by exchanging a few against others
-``laid``            what lies on a sheet; the table of all bricks
+``table``           what lies on a sheet; the table of all bricks
 ``repair``          joins components that float
-``layers``          all sheets, every other one first: :func:`lay`
+``layers``          all sheets in the order of the tier: :func:`lay`
 ==================  =====================================================================
 """
 
 from __future__ import annotations
 
-from .layers import FILLER, lay
+from .bound import bound
+from .layers import FILLER, Tier, lay
 
-__all__ = ["FILLER", "lay"]
+__all__ = ["FILLER", "Tier", "bound", "lay"]

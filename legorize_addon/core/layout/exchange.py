@@ -93,10 +93,7 @@ def exchange(
     """
     moves = _Moves.of(problem, chosen, offered)
     rests = _Rests.of(problem, chosen, moves, patch)
-    loss = problem.cost[offered] + np.bincount(
-        moves.of_cut, weights=rests.cost - problem.cost[chosen[moves.brick]], minlength=len(offered)
-    )
-    gain = -loss if reward is None else reward - loss
+    gain = _saved(problem, chosen, offered, moves, rests) + (0 if reward is None else reward)
     gain[gain <= _LEAST_GAIN] = 0
     if not gain.any():
         return chosen
@@ -108,6 +105,33 @@ def exchange(
     laid = rests.row[cut]
     patched = _patched(problem, rests.cell[(cut & (rests.row == _SEVERAL))[rests.of_cell]], rng)
     return np.concatenate([chosen[staying], offered[made], laid[laid >= 0], patched])
+
+
+def gains(problem: Problem, chosen: Index, offered: Index) -> Floats:
+    """Reckon what moves would save, each by itself.
+
+    Parameters
+    ----------
+    problem : Problem
+        The sheet.
+    chosen : (n_bricks,) intp array
+        Rows of the placements that lie there, without overlaps.
+    offered : (n_moves,) intp array
+        Rows of the placements to try.
+
+    Returns
+    -------
+    (n_moves,) float64 array
+        Bricks; minus infinity where the rest of a cut brick needs several.
+    """
+    moves = _Moves.of(problem, chosen, offered)
+    return _saved(problem, chosen, offered, moves, _Rests.of(problem, chosen, moves, np.inf))
+
+
+def _saved(problem: Problem, chosen: Index, offered: Index, moves: _Moves, rests: _Rests) -> Floats:
+    """Return the cost of the bricks that each move takes away, less that of those it lays, (n_moves,)."""
+    less = problem.cost[chosen[moves.brick]] - rests.cost
+    return np.bincount(moves.of_cut, weights=less, minlength=len(offered)) - problem.cost[offered]
 
 
 def _patched(problem: Problem, cells: Index, rng: np.random.Generator) -> Index:

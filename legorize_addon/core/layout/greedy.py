@@ -9,18 +9,14 @@ set, with the prices as weights).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..model import Mask
-from .placements import segment_sums
+from .live import Amounts, Live
 from .problem import Problem
 from .shapes import Index
-
-Amounts = NDArray[np.int64]
 
 _ONE: Final = 1 << 20
 """One brick in the fixed-point numbers that prices are made of: sums of integers
@@ -65,15 +61,15 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
     n_ties = int(tie.max(initial=0)) + 1
     price_of_best = _price_table(int(placements.size.max(initial=0)))
     covered = np.zeros_like(problem.must)
-    live = _Live(np.arange(len(placements)), placements.size, placements.cells)
+    live = Live.of(placements)
     chosen = [live.rows[:0]]
     while len(live.rows):
         score = live.totals(_prices(live, problem.must, price_of_best)[live.cells]) + merit[live.rows]
         # the tie makes all keys different: on every cell there is one winner
         won = live.winners(score * n_ties + tie[live.rows], len(covered))
         chosen.append(live.rows[won])
-        covered[live.cells[np.repeat(won, live.size)]] = True
-        live = live.only(live.totals(covered[live.cells]) == 0)
+        covered[live.only(won).cells] = True
+        live = live.clear_of(covered)
     return np.concatenate(chosen)
 
 
@@ -93,37 +89,13 @@ def _ties(problem: Problem, rng: np.random.Generator) -> Amounts:
     return ties
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Live:
-    """The placements that can still be laid: their rows, sizes and cells, one after the other."""
-
-    rows: Index
-    size: Index
-    cells: Index
-
-    def totals(self, amounts: Amounts | Mask) -> Amounts:
-        """Sum the amounts of the entries of each placement."""
-        return segment_sums(amounts, np.cumsum(self.size))
-
-    def winners(self, key: Amounts, n_cells: int) -> Mask:
-        """Tell which placements have the greatest key on each of their cells."""
-        keys = np.repeat(key, self.size)
-        greatest = np.full(n_cells, np.iinfo(np.int64).min)
-        np.maximum.at(greatest, self.cells, keys)
-        return np.equal(self.totals(keys == greatest[self.cells]), self.size)
-
-    def only(self, kept: Mask) -> _Live:
-        """Drop the other placements."""
-        return _Live(self.rows[kept], self.size[kept], self.cells[np.repeat(kept, self.size)])
-
-
 def _price_table(largest: int) -> Amounts:
     """Return the price of a cell by the size of the largest brick through it."""
     sizes = np.arange(1, largest + 1)
     return np.append(0, np.rint(_ONE * sizes**-_BEST)).astype(np.int64)
 
 
-def _prices(live: _Live, must: Mask, price_of_best: Amounts) -> Amounts:
+def _prices(live: Live, must: Mask, price_of_best: Amounts) -> Amounts:
     """Return the prices of the cells, 0 where a cell need not be covered, but for its neighbours' sake."""
     size = np.repeat(live.size, live.size)
     best = np.zeros(len(must), dtype=np.int64)
@@ -133,7 +105,7 @@ def _prices(live: _Live, must: Mask, price_of_best: Amounts) -> Amounts:
     return price + _neighbourly(live, must)
 
 
-def _neighbourly(live: _Live, must: Mask) -> Amounts:
+def _neighbourly(live: Live, must: Mask) -> Amounts:
     """Reward taking a cell together with its last neighbours, and punish taking these alone.
 
     The reward of the cell and the punishment of its neighbours cancel out in a

@@ -1,13 +1,16 @@
-"""From the cells of a model to its bricks: every other layer first, then those between.
+"""From the cells of a model to its bricks, sheet after sheet.
 
-Bricks of the second half prefer to lie across the seams of the layers below and
-above; none may hang in the air. How sheets are laid within these costs is left
-to the tier (:mod:`greedy` is the fast one).
+Bricks prefer to lie across the seams of what lies below and above already; none
+may hang in the air. The fast tier lays every other layer, then those between;
+the others lay bricks layer by layer, upwards, and then plates, which are few
+and far between, every third level at once.
 """
 
 from __future__ import annotations
 
-from typing import Final
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import Final, Literal
 
 import numpy as np
 
@@ -17,14 +20,16 @@ from ..errors import BuildError
 from ..model import COLOUR_EMPTY, Bricks, Cover, Mask, UnitGrid
 from ..progress import Progress, silent
 from ..units import PLATES_PER_BRICK
+from . import exact, greedy, linear
 from .exchange import fewer_small
-from .greedy import cover
-from .placements import placements
-from .problem import GROUND, pose, with_margins
+from .placements import Placements, placements
+from .problem import BRIDGE, GROUND, Problem, pose, with_margins
 from .repair import connect_loose
-from .shapes import Rows, Shapes, shapes
+from .shapes import Index, Rows, Shapes, shapes
 from .sheets import Sheets, split
+from .svm import improved
 from .table import bricks_of, gathered
+from .windows import join_by_windows
 
 FILLER: Final = 71
 """LDraw code of Light Bluish Gray, in which nearly every part is made: for bricks that nobody sees."""
@@ -33,12 +38,29 @@ _SLAB: Final = 1 << 15
 """Cells that are laid together: enough to drown the cost of a numpy call, few
 enough for the memory (147 placements go through a cell in a wide area)."""
 
+_BATCH: Final = 2000
+"""Placements from which no more sheets of plates are put into one linear programme."""
+
+_PHASES: Final = 3
+"""Sheets of plates that many levels apart are laid together."""
+
+Tier = Literal["fast", "standard", "exact"]
+
+_BRIDGE: Final[Mapping[Tier, float]] = MappingProxyType({"fast": BRIDGE, "standard": BRIDGE, "exact": 0.05})
+"""What lying across a seam saves, in bricks: for the fewest bricks it must save less than a brick in most places."""
+
+_COVERS: Final[Mapping[Tier, Callable[[Problem, np.random.Generator], Index]]] = MappingProxyType(
+    {"fast": greedy.cover, "standard": linear.cover, "exact": exact.cover}
+)
+
 
 def lay(
     grid: UnitGrid,
     catalogue: Catalogue,
     *,
     rng: np.random.Generator,
+    tier: Tier = "standard",
+    learned: bool = True,
     filler: int = FILLER,
     progress: Progress = silent,
 ) -> Bricks:
@@ -52,10 +74,15 @@ def lay(
         Parts and colours.
     rng : numpy.random.Generator
         Decides between equals; the same state gives the same bricks.
+    tier : str
+        How much is done for few bricks: ``"fast"`` (see :mod:`.greedy`),
+        ``"standard"`` (see :mod:`.linear`) or ``"exact"`` (see :mod:`.exact`).
+    learned : bool
+        Whether the fast tier makes the exchanges that :mod:`.svm` proposes.
     filler : int
         LDraw code of the bricks that nobody sees.
     progress : Progress
-        Told before each slab of layers.
+        Told before each batch of sheets.
 
     Returns
     -------
@@ -78,27 +105,59 @@ def lay(
     owner = np.full(must.shape, NOBODY, dtype=np.int32)
     owner[: min(int(sheets.level[0]) for sheets, _ in work) + 1] = GROUND
     slab_of_layer = np.cumsum(grid.solid.any(axis=1).sum(axis=(1, 2))) // _SLAB
-    laid = []
+    laid: list[Bricks] = []
+    n_sheets, n_laid = sum(len(sheets) for sheets, _ in work), 0
+    for sheets, among, found in _batches(work, slab_of_layer, tier):
+        progress("layout", n_laid / n_sheets)
+        n_laid += len(sheets)
+        problem = pose(sheets, among, found, owner, must, _BRIDGE[tier])
+        laid.append(_laid(problem, owner, sum(map(len, laid)), tier, learned, rng))
+    bricks = connect_loose(gathered(laid), grid, work, catalogue, rng, progress)
+    return join_by_windows(bricks, grid, work, catalogue, progress)
+
+
+def _batches(
+    work: Sequence[tuple[Sheets, Shapes]], slab_of_layer: Index, tier: Tier
+) -> Iterator[tuple[Sheets, Shapes, Placements]]:
+    """Yield what is laid at once, and what may lie there, one batch after the other."""
     for slab in np.unique(slab_of_layer):
-        progress("layout", float(np.mean(slab_of_layer < slab)))
         for sheets, among in work:
-            inside = slab_of_layer[sheets.level // PLATES_PER_BRICK] == slab
-            # sheets of one half do not touch: they are laid at once
-            odd = sheets.level // sheets.height % 2 == 1
-            for half in (inside & ~odd, inside & odd):
-                if half.any():
-                    laid.append(_laid(sheets.take(half), among, owner, must, rng))
-    return connect_loose(gathered(laid), grid, work, catalogue, rng, progress)
+            inside = sheets.take(slab_of_layer[sheets.level // PLATES_PER_BRICK] == slab)
+            if len(inside):
+                found = placements(inside, among)
+                for which in _order(inside, found, tier):
+                    yield inside.take(which), among, found.on(which, inside.n_cells)
 
 
-def _laid(sheets: Sheets, among: Shapes, owner: Rows, must: Mask, rng: np.random.Generator) -> Bricks:
-    """Lay sheets that do not touch; write the owners of their cells into `owner`."""
-    problem = pose(sheets, among, placements(sheets, among), owner, must)
-    chosen = fewer_small(problem, cover(problem, rng), rng)
+def _order(sheets: Sheets, found: Placements, tier: Tier) -> list[Index]:
+    """Divide sheets into batches; no two sheets of a batch touch."""
+    step = sheets.level // sheets.height
+    if tier == "fast":
+        halves = (np.flatnonzero(step % 2 == parity) for parity in range(2))
+        return [half for half in halves if len(half)]
+    if sheets.height == PLATES_PER_BRICK:
+        return list(np.arange(len(sheets))[:, None])
+    count = np.bincount(found.corner[:, 2], minlength=len(sheets))
+    batches = []
+    for phase in range(_PHASES):
+        which = np.flatnonzero(step % _PHASES == phase)
+        group = np.cumsum(count[which]) // _BATCH
+        batches += [which[group == number] for number in np.unique(group)]
+    return batches
+
+
+def _laid(
+    problem: Problem, owner: Rows, first: int, tier: Tier, learned: bool, rng: np.random.Generator
+) -> Bricks:
+    """Lay sheets that do not touch; write the numbers of their bricks, from `first`, into `owner`."""
+    sheets = problem.sheets
+    chosen = fewer_small(problem, _COVERS[tier](problem, rng), rng)
+    if tier == "fast" and learned:
+        chosen = improved(problem, chosen, rng)
     covering = problem.owner(chosen)
     _check_covered(sheets, problem.must & (covering == NOBODY))
     here = np.full(sheets.colour.shape, NOBODY, dtype=np.int32)
-    here.reshape(-1)[sheets.cells] = covering
+    here.reshape(-1)[sheets.cells] = np.where(covering == NOBODY, NOBODY, first + covering)
     # bricks and plates of a layer share its planes
     for plate in range(1, sheets.height + 1):
         planes = owner[sheets.level + plate]

@@ -92,6 +92,30 @@ class Placements:
             key=self.key[rows],
         )
 
+    def on(self, which: Index, n_cells: Index) -> Placements:
+        """Return the placements on some of the sheets, whose cells are numbered anew.
+
+        Parameters
+        ----------
+        which : (k,) intp array
+            Numbers of the sheets, ascending.
+        n_cells : (n_sheets,) intp array
+            Number of cells of each sheet.
+
+        Returns
+        -------
+        Placements
+            As if listed for these sheets alone.
+        """
+        number = np.full(len(n_cells), -1, dtype=np.int64)
+        number[which] = np.arange(len(which))
+        part = self.take(np.flatnonzero(number[self.corner[:, 2]] >= 0))
+        sheet = part.corner[:, 2]
+        gone = np.cumsum(np.where(number < 0, n_cells, 0))[sheet]
+        corner = np.column_stack([part.corner[:, :2], number[sheet]]).astype(np.int32)
+        key = part.key + ((number[sheet] - sheet) << _SHEET_BITS)
+        return Placements(part.shape, corner, part.colour, part.cells - np.repeat(gone, part.size), part.start, key)
+
     def find(self, shape: Whole, corner: Whole) -> Index:
         """Look placements up.
 

@@ -21,7 +21,7 @@ GROUND: Final = NOBODY - 1
 
 _SINGLE: Final = 1.0
 _HANGING: Final = 2.0
-_BRIDGE: Final = 0.12
+BRIDGE: Final = 0.12
 _OPTIONAL: Final = 0.004
 """What a placement costs besides itself, in bricks: being a 1 x 1; having nothing
 below and nothing above; each seam of the layers below and above that it lies
@@ -81,7 +81,7 @@ def with_margins(cells: NDArray[Cell], fill: Any) -> NDArray[Cell]:
     return np.pad(cells.reshape(-1, *cells.shape[2:]), ((1, 1), (0, 0), (0, 0)), constant_values=fill)
 
 
-def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Mask) -> Problem:
+def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Mask, bridge: float = BRIDGE) -> Problem:
     """Put costs on the placements on some sheets.
 
     Parameters
@@ -97,6 +97,8 @@ def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Ma
         below the lowest plate, the last one above the highest.
     must : (n_plates + 2, n_y, n_x) bool array
         Cells of the model that have to be covered.
+    bridge : float
+        What lying across a seam saves, in bricks.
 
     Returns
     -------
@@ -115,7 +117,7 @@ def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Ma
         + _SINGLE * (found.size == 1)
         + _HANGING * (found.totals(held) == 0)
         + _OPTIONAL * found.totals(~needed)
-        - _BRIDGE * _bridged(found, among, _seams(owner[around])[:, cells])
+        - bridge * _bridged(found, among, _seams(owner[around])[:, cells])
     )
     sheet, y, x = np.unravel_index(cells, sheets.colour.shape)
     return Problem(sheets, among, found, needed, np.stack([x, y, sheet], axis=1), cost)

@@ -46,6 +46,9 @@ class Shapes:
         (row 0) and along y (row 1) belongs to the same shape.
     pattern : (n_shapes,) uint64 array
         Cells of each shape as bits (see :func:`pattern_bits`).
+    within : (n_most, 3, n_shapes) intp array
+        The largest other shapes inside each shape: row, and where the corner
+        lies, x and y; rows of -1 where a shape has fewer than others.
     codes : (n_codes,) int16 array
         LDraw codes of the grid, ascending.
     made : (n_shapes, n_codes + 1) bool array
@@ -62,6 +65,7 @@ class Shapes:
     extent: Index
     inner: Mask
     pattern: NDArray[np.uint64]
+    within: Index
     codes: Plane
     made: Mask
     hidden: Plane
@@ -102,14 +106,17 @@ def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shap
     # argmax finds the first colour in which a part is made
     anywhere = catalogue.exists[part]
     in_filler = catalogue.exists_in(part, filler)
+    extent = np.array([covered.max(axis=0) + 1 for covered in cells], dtype=np.intp)
+    pattern = np.array([pattern_bits(*covered.T).sum(dtype=np.uint64) for covered in cells])
     return Shapes(
         part=part,
         turn=np.array([turn for _, turn in oriented], dtype=np.uint8),
         cells=cells,
         size=np.array([len(covered) for covered in cells], dtype=np.intp),
-        extent=np.array([covered.max(axis=0) + 1 for covered in cells], dtype=np.intp),
+        extent=extent,
         inner=np.concatenate([_inner_edges(covered) for covered in cells], axis=1),
-        pattern=np.array([pattern_bits(*covered.T).sum(dtype=np.uint64) for covered in cells]),
+        pattern=pattern,
+        within=_parts_within(extent, pattern),
         codes=codes,
         made=np.column_stack([made, anywhere.any(axis=1)]),
         hidden=np.where(in_filler, np.int16(filler), catalogue.codes[anywhere.argmax(axis=1)]),
@@ -138,3 +145,25 @@ def pattern_bits(x: Whole, y: Whole) -> NDArray[np.uint64]:
         One bit each.
     """
     return np.uint64(1) << (x + _PATTERN_SIDE * y).astype(np.uint64)
+
+
+def _parts_within(extent: Index, pattern: NDArray[np.uint64]) -> Index:
+    """List the largest other shapes inside each shape (see ``Shapes.within``)."""
+    shape, x, y = (each.ravel() for each in np.indices((len(extent), _PATTERN_SIDE, _PATTERN_SIDE)))
+    fits = (extent[shape] + np.stack([x, y], axis=1) <= _PATTERN_SIDE).all(axis=1)
+    shape, x, y = shape[fits], x[fits], y[fits]
+    moved = pattern[shape] << (x + _PATTERN_SIDE * y).astype(np.uint64)
+    largest = [_largest(moved, outer) for outer in pattern]
+    table = np.full((max(map(len, largest)), 3, len(largest)), -1, dtype=np.intp)
+    for row, each in enumerate(largest):
+        table[: len(each), :, row] = np.stack([shape[each], x[each], y[each]], axis=1)
+    return table
+
+
+def _largest(patterns: NDArray[np.uint64], outer: np.uint64) -> Index:
+    """Return the patterns truly inside another one and inside no other such."""
+    within = np.flatnonzero(((patterns & ~outer) == 0) & (patterns != outer))
+    inner = patterns[within]
+    covered = ((inner[:, None] & ~inner) == 0) & (inner[:, None] != inner)
+    largest: Index = within[~covered.any(axis=1)]
+    return largest

@@ -53,7 +53,13 @@ class Sheets:
         """Flat indices of the cells in the arrays, by number, shape (n_cells,)."""
         return np.flatnonzero(self.colour != COLOUR_EMPTY)
 
-    def take(self, which: Mask | slice) -> Sheets:
+    @property
+    def n_cells(self) -> Index:
+        """Number of cells of each sheet, shape (n_sheets,)."""
+        n_cells: Index = (self.colour != COLOUR_EMPTY).sum(axis=(1, 2))
+        return n_cells
+
+    def take(self, which: Mask | Index | slice) -> Sheets:
         """Return some of the sheets."""
         return Sheets(self.height, self.level[which], self.colour[which], self.must[which], self.role[which])
 

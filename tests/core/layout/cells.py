@@ -6,9 +6,15 @@ import numpy as np
 
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.connection import NOBODY, connect
-from legorize_addon.core.model import COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.layout.placements import placements
+from legorize_addon.core.layout.problem import GROUND, pose, with_margins
+from legorize_addon.core.layout.shapes import shapes
+from legorize_addon.core.layout.sheets import split
+from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid
 
 CATALOGUE = load_catalogue()
+
+RED, WHITE = 4, 15
 
 
 def grid_of(colour, cover=None, role=None):
@@ -25,6 +31,17 @@ def brick_grid(colour, cover=None):
     return grid_of(
         *(None if each is None else np.repeat(np.asarray(each)[:, None], 3, axis=1) for each in (colour, cover))
     )
+
+
+def problem_of(colour, cover=None, owner=None):
+    """Return the problem of a single sheet of bricks on the ground, or on given owners below it."""
+    grid = brick_grid(np.asarray(colour)[None], None if cover is None else np.asarray(cover)[None])
+    (sheets,) = split(grid)
+    among = shapes(CATALOGUE, 3, np.unique(grid.colour[grid.colour >= 0]), 71)
+    must = with_margins(grid.cover == Cover.MUST, False)
+    owners = np.full(must.shape, NOBODY, np.int32)
+    owners[0] = GROUND if owner is None else owner
+    return pose(sheets, among, placements(sheets, among), owners, must)
 
 
 def planes(cells):
@@ -47,3 +64,33 @@ def assert_covers(bricks, grid, catalogue=CATALOGUE):
     np.testing.assert_array_equal(bricks.colour[owner[fixed]], colour[fixed])
     assert catalogue.exists_in(bricks.part, bricks.colour).all()
     return links
+
+
+def random_sheet(seed, shape=(8, 9)):
+    """Return colours and cover of a sheet at random, in two colours and any, some cells optional."""
+    rng = np.random.default_rng(seed)
+    colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, COLOUR_ANY, RED, RED, WHITE], shape)
+    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST], shape))
+    cover[0, 0], colour[0, 0] = Cover.MUST, RED
+    return colour, cover
+
+
+def disc(radius):
+    """Return the colours of a round sheet."""
+    y, x = np.indices((2 * radius + 1, 2 * radius + 1)) - radius
+    return np.where(x**2 + y**2 <= (radius + 0.3) ** 2, RED, COLOUR_EMPTY)
+
+
+def ring(side):
+    """Return the colours of a square ring two cells wide, in two colours."""
+    colour = np.full((side, side), RED)
+    colour[: side // 3] = WHITE
+    colour[2:-2, 2:-2] = COLOUR_EMPTY
+    return colour
+
+
+def assert_covered_once(problem, rows):
+    """Assert that placements cover the must cells of a problem once, the others at most once."""
+    times = np.bincount(problem.placements.cells[problem.placements.entries(rows)], minlength=len(problem.must))
+    assert times.max() == 1
+    assert (times[problem.must] == 1).all()

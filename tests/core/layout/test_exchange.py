@@ -10,7 +10,7 @@ from legorize_addon.core.layout.exchange import exchange, fewer_small
 from legorize_addon.core.layout.greedy import cover
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Cover
 
-from .test_greedy import RED, WHITE, problem_of
+from .cells import RED, WHITE, problem_of
 
 
 def rows_at(problem, *bricks):

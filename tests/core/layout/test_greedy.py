@@ -9,26 +9,9 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.connection import NOBODY
 from legorize_addon.core.layout.greedy import cover
-from legorize_addon.core.layout.placements import placements
-from legorize_addon.core.layout.problem import GROUND, pose, with_margins
-from legorize_addon.core.layout.shapes import shapes
-from legorize_addon.core.layout.sheets import split
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Cover
 
-from .cells import CATALOGUE, brick_grid
-
-RED, WHITE = 4, 15
-
-
-def problem_of(colour, cover_=None, owner=None):
-    """Return the problem of a single sheet of bricks on the ground, or on given owners below it."""
-    grid = brick_grid(np.asarray(colour)[None], None if cover_ is None else np.asarray(cover_)[None])
-    (sheets,) = split(grid)
-    among = shapes(CATALOGUE, 3, np.unique(grid.colour[grid.colour >= 0]), 71)
-    must = with_margins(grid.cover == Cover.MUST, False)
-    owners = np.full(must.shape, NOBODY, np.int32)
-    owners[0] = GROUND if owner is None else owner
-    return pose(sheets, among, placements(sheets, among), owners, must)
+from .cells import RED, assert_covered_once, problem_of, random_sheet
 
 
 def laid(problem, seed=0):
@@ -41,16 +24,11 @@ def laid(problem, seed=0):
 @settings(max_examples=40)
 def test_must_cells_once_and_others_at_most_once(seed):
     """No two bricks overlap, every must cell is covered, and nothing more could be laid."""
-    rng = np.random.default_rng(seed)
-    colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, COLOUR_ANY, RED, RED, WHITE], (8, 9))
-    wanted = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST], (8, 9)))
-    wanted[0, 0], colour[0, 0] = Cover.MUST, RED
-    problem = problem_of(colour, wanted)
-    _, cells = laid(problem)
-    times = np.bincount(cells, minlength=len(problem.must))
-    assert times.max() == 1
-    assert (times[problem.must] == 1).all()
-    assert (problem.placements.totals(times > 0) > 0).all()
+    problem = problem_of(*random_sheet(seed))
+    rows, _ = laid(problem)
+    assert_covered_once(problem, rows)
+    times = problem.owner(rows) != NOBODY
+    assert (problem.placements.totals(times) > 0).all()
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,12 +12,13 @@ from hypothesis import strategies as st
 from legorize_addon.core.catalogue import Catalogue
 from legorize_addon.core.errors import BuildError, Cancelled
 from legorize_addon.core.hollowing import hollow
-from legorize_addon.core.layout import lay
+from legorize_addon.core.layout import Tier, lay
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Bricks, Cover, Role
 
 from .cells import CATALOGUE, assert_covers, brick_grid, grid_of
 
 RED, WHITE, BLUE, SAND_GREEN = 4, 15, 1, 378
+TIERS = get_args(Tier)
 
 
 def laid(grid, seed=0, **options):
@@ -38,37 +41,39 @@ def random_grid(seed, plates):
     return grid_of(*(np.broadcast_to(each, (3, 3, 7, 8)) for each in (colour, cover)))
 
 
-@given(st.integers(0, 2**32 - 1), st.booleans())
-@settings(max_examples=40)
-def test_what_every_layout_keeps(seed, plates):
+@given(st.integers(0, 2**32 - 1), st.booleans(), st.sampled_from(TIERS))
+@settings(max_examples=25, deadline=None)
+def test_what_every_layout_keeps(seed, plates, tier):
     """Must cells once, may cells at most once, empty ones never; colours kept; parts exist; nothing overlaps."""
     grid = random_grid(seed, plates)
-    bricks = laid(grid)
+    bricks = laid(grid, tier=tier)
     assert_covers(bricks, grid)
     assert (bricks.step == bricks.corner[:, 2] // 3).all()
     assert (np.diff(bricks.corner[:, 2]) >= 0).all()
     assert (bricks.piece == 0).all()
 
 
-@given(st.integers(0, 2**32 - 1), st.integers(0, 5))
-@settings(max_examples=10)
-def test_same_seed_same_model(seed, run):
+@given(st.integers(0, 2**32 - 1), st.integers(0, 5), st.sampled_from(TIERS))
+@settings(max_examples=6, deadline=None)
+def test_same_seed_same_model(seed, run, tier):
     """The same grid and state of the generator give the same table."""
     grid = random_grid(seed, plates=True)
-    assert rows(laid(grid, run)) == rows(laid(grid, run))
+    assert rows(laid(grid, run, tier=tier)) == rows(laid(grid, run, tier=tier))
 
 
-def test_a_hollow_box_hangs_together():
+@pytest.mark.parametrize("tier", TIERS)
+def test_a_hollow_box_hangs_together(tier):
     """Walls, floor and roof of a hollow box are one component: no brick of the wide roof floats."""
     grid = hollow(brick_grid(np.full((8, 24, 24), COLOUR_ANY)), shell=1)
-    links = assert_covers(laid(grid), grid)
+    links = assert_covers(laid(grid, tier=tier), grid)
     assert links.n_floating == 0
     assert links.n_components == 1
 
 
-def test_a_wall_is_bonded():
+@pytest.mark.parametrize("tier", TIERS)
+def test_a_wall_is_bonded(tier):
     """Most joints of a wall lie over the middle of a brick, not over a joint of the layer below."""
-    bricks = laid(brick_grid(np.full((10, 1, 60), RED)))
+    bricks = laid(brick_grid(np.full((10, 1, 60), RED)), tier=tier)
     links = assert_covers(bricks, brick_grid(np.full((10, 1, 60), RED)))
     layers = links.owner[::3, 0]
     seams = layers[:, 1:] != layers[:, :-1]

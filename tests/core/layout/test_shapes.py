@@ -52,3 +52,17 @@ def test_hidden_parts_take_the_filler_or_what_there_is():
         made = CATALOGUE.exists_in(among.part, filler)
         assert (among.hidden[made] == filler).all()
     assert not made.all()
+
+
+def test_parts_within_are_the_largest_parts_inside():
+    """Each inner part lies inside its outer one, none inside another inner one; a single stud has none."""
+    among = shapes(CATALOGUE, 3, np.array([4], np.int16), 71)
+    cells = [set(map(tuple, each.tolist())) for each in among.cells]
+    inner = [
+        [{(a + x, b + y) for a, b in cells[part]} for part, x, y in among.within[:, :, row] if part >= 0]
+        for row in range(len(cells))
+    ]
+    for outer, parts in zip(cells, inner, strict=True):
+        assert (len(parts) == 0) == (len(outer) == 1)
+        assert all(part < outer for part in parts)
+        assert not any(one < other for one in parts for other in parts)
