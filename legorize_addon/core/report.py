@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from .catalogue import Catalogue
 from .connection import NOBODY, Connection
 from .joints import brick_columns
+from .layout import bound
 from .ldraw import ldraw_matrix
 from .marking import Marks
 from .mesh import Repairs, TriangleMesh
@@ -143,6 +144,7 @@ def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         "counts": _counts(build, catalogue, parts),
         "mass_g": round(float(masses(parts, catalogue).sum()), 2),
         "hollow_ratio": round(1 - _filled(build) / int(build.grid.solid.sum()), 4),
+        "layout": _layout(build, catalogue),
         "connection": _connection(build.connection),
         "stability": _stability(build),
         "unavailable_part_colours": _pairs(not_made(parts, catalogue), catalogue),
@@ -251,6 +253,20 @@ def _connection(connection: Connection) -> dict[str, int]:
         "components": connection.n_components,
         "floating": connection.n_floating,
         "collisions": connection.collisions,
+    }
+
+
+def _layout(build: Built, catalogue: Catalogue) -> dict[str, Any]:
+    """Return how near the number of bricks is to the proven bound.
+
+    The bound holds for every layout of the same cells and colours, with the same
+    columns laid in bricks and in plates.
+    """
+    fewest = bound(build.hollow, catalogue)
+    return {
+        "tier": build.settings.layout,
+        "fewest_possible": fewest,
+        "at_most_more_percent": round(100 * (len(build.bricks) / max(fewest, 1) - 1), 2),
     }
 
 

@@ -223,3 +223,12 @@ def test_verdict_is_told_with_its_proof(described):
     assert told["proof_confirmed"] is True
     assert told["components"] == described["connection"]["components"]
     assert told["worst_margin"] <= 1
+
+
+def test_bound_is_told(described):
+    """No layout has fewer bricks than the bound, and the report says how many more ours may have at most."""
+    told = described["layout"]
+    assert told["tier"] == "standard"
+    assert told["fewest_possible"] >= 1
+    bricks = described["counts"]["bricks"]
+    assert told["at_most_more_percent"] == pytest.approx(100 * (bricks / told["fewest_possible"] - 1), abs=0.01)
