@@ -292,14 +292,24 @@ def _standing(
     filler, tried = _filler(palette, catalogue), []
     for reach in (*_THICKER, None):
         with stage("layout"):
-            bricks = lay(shell, catalogue, rng=rng, tier=settings.layout, learned=settings.learned, filler=filler, progress=progress)
+            bricks = lay(
+                shell,
+                catalogue,
+                rng=rng,
+                tier=settings.layout,
+                learned=settings.learned,
+                filler=filler,
+                progress=progress,
+            )
             connection = connect(bricks, catalogue)
         with stage("stability"):
             found = stability(bricks, catalogue, connection, hold=settings.hold, progress=progress)
         tried.append((shell, bricks, connection, found))
-        if reach is None or found.standing is not Verdict.COLLAPSES or len(found.torn) == 0:
+        # what hangs in the air falls whatever the walls
+        torn = found.torn if found.standing is Verdict.COLLAPSES and not connection.n_floating else found.torn[:0]
+        if reach is None or len(torn) == 0:
             break
-        weak = np.unique(found.torn[found.torn != NOBODY])
+        weak = np.unique(torn[torn != NOBODY])
         shell = thickened(shell, grid, bricks, catalogue, weak=weak, reach=reach)
     return min(tried, key=_failing)
 

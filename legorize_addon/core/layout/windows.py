@@ -41,8 +41,8 @@ _CUTS: Final = 12
 _CONTACTS: Final = 6
 """Most places tried for one loose component."""
 
-_TRIES: Final = 60
-"""Most windows in all."""
+_TRIES: Final = (60, 150_000)
+"""Most windows in all, and most bricks looked at in all of them together."""
 
 
 def join_by_windows(
@@ -75,13 +75,14 @@ def join_by_windows(
     touching = Touching.of(grid.solid)
     tried: set[tuple[int, ...]] = set()
     links = connect(bricks, catalogue)
-    for number in range(_TRIES):
+    tries = min(_TRIES[0], _TRIES[1] // len(bricks))
+    for number in range(tries):
         if links.n_components <= 1:
             break
         place = next((each for each in _contacts(links, grid, touching) if each not in tried), None)
         if place is None:
             break
-        progress("connection", number / _TRIES)
+        progress("connection", number / tries)
         tried.add(place)
         for sheets, among in work:
             relaid = _relaid(bricks, links, sheets, among, place, must, catalogue)
