@@ -289,18 +289,10 @@ def _standing(
     progress: Progress,
 ) -> tuple[UnitGrid, Bricks, Connection, Stability]:
     """Lay the bricks and test them by force; where they collapse, thicken the walls there and lay again."""
-    filler, tried = _filler(palette, catalogue), []
+    relay, tried = partial(lay, catalogue=catalogue, rng=rng, filler=_filler(palette, catalogue), progress=progress), []
     for reach in (*_THICKER, None):
         with stage("layout"):
-            bricks = lay(
-                shell,
-                catalogue,
-                rng=rng,
-                tier=settings.layout,
-                learned=settings.learned,
-                filler=filler,
-                progress=progress,
-            )
+            bricks = relay(shell, tier=settings.layout, learned=settings.learned)
             connection = connect(bricks, catalogue)
         with stage("stability"):
             found = stability(bricks, catalogue, connection, hold=settings.hold, progress=progress)

@@ -15,6 +15,8 @@
 ``exact``           the exact tier: branch and bound for what the programmes leave open
 ``bound``           how few bricks there could be: a proven lower bound
 ``exchange``        fewer small bricks by exchanging a few against others
+``svm``             which exchanges the fast tier tries: learned from samples
+``svm_training``    the samples and the training
 ``table``           what lies on a sheet; the table of all bricks
 ``repair``          joins components that float
 ``layers``          all sheets in the order of the tier: :func:`lay`

@@ -146,9 +146,7 @@ def _order(sheets: Sheets, found: Placements, tier: Tier) -> list[Index]:
     return batches
 
 
-def _laid(
-    problem: Problem, owner: Rows, first: int, tier: Tier, learned: bool, rng: np.random.Generator
-) -> Bricks:
+def _laid(problem: Problem, owner: Rows, first: int, tier: Tier, learned: bool, rng: np.random.Generator) -> Bricks:
     """Lay sheets that do not touch; write the numbers of their bricks, from `first`, into `owner`."""
     sheets = problem.sheets
     chosen = fewer_small(problem, _COVERS[tier](problem, rng), rng)
