@@ -18,7 +18,9 @@
 ``svm``             which exchanges the fast tier tries: learned from samples
 ``svm_training``    the samples and the training
 ``table``           what lies on a sheet; the table of all bricks
-``repair``          joins components that float
+``repair``          joins components that float, by exchanges
+``windows``         joins what is left of them, by small windows laid anew
+``features``        the paper's four energies of a layer
 ``layers``          all sheets in the order of the tier: :func:`lay`
 ==================  =====================================================================
 """
