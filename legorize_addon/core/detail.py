@@ -25,8 +25,8 @@ from .cell_colours import Ballot, Codes
 from .model import COLOUR_ANY, COLOUR_EMPTY, Floats, Mask
 from .units import PLATES_PER_BRICK
 
-_CLEAR: Final = 30.0
-"""CIEDE2000 between colours that nobody takes for each other, such as blue and green."""
+_CLEAR: Final = 22.0
+"""CIEDE2000 from which on a border between two colours is clear to everybody."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,8 +39,8 @@ class Detail:
         Layers that were sliced plate by plate; in others every cell is a brick.
     least_gain : float
         Error that plates must save: in volume as a share of a brick, in colour
-        as the share of its faces times the difference as a share of that between
-        blue and green. 0 keeps all plates that differ from a brick.
+        as the share of its faces times the difference as a share of a clear one.
+        0 keeps all plates that differ from a brick.
     """
 
     marked: Mask

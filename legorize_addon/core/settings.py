@@ -78,8 +78,8 @@ class Settings:
         "pays", "Where plates may lie instead of bricks: nowhere, where they pay, or wherever the surface cuts "
         "through a brick.", group="Detail")
     plate_gain: float = setting(
-        0.2, "Error that plates must save to pay: a share of a brick's volume, or of the difference between blue "
-        "and green on its faces.", group="Detail", low=0.0, high=1.0)
+        0.2, "Error that plates must save to pay: a share of a brick's volume, or of a clear difference in colour on "
+        "its faces.", group="Detail", low=0.0, high=1.0)
     layer_difference: float = setting(
         0.1, "Share by which trajectories of neighbouring layers may differ in length or area before their layers are "
         "sliced plate by plate.", group="Detail", low=0.0, high=1.0)

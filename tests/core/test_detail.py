@@ -117,7 +117,7 @@ def coloured(colour, votes, gain, marked=MARKED, difference=60.0) -> list[int]:
 def test_colour_border_inside_a_brick():
     """A red plate on two blue ones stays if the third that errs differs by enough, else the brick turns blue."""
     votes = [[1, 0], [1, 0], [0, 1]]
-    share = 60 / 30 / 3
+    share = 60 / 22 / 3
     assert coloured([BLUE, BLUE, RED], votes, share * 0.99) == [BLUE, BLUE, RED]
     assert coloured([BLUE, BLUE, RED], votes, share * 1.01) == [BLUE] * 3
     assert coloured([BLUE, BLUE, RED], votes, 0.0, PLAIN) == [BLUE] * 3
