@@ -115,7 +115,8 @@ def test_every_kind_of_file(kind: str, script: ModuleType, tmp_path: Path) -> No
         catalogue = load_catalogue()
         bricks = read_ldr((tmp_path / "out" / "model.ldr").read_text(), catalogue)
         assert set(facts["counts"]["by_colour"]) == {str(RED), str(WHITE)}
-        assert np.ptp(bricks.corner[bricks.colour == RED, 2]) == 2 * 3
+        # half of the face on top of one white brick is red: rounding decides about a plate there
+        assert np.ptp(bricks.corner[bricks.colour == RED, 2]) in (2 * 3, 2 * 3 + 2)
         place = bricks.corner[bricks.colour == WHITE] - bricks.corner.min(axis=0)
         assert place.min(axis=0).tolist() == [2, 1, 2 * 3]
 
