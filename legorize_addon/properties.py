@@ -174,10 +174,12 @@ def _role_property(role: Role) -> Any:
     """Return the Blender property that shows or hides a role."""
 
     def is_shown(self: bpy.types.PropertyGroup) -> bool:
+        """Return whether the current build shows the role."""
         build = current_build(self.id_data)
         return bool(build) and roles_shown(build).get(role, False)
 
     def show(self: bpy.types.PropertyGroup, visible: bool) -> None:
+        """Show or hide the role in the current build."""
         build = current_build(self.id_data)
         if build and role in roles_shown(build):
             show_role(build, role, visible=visible)

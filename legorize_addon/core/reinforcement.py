@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from scipy import ndimage
 
-from .joints import brick_columns, every_plate
+from .joints import agree, brick_columns, every_plate
 from .model import COLOUR_ANY, Cover, Mask, Role, UnitGrid
 from .units import PLATES_PER_BRICK
 
@@ -98,9 +98,9 @@ def _unheld(present: Mask, held: Mask, colour: np.ndarray) -> Mask:
         step = reached.copy()
         for axis in (1, 2):
             low, high = _pair(axis)
-            agree = (colour[low] == colour[high]) | (colour[low] == COLOUR_ANY) | (colour[high] == COLOUR_ANY)
-            step[low] |= reached[high] & agree
-            step[high] |= reached[low] & agree
+            same = agree(colour[low], colour[high])
+            step[low] |= reached[high] & same
+            step[high] |= reached[low] & same
         reached = step & present
     around = ndimage.binary_dilation(present & ~reached, np.ones((1, 3, 3), dtype=bool), iterations=_OVERLAP)
     unheld: Mask = around & present

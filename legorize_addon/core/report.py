@@ -9,6 +9,7 @@ from typing import Any, Final, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from .bodies import free_bodies
 from .catalogue import Catalogue
 from .connection import NOBODY, Connection
 from .joints import brick_columns
@@ -145,6 +146,7 @@ def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         "mass_g": round(float(masses(parts, catalogue).sum()), 2),
         "hollow_ratio": round(1 - _filled(build) / int(build.grid.solid.sum()), 4),
         "layout": _layout(build, catalogue),
+        "bodies": free_bodies(build.hollow),
         "connection": _connection(build.connection),
         "stability": _stability(build),
         "unavailable_part_colours": _pairs(not_made(parts, catalogue), catalogue),

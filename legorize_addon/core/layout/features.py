@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..connection import NOBODY
-from ..model import COLOUR_ANY, Floats, Mask
+from ..joints import agree
+from ..model import Floats, Mask
 from .shapes import Index, Rows
 
 LARGEST: Final = 16
@@ -54,8 +55,8 @@ def minimum_unit_connection(owner: Rows, colour: NDArray[np.int16]) -> float:
     paired = np.zeros(len(colour), dtype=bool)
     for step in _DIAGONAL:
         here, there = _pairs(owner, step)
-        agree = (colour[here] == colour[there]) | (colour[here] == COLOUR_ANY) | (colour[there] == COLOUR_ANY)
-        paired[here[(size[here] == 1) & (size[there] == 1) & agree]] = True
+        single = (size[here] == 1) & (size[there] == 1)
+        paired[here[single & agree(colour[here], colour[there])]] = True
     return _mean(paired)
 
 
