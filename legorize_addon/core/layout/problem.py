@@ -8,7 +8,7 @@ from typing import Any, Final, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..connection import NOBODY
+from ..connection import NOBODY, Connection
 from ..model import Floats, Mask
 from .placements import Placements, segment_sums
 from .shapes import Index, Rows, Shapes
@@ -79,6 +79,27 @@ def with_margins(cells: NDArray[Cell], fill: Any) -> NDArray[Cell]:
         Plate z is plane z + 1: every cell has something under and over it.
     """
     return np.pad(cells.reshape(-1, *cells.shape[2:]), ((1, 1), (0, 0), (0, 0)), constant_values=fill)
+
+
+def owners(links: Connection, shape: tuple[int, ...]) -> Rows:
+    """Return the brick in each cell of a model, with the planes of :func:`with_margins`.
+
+    Parameters
+    ----------
+    links : Connection
+        The bricks as cells.
+    shape : tuple of int
+        (n_plates + 2, n_y, n_x).
+
+    Returns
+    -------
+    shape int32 array
+        ``NOBODY`` where there is none.
+    """
+    owner = np.full(shape, NOBODY, dtype=np.int32)
+    n_z, n_y, n_x = links.owner.shape
+    owner[1 : n_z + 1, :n_y, :n_x] = links.owner
+    return owner
 
 
 def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Mask, bridge: float = BRIDGE) -> Problem:

@@ -24,7 +24,7 @@ from ..model import COLOUR_ANY, COLOUR_EMPTY, Bricks, Cover, Floats, Mask, UnitG
 from ..progress import Progress
 from .exchange import exchange
 from .placements import Placements, placements
-from .problem import GROUND, pose, with_margins
+from .problem import GROUND, owners, pose, with_margins
 from .shapes import Index, Plane, Rows, Shapes
 from .sheets import Sheets
 from .table import bricks_of, gathered
@@ -165,9 +165,7 @@ class _Cells:
     @classmethod
     def of(cls, links: Connection, must: Mask, island: Rows) -> _Cells:
         """Label the cells of a model, given the islands that it consists of."""
-        n_z, n_y, n_x = links.owner.shape
-        owner = np.full(must.shape, NOBODY, dtype=np.int32)
-        owner[1 : n_z + 1, :n_y, :n_x] = links.owner
+        owner = owners(links, must.shape)
         built = owner != NOBODY
         home = np.zeros(len(links.component), dtype=np.int32)
         home[owner[built]] = island[built]

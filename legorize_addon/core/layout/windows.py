@@ -24,7 +24,7 @@ from ..joints import Touching, agree, brick_columns, every_plate
 from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Ints, Mask, UnitGrid
 from ..progress import Progress
 from .placements import Placements, placements
-from .problem import GROUND, Problem, pose, with_margins
+from .problem import GROUND, Problem, owners, pose, with_margins
 from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
 from .table import bricks_of, gathered
@@ -142,7 +142,8 @@ def _relaid(
     kept = bricks.take(np.delete(np.arange(len(bricks)), out))
     left = connect(kept, catalogue)
     window = _window(sheet, plane, out, box)
-    owner = _owners(left, must.shape, low=int((must.any(axis=(1, 2))).argmax()))
+    owner = owners(left, must.shape)
+    owner[: must.any(axis=(1, 2)).argmax()] = GROUND
     problem = pose(window, among, placements(window, among), owner, must)
     labels = np.append(left.component, [-1, -1])[owner[[base, base + sheet.height + 1]]].reshape(2, -1)[:, window.cells]
     touches, known = _touches(problem.placements, labels)
@@ -167,15 +168,6 @@ def _window(sheet: Sheets, plane: Rows, out: Ints, box: tuple[slice, slice]) -> 
         colour=np.where(inside, sheet.colour, np.int16(COLOUR_EMPTY)),
         must=sheet.must & inside,
     )
-
-
-def _owners(links: Connection, shape: tuple[int, ...], low: int) -> Rows:
-    """Return the owners of all cells, (n_plates + 2, n_y, n_x), with the ground below the lowest plate."""
-    owner = np.full(shape, NOBODY, dtype=np.int32)
-    n_z, n_y, n_x = links.owner.shape
-    owner[1 : n_z + 1, :n_y, :n_x] = links.owner
-    owner[:low] = GROUND
-    return owner
 
 
 def _touches(found: Placements, labels: Rows) -> tuple[csr_array, Ints]:
