@@ -29,25 +29,33 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import Field, fields, replace
 from pathlib import Path
-from typing import Any, Final, NoReturn
+from typing import Any, Final, NamedTuple, NoReturn
 
 import bpy
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 try:
+    from legorize_addon.contact_sheet import render_contact_sheet
     from legorize_addon.core import ldraw, shopping
+    from legorize_addon.core.build import Build
+    from legorize_addon.core.building.order_file import build_order_csv
     from legorize_addon.core.catalogue import Catalogue, load_catalogue
     from legorize_addon.core.errors import BuildError, LegorizeError, MeshError, SettingsError
-    from legorize_addon.core.pipeline import Build, legorize
+    from legorize_addon.core.ldraw_document import write_mpd
+    from legorize_addon.core.model import Role
+    from legorize_addon.core.pipeline import legorize
     from legorize_addon.core.report import report
     from legorize_addon.core.settings import Settings, choices, setting_type
     from legorize_addon.core.units import MM_PER_METRE
+    from legorize_addon.heat_map import show_heat_map
     from legorize_addon.read_mesh import read_objects
     from legorize_addon.render import render_still
-    from legorize_addon.scene import builds, clear_build, show_build
+    from legorize_addon.result import show_result
+    from legorize_addon.scene import builds, clear_build
     from legorize_addon.section import AXES, Section
-    from legorize_addon.view import cut_away
+    from legorize_addon.steps import explode
+    from legorize_addon.view import cut_away, roles_shown, show_role
 except ModuleNotFoundError as missing:
     print(f"Legorize needs the Python package {missing.name}: install its extension, or the packages.", file=sys.stderr)
     sys.exit(1)
@@ -55,7 +63,34 @@ except ModuleNotFoundError as missing:
 SIZES: Final = ("size_by", "width", "height", "scale")
 """Settings that exclude each other; each of the last three also chooses itself in the first."""
 
+IN_PICTURE: Final = ("section", "outlines", "heat_map", "explode", "show_supports")
+"""Flags that change the picture alone."""
+
+MOST_PICTURES: Final = 400
+"""On a contact sheet."""
+
 SHAPELESS: Final = ("CAMERA", "LIGHT", "LIGHT_PROBE", "SPEAKER")
+
+
+class Wanted(NamedTuple):
+    """What is shown in the scene and written of it, by the flags of the same names."""
+
+    render: bool
+    section: Section | None
+    outlines: bool
+    heat_map: bool
+    explode: float
+    show_supports: bool
+    contact_sheet: int
+    save_blend: bool
+
+    def check(self) -> None:
+        """Refuse flags without effect."""
+        for name in IN_PICTURE:
+            drawn = self.render or (name == "outlines" and self.contact_sheet)
+            if getattr(self, name) and not drawn:
+                flag = name.replace("_", "-")
+                raise SettingsError(f"--{flag} is only to be seen in the picture: add --render, or leave it out.")
 
 
 class Parser(argparse.ArgumentParser):
@@ -71,10 +106,9 @@ def main(arguments: Sequence[str]) -> int:
     try:
         options = vars(parser().parse_args(arguments))
         source, out = options.pop("source"), options.pop("out")
-        wanted = {name: options.pop(name) for name in ("render", "save_blend", "section")}
-        if wanted["section"] and not wanted["render"]:
-            raise SettingsError("A section is only to be seen in the picture: add --render, or leave --section out.")
-        return run(source, out, settings_of(options), **wanted)
+        wanted = Wanted(**{name: options.pop(name) for name in Wanted._fields})
+        wanted.check()
+        return run(source, out, settings_of(options), wanted)
     except LegorizeError as error:
         print(error, file=sys.stderr)
         return 1
@@ -85,17 +119,39 @@ def parser() -> Parser:
     made = Parser(prog="legorize.py", description="Turn a textured mesh into a brick model.", allow_abbrev=False)
     made.add_argument("source", metavar="IN", type=Path, help="file with the mesh")
     made.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the results")
+    add_pictures(made)
+    made.add_argument("--save-blend", action="store_true", help="write the scene with the bricks, build.blend")
+    sizes = made.add_mutually_exclusive_group()
+    for entry in fields(Settings):
+        add_flag(sizes if entry.name in SIZES else made, entry)
+    return made
+
+
+def add_pictures(made: Parser) -> None:
+    """Add the flags for pictures."""
     made.add_argument("--render", action="store_true", help="write a picture, render.png")
     made.add_argument(
         "--section", metavar="AXIS=SHARE", type=section,
         help="hide the bricks beyond a cut in the picture, which looks onto it: x=0.5 shows the half with x below the "
         "middle of the model",
     )  # fmt: skip
-    made.add_argument("--save-blend", action="store_true", help="write the scene with the bricks, build.blend")
-    sizes = made.add_mutually_exclusive_group()
-    for entry in fields(Settings):
-        add_flag(sizes if entry.name in SIZES else made, entry)
-    return made
+    made.add_argument("--outlines", action="store_true", help="tell the bricks in the picture apart by dark lines")
+    made.add_argument(
+        "--heat-map", action="store_true", help="show in the picture what each brick has left, not its colour"
+    )
+    made.add_argument(
+        "--explode", metavar="SHARE", type=share, default=0.0,
+        help="lift the pieces of a split model off each other in the picture, by a share of the model's height",
+    )  # fmt: skip
+    made.add_argument(
+        "--show-supports", action=argparse.BooleanOptionalAction, default=False,
+        help="show in the picture also the supports that are taken out again (default: the finished model)",
+    )  # fmt: skip
+    made.add_argument(
+        "--contact-sheet", metavar="N", type=pictures, default=0,
+        help="write N small pictures of the building order, from the first steps to the finished model, side by side "
+        "in one image, contact-sheet.png",
+    )  # fmt: skip
 
 
 def add_flag(group: Any, entry: Field[Any]) -> None:
@@ -125,15 +181,31 @@ def section(text: str) -> Section:
     return Section(axis=axis, at=at)
 
 
+def share(text: str) -> float:
+    """Return a number from 0 to 1."""
+    try:
+        found = float(text)
+    except ValueError:
+        found = -1.0
+    if not 0.0 <= found <= 1.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number from 0 to 1")
+    return found
+
+
+def pictures(text: str) -> int:
+    """Return a number of pictures."""
+    if not (text.isdecimal() and 1 <= int(text) <= MOST_PICTURES):
+        raise argparse.ArgumentTypeError(f"{text!r} is no whole number from 1 to {MOST_PICTURES}")
+    return int(text)
+
+
 def settings_of(options: dict[str, Any]) -> Settings:
     """Return the settings that the flags ask for."""
     named = [name for name in SIZES[1:] if name in options]
     return Settings(**options, **({"size_by": named[0]} if named else {}))
 
 
-def run(
-    source: Path, out: Path, settings: Settings, *, render: bool, save_blend: bool, section: Section | None = None
-) -> int:
+def run(source: Path, out: Path, settings: Settings, wanted: Wanted) -> int:
     """Legorize a file into a folder."""
     with new_folder(out) as folder:
         seconds = {}
@@ -149,22 +221,45 @@ def run(
         with writing(out):
             for name, text in texts(build, catalogue, facts, source.stem).items():
                 (folder / name).write_text(text, encoding="utf-8", newline="")
-        if render or save_blend:
-            shown = show_build(
-                bpy.context.scene, build.bricks, catalogue, origin=build.grid.origin, scale=build.scale,
-                mm_per_unit=mm_per_unit(), name=source.stem, sources=objects, settings=settings,
-                stability=build.stability, notes=build.notes,
-            )  # fmt: skip
-        if render:
-            cut_away(shown, section or Section())
-            render_still(bpy.context.scene, folder / "render.png", view="section" if section else "front_right")
-            cut_away(shown, Section())
-        if save_blend:
-            save(folder / "build.blend")
+        show(build, folder, wanted, name=source.stem, sources=objects)
     print(f"{out}: {facts['counts']['bricks']} bricks in {facts['grid']['layers']} layers.")
     for sentence in facts["failed_checks"]:
         print(sentence, file=sys.stderr)
     return 2 if facts["failed_checks"] else 0
+
+
+def show(build: Build, folder: Path, wanted: Wanted, *, name: str, sources: Sequence[bpy.types.Object]) -> None:
+    """Put the bricks into the scene, and write what is wanted of it."""
+    if not (wanted.render or wanted.contact_sheet or wanted.save_blend):
+        return
+    scene = bpy.context.scene
+    shown = show_result(scene, build, mm_per_unit=mm_per_unit(), name=name, sources=sources, notes=build.notes)
+    if wanted.render:
+        with posed(shown, wanted):
+            view = "section" if wanted.section else "front_right"
+            render_still(scene, folder / "render.png", view=view, outlines=wanted.outlines)
+    if wanted.contact_sheet:
+        path = folder / "contact-sheet.png"
+        render_contact_sheet(scene, shown, path, pictures=wanted.contact_sheet, outlines=wanted.outlines)
+    if wanted.save_blend:
+        save(folder / "build.blend")
+
+
+@contextmanager
+def posed(shown: bpy.types.Collection, wanted: Wanted) -> Iterator[None]:
+    """Show a build as it is wanted in the picture, and then as it was before."""
+    supports = wanted.show_supports and Role.SUPPORT_OUTSIDE in roles_shown(shown)
+    cut_away(shown, wanted.section or Section())
+    show_heat_map(shown, visible=wanted.heat_map)
+    explode(shown, wanted.explode)
+    if supports:
+        show_role(shown, Role.SUPPORT_OUTSIDE, visible=True)
+    yield
+    if supports:
+        show_role(shown, Role.SUPPORT_OUTSIDE, visible=False)
+    explode(shown, 0.0)
+    show_heat_map(shown, visible=False)
+    cut_away(shown, Section())
 
 
 def failed_checks(facts: dict[str, Any]) -> list[str]:
@@ -174,6 +269,7 @@ def failed_checks(facts: dict[str, Any]) -> list[str]:
         (connection["components"], 1, "Components that no brick joins to one model: {}."),
         (connection["floating"], 0, "Bricks that float, held by nothing below or above: {}."),
         (connection["collisions"], 0, "Cells that more than one brick claims: {}."),
+        (facts["building"]["steps"] - facts["buildable_steps"], 0, "Steps that cannot be built: {}."),
         (colours["bricks"], 0, "Bricks in a colour in which their part was never made: {}."),
     )
     failed = [sentence.format(count) for count, allowed, sentence in counts if count > allowed]
@@ -186,15 +282,18 @@ def failed_checks(facts: dict[str, Any]) -> list[str]:
 
 def texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:
     """Return the contents of the text files by name."""
-    parts = shopping.count_parts(build.bricks, catalogue)
+    parts, supports = (shopping.count_parts(bricks, catalogue) for bricks in (build.bricks, build.supports.removed))
     return {
         "model.ldr": ldraw.write_ldr(build.bricks, catalogue, name="model.ldr", title=title),
-        "model.mpd": ldraw.write_mpd(build.bricks, catalogue, name="model.ldr", title=title),
+        "model.mpd": write_mpd(build.supports.bricks, catalogue, name="model.ldr", title=title),
+        "build_order.csv": build_order_csv(build.supports.moves, build.supports.bricks, catalogue),
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
         "parts.csv": shopping.parts_csv(parts, catalogue),
         "bricklink.xml": shopping.bricklink_xml(parts, catalogue),
         "rebrickable.csv": shopping.rebrickable_csv(parts, catalogue),
         "pick-a-brick.csv": shopping.pick_a_brick_csv(parts, catalogue)[0],
+        "support-parts.csv": shopping.parts_csv(supports, catalogue),
+        "support-bricklink.xml": shopping.bricklink_xml(supports, catalogue),
     }
 
 

@@ -23,7 +23,8 @@
 ``layout``              which bricks cover the cells
 ``connection``          what holds to what
 ``stability``           whether it stands: forces in balance, or a collapse, as proof (``statics``,
-                        ``equilibrium``, ``collapse``); walls made thicker where it tears (``thickening``)
+                        ``equilibrium``, ``collapse``, ``tipping``); walls made thicker where it tears (``thickening``)
+``remarks``             what does not hold or stand, and why, in sentences
 ``ldraw``               bricks <-> LDraw text
 ``shopping``            parts lists and the shops' files
 ``report``              what was built, in numbers

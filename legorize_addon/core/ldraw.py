@@ -34,7 +34,6 @@ SNAP: Final = 0.01
 """How far in LDU a coordinate that is read may lie off the grid, for numbers rounded by other programs."""
 
 LINE_END: Final = "\r\n"
-_SUPPORTS: Final = (Role.SUPPORT_OUTSIDE, Role.SUPPORT_INSIDE)
 
 
 def write_ldr(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) -> str:
@@ -59,37 +58,7 @@ def write_ldr(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) ->
         reduced by the part's own symmetry; ``0 !LEGORIZE`` lines keep role and
         piece.
     """
-    return LINE_END.join([*_header(name, title), *_body(bricks, catalogue), ""])
-
-
-def write_mpd(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) -> str:
-    """Write bricks as a multi-part document in assembly order.
-
-    The supports of a piece come before the piece, pieces by their number, each
-    as a sub-model with its own steps; the main model calls them one by one. A
-    model in one piece without supports is not divided.
-
-    Parameters
-    ----------
-    bricks, catalogue, title
-        As for :func:`write_ldr`.
-    name : str
-        Name of the main model, "model.ldr".
-
-    Returns
-    -------
-    str
-        The text with CRLF line ends.
-    """
-    groups = _assembly_groups(bricks)
-    if len(groups) <= 1:
-        return LINE_END.join([f"0 FILE {name}", *_header(name, title), *_body(bricks, catalogue), "0 NOFILE", ""])
-    lines = [f"0 FILE {name}", *_header(name, title)]
-    lines += (f"1 {MAIN_COLOUR} 0 0 0 {MATRICES[0]} {group}.ldr{LINE_END}0 STEP" for group in groups)
-    for group, rows in groups.items():
-        lines += ["0 NOFILE", f"0 FILE {group}.ldr", *_header(f"{group}.ldr", f"{title}, {group}")]
-        lines += _body(bricks.take(rows), catalogue)
-    return LINE_END.join([*lines, "0 NOFILE", ""])
+    return LINE_END.join([*header(name, title), *body(bricks, catalogue), ""])
 
 
 def ldraw_matrix(origin: Floats, scale: float, mm_per_unit: float) -> Floats:
@@ -158,26 +127,58 @@ def read_ldr(text: str, catalogue: Catalogue) -> Bricks:
     )
 
 
-def _header(name: str, title: str) -> list[str]:
+def header(name: str, title: str) -> list[str]:
+    """Return the first lines of a model."""
     # a line end inside a title would start a line of its own
     return [f"0 {' '.join(title.split())}", f"0 Name: {name}", "0 Author: Legorize"]
 
 
-def _body(bricks: Bricks, catalogue: Catalogue) -> Iterator[str]:
-    turn = bricks.turn % np.array([part.turns for part in catalogue.parts])[bricks.part]
-    origin = np.array([[_origin(part, quarter) for quarter in range(4)] for part in catalogue.parts])[bricks.part, turn]
-    origin += bricks.corner[:, [0, 2, 1]] * (STUD_LDU, -PLATE_LDU, STUD_LDU)
+def brick_lines(bricks: Bricks, catalogue: Catalogue) -> list[str]:
+    """Return the line of each brick, row by row: colour, place, rotation, part.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The bricks.
+    catalogue : Catalogue
+        What their part rows mean.
+
+    Returns
+    -------
+    list of str
+        Lines of type 1, without line ends; turns are reduced by the part's own
+        symmetry.
+    """
+    turn, origin = _places(bricks, catalogue)
+    table = np.column_stack([bricks.part, bricks.colour, turn, origin]).tolist()
+    return [
+        f"1 {colour} {x} {y} {z} {MATRICES[quarter]} {catalogue.parts[part].number}.dat"
+        for part, colour, quarter, x, y, z in table
+    ]
+
+
+def body(bricks: Bricks, catalogue: Catalogue) -> Iterator[str]:
+    """Yield the lines of bricks step by step, with roles, pieces and ends of steps between."""
+    turn, _ = _places(bricks, catalogue)
+    lines = brick_lines(bricks, catalogue)
     order = np.lexsort((bricks.colour, turn, bricks.part, *bricks.corner.T, bricks.role, bricks.piece, bricks.step))
-    table = np.column_stack([bricks.role, bricks.piece, bricks.part, bricks.colour, turn, origin])[order]
+    table = np.column_stack([order, bricks.role[order], bricks.piece[order]])
     step_ends = np.diff(bricks.step[order], append=-1) != 0
     kind = None
-    for (role, piece, part, colour, quarter, *place), ends in zip(table.tolist(), step_ends.tolist(), strict=True):
+    for (row, role, piece), ends in zip(table.tolist(), step_ends.tolist(), strict=True):
         if kind != (role, piece):
             kind = role, piece
             yield f"0 !LEGORIZE ROLE {Role(role).name} PIECE {piece}"
-        yield f"1 {colour} {' '.join(map(str, place))} {MATRICES[quarter]} {catalogue.parts[part].number}.dat"
+        yield lines[row]
         if ends:
             yield "0 STEP"
+
+
+def _places(bricks: Bricks, catalogue: Catalogue) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+    """Return the quarter turns of each brick, fewest that look the same, and its place in LDU, (n, 3)."""
+    turn = bricks.turn % np.array([part.turns for part in catalogue.parts], dtype=np.uint8)[bricks.part]
+    origin = np.array([[_origin(part, quarter) for quarter in range(4)] for part in catalogue.parts])[bricks.part, turn]
+    return turn, origin + bricks.corner[:, [0, 2, 1]] * np.array((STUD_LDU, -PLATE_LDU, STUD_LDU))
 
 
 def _origin(part: Part, turn: int) -> tuple[int, int, int]:
@@ -187,17 +188,6 @@ def _origin(part: Part, turn: int) -> tuple[int, int, int]:
         # the elbow lies diagonally opposite the missing cell
         sides = (3 - 2 * MISSING_CELL[turn][0], 3 - 2 * MISSING_CELL[turn][1])
     return sides[0] * STUD_LDU // 2, -part.height * PLATE_LDU, sides[1] * STUD_LDU // 2
-
-
-def _assembly_groups(bricks: Bricks) -> dict[str, NDArray[np.intp]]:
-    """Return the rows of each sub-model by its name, in assembly order."""
-    groups = {}
-    for piece in np.unique(bricks.piece).tolist():
-        mine = bricks.piece == piece
-        for role in _SUPPORTS:
-            groups[f"{role.name.lower().replace('_', '-')}-{piece}"] = np.flatnonzero(mine & (bricks.role == role))
-        groups[f"piece-{piece}"] = np.flatnonzero(mine & ~np.isin(bricks.role, _SUPPORTS))
-    return {group: rows for group, rows in groups.items() if len(rows)}
 
 
 @dataclass(frozen=True, slots=True)

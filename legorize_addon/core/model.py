@@ -6,6 +6,7 @@ was given.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Final
@@ -27,7 +28,12 @@ COLOUR_EMPTY: Final = -2
 
 
 class Role(IntEnum):
-    """What a brick or cell is there for; the scene shows each role by itself."""
+    """What a brick or cell is there for; the scene shows each role by itself.
+
+    Supports outside are taken out again when the model is built. Those inside
+    stay, and so do those that are kept outside because they alone hold a part of
+    the model.
+    """
 
     SHELL = 0
     INSIDE = 1
@@ -35,6 +41,11 @@ class Role(IntEnum):
     OFFSET = 3
     SUPPORT_OUTSIDE = 4
     SUPPORT_INSIDE = 5
+    SUPPORT_KEPT = 6
+
+
+SUPPORTS: Final = (Role.SUPPORT_OUTSIDE, Role.SUPPORT_INSIDE, Role.SUPPORT_KEPT)
+"""Roles of supports."""
 
 
 class Cover(IntEnum):
@@ -111,6 +122,11 @@ class Bricks:
     def take(self, rows: NDArray[np.integer] | Mask) -> Bricks:
         """Return the given rows as a table of their own."""
         return Bricks(*(getattr(self, name)[rows] for name in self.__slots__))
+
+
+def joined(tables: Sequence[Bricks]) -> Bricks:
+    """Put tables one behind the other; there must be one at least."""
+    return Bricks(*(np.concatenate([getattr(each, name) for each in tables]) for name in Bricks.__slots__))
 
 
 CELL_SIZE: Final = np.array([STUD, STUD, PLATE])

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
@@ -13,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .backing import with_backing
+from .build import Build, Cut
 from .catalogue import Catalogue, load_catalogue
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .connection import NOBODY, Connection, connect
@@ -22,17 +22,20 @@ from .grid import Grid, fit_grid
 from .holding import held_together
 from .hollowing import hollow
 from .layout import FILLER, lay
+from .layout.learning import learned_table
 from .levels import levels_of
 from .marking import Marks, differing_layers
 from .mesh import Repairs, TriangleMesh, repair, scaled
 from .model import Bricks, Mask, UnitGrid
 from .offset_bricks import with_offset_bricks
-from .overhangs import Offsets
 from .progress import Progress, silent
+from .remarks import remarks, remarks_on_building
+from .segmentation import Joint, segmented
 from .settings import Settings
 from .size import check_any, check_size, model_scale
-from .slicing import Slices, adaptive_heights, slice_mesh
+from .slicing import adaptive_heights, slice_mesh
 from .stability import Stability, Verdict, stability
+from .supports import Supports, supported, with_floating_carried
 from .thickening import thickened
 from .trajectories import Trajectories, link_loops
 from .unit_bricks import unit_bricks
@@ -40,82 +43,6 @@ from .units import PLATES_PER_BRICK
 
 _THICKER: Final = (2, 4)
 """Studs around torn joints within which walls are made thicker, once after the other."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Cut:
-    """The cut of the mesh.
-
-    Attributes
-    ----------
-    slices : Slices
-    layer : (n_slices,) int32 array
-        Brick layer of every slice.
-    plate : (n_slices,) int8 array
-        Plate of that layer whose middle the slice is.
-    marks : Marks or None
-        Layers that differ from their neighbours, where plates were asked for.
-    """
-
-    slices: Slices
-    layer: NDArray[np.int32]
-    plate: NDArray[np.int8]
-    marks: Marks | None
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Build:
-    """The result of every stage.
-
-    Attributes
-    ----------
-    settings : Settings
-        What was asked for.
-    mesh : TriangleMesh
-        The repaired mesh in the size of the model, in mm.
-    repairs : Repairs
-        What was mended.
-    scale : float
-        Model mm per world mm.
-    surface : SurfaceColours
-        The brick colour of every texel.
-    cut : Cut
-        The mesh cut in slices.
-    trajectories : Trajectories
-        The coloured loops.
-    offsets : Offsets
-        What closes horizontal faces.
-    grid : UnitGrid
-        All unit bricks, before hollowing.
-    hollow : UnitGrid
-        What must and what may be built.
-    bricks : Bricks
-        The layout.
-    connection : Connection
-        How the bricks hold together.
-    stability : Stability
-        Whether they stand, and the proof.
-    notes : tuple of str
-        Sentences for the user.
-    timings : mapping of str to float
-        CPU seconds by stage.
-    """
-
-    settings: Settings
-    mesh: TriangleMesh
-    repairs: Repairs
-    scale: float
-    surface: SurfaceColours
-    cut: Cut
-    trajectories: Trajectories
-    offsets: Offsets
-    grid: UnitGrid
-    hollow: UnitGrid
-    bricks: Bricks
-    connection: Connection
-    stability: Stability
-    notes: tuple[str, ...]
-    timings: Mapping[str, float]
 
 
 def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent) -> Build:
@@ -166,9 +93,16 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     with stage("hollowing"):
         shell = held_together(_hollowed(grid, settings), plates=_in_plates(settings))
     shell, bricks, connection, found = _standing(grid, shell, settings, palette, catalogue, rng, stage, progress)
-    notes = (*repairs.sentences(), *_remarks(connection, found))
+    with stage("supports"):
+        supports, joints = _supported(bricks, connection, settings, catalogue, progress)
+    if len(supports.stays) > len(bricks):
+        with stage("stability"):
+            connection = connect(supports.stays, catalogue)
+            found = stability(supports.stays, catalogue, connection, hold=settings.hold, progress=progress)
+    bricks = supports.stays
+    notes = (*repairs.sentences(), *remarks(bricks, found, catalogue), *remarks_on_building(supports, catalogue))
     made = (mesh, repairs, scale, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
-    return Build(settings, *made, notes, timings)
+    return Build(settings, *made, supports, joints, notes, timings)
 
 
 def _in_plates(settings: Settings) -> bool:
@@ -289,10 +223,20 @@ def _standing(
     progress: Progress,
 ) -> tuple[UnitGrid, Bricks, Connection, Stability]:
     """Lay the bricks and test them by force; where they collapse, thicken the walls there and lay again."""
-    relay, tried = partial(lay, catalogue=catalogue, rng=rng, filler=_filler(palette, catalogue), progress=progress), []
+    relay = partial(
+        lay,
+        catalogue=catalogue,
+        rng=rng,
+        tier=settings.layout,
+        learned=settings.learned,
+        table=_table(settings),
+        filler=_filler(palette, catalogue),
+        progress=progress,
+    )
+    tried = []
     for reach in (*_THICKER, None):
         with stage("layout"):
-            bricks = relay(shell, tier=settings.layout, learned=settings.learned)
+            bricks = relay(shell)
             connection = connect(bricks, catalogue)
         with stage("stability"):
             found = stability(bricks, catalogue, connection, hold=settings.hold, progress=progress)
@@ -306,10 +250,34 @@ def _standing(
     return min(tried, key=_failing)
 
 
+def _supported(
+    bricks: Bricks, connection: Connection, settings: Settings, catalogue: Catalogue, progress: Progress
+) -> tuple[Supports, tuple[Joint, ...]]:
+    """Cut the model into pieces, put supports under them, and find the building order."""
+    if settings.supports != "none":
+        bricks, connection = with_floating_carried(bricks, catalogue, connection)
+    bricks, joints = segmented(bricks, catalogue, connection, most=settings.split, deepest=settings.hanging)
+    supports = supported(
+        bricks,
+        catalogue,
+        wish=settings.supports,
+        deepest=settings.hanging,
+        hold=settings.hold,
+        progress=progress,
+    )
+    return supports, joints
+
+
 def _failing(laid: tuple[UnitGrid, Bricks, Connection, Stability]) -> tuple[int, bool, float]:
     """Return what a better layout has less of: loose bricks, doubt, load on its weakest brick."""
     _, _, connection, found = laid
     return connection.n_floating, found.standing is not Verdict.STABLE, -float(found.margin.min())
+
+
+def _table(settings: Settings) -> Mask | None:
+    """Return the exchanges that were learned from the user's own samples, if they are asked for."""
+    asked = settings.layout == "fast" and settings.learned and settings.learned_from
+    return learned_table(settings.learned_from) if asked else None
 
 
 def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:
@@ -328,18 +296,3 @@ def _stage(name: str, progress: Progress, timings: dict[str, float]) -> Iterator
     yield
     timings[name] = timings.get(name, 0.0) + time.process_time() - start
     progress(name, 1.0)
-
-
-def _remarks(connection: Connection, found: Stability) -> tuple[str, ...]:
-    """Return what the user should know of how the bricks hold and stand."""
-    remarks = []
-    if connection.n_floating:
-        remarks.append(
-            f"{connection.n_floating} bricks hang in the air: they touch no brick that stands on the ground."
-        )
-    if found.standing is Verdict.COLLAPSES:
-        where = f", first at brick {found.torn[0].max()}" if len(found.torn) else ": it tips over"
-        remarks.append(f"The model collapses under its own weight{where}.")
-    if found.standing is Verdict.UNDECIDED:
-        remarks.append("Whether the model stands could not be decided: try a cautious hold, or the exact layout.")
-    return tuple(remarks)

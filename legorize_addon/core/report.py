@@ -2,108 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import asdict
-from typing import Any, Final, Protocol
+from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .bodies import free_bodies
+from .build import Build, Cut
 from .catalogue import Catalogue
 from .connection import NOBODY, Connection
 from .joints import brick_columns
 from .layout import bound
 from .ldraw import ldraw_matrix
-from .marking import Marks
-from .mesh import Repairs, TriangleMesh
-from .model import Bricks, Cover, Mask, Role, UnitGrid
+from .model import SUPPORTS, Cover, Mask, Role, UnitGrid
 from .overhangs import Offsets, OverhangKind, overhang_kinds
 from .regions import tally_cases
-from .settings import Settings
+from .remarks import remarks
 from .shopping import PartsList, count_parts, masses, not_made, pick_a_brick_csv
-from .stability import Stability
+from .supports import Supports
 from .units import PLATES_PER_BRICK
 
 SCHEMA: Final = 1
 """Version of the keys; raised when one of them changes its meaning."""
 
 
-# properties, because the members of a frozen dataclass can only be read
-class Sliced(Protocol):
-    """What the report reads of the cut of the mesh."""
-
-    @property
-    def layer(self) -> NDArray[np.int32]:
-        """Brick layer of every slice."""
-
-    @property
-    def marks(self) -> Marks | None:
-        """Layers that differ from their neighbours, None where no plates were asked for."""
-
-
-class Built(Protocol):
-    """What the report reads of a finished build."""
-
-    @property
-    def settings(self) -> Settings:
-        """What the user chose."""
-
-    @property
-    def mesh(self) -> TriangleMesh:
-        """The mesh as it was legorized, scaled and repaired."""
-
-    @property
-    def repairs(self) -> Repairs:
-        """What was mended on it."""
-
-    @property
-    def scale(self) -> float:
-        """Model mm per world mm."""
-
-    @property
-    def cut(self) -> Sliced:
-        """The slices."""
-
-    @property
-    def offsets(self) -> Offsets:
-        """What closes horizontal faces."""
-
-    @property
-    def grid(self) -> UnitGrid:
-        """The unit bricks before hollowing."""
-
-    @property
-    def hollow(self) -> UnitGrid:
-        """What must and what may be built."""
-
-    @property
-    def bricks(self) -> Bricks:
-        """The layout."""
-
-    @property
-    def connection(self) -> Connection:
-        """How the bricks hold together."""
-
-    @property
-    def stability(self) -> Stability:
-        """Whether they stand, and the proof."""
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """Sentences for the user."""
-
-    @property
-    def timings(self) -> Mapping[str, float]:
-        """Seconds by stage."""
-
-
-def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: float) -> dict[str, Any]:
+def report(build: Build, catalogue: Catalogue, *, version: str, mm_per_unit: float) -> dict[str, Any]:
     """Describe a build.
 
     Parameters
     ----------
-    build : Built
+    build : Build
         A finished build.
     catalogue : Catalogue
         Its parts and colours.
@@ -127,7 +55,7 @@ def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         A brick has a colour that is not in the catalogue.
     """
     parts = count_parts(build.bricks, catalogue)
-    levels = _levels(build)
+    levels, supports = _levels(build), build.supports
     _, no_element = pick_a_brick_csv(parts, catalogue)
     return {
         "schema": SCHEMA,
@@ -148,7 +76,10 @@ def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         "layout": _layout(build, catalogue),
         "bodies": free_bodies(build.hollow),
         "connection": _connection(build.connection),
-        "stability": _stability(build),
+        "stability": _stability(build, catalogue),
+        "buildable_steps": supports.walk.n_steps - len(supports.walk.bad_steps),
+        "building": _building(build),
+        "supports": _supports(supports, catalogue),
         "unavailable_part_colours": _pairs(not_made(parts, catalogue), catalogue),
         "unknown_elements": _pairs(no_element, catalogue),
         "timings_s": {stage: round(seconds, 4) for stage, seconds in build.timings.items()},
@@ -156,7 +87,7 @@ def report(build: Built, catalogue: Catalogue, *, version: str, mm_per_unit: flo
     }
 
 
-def _input(build: Built) -> dict[str, Any]:
+def _input(build: Build) -> dict[str, Any]:
     repairs = asdict(build.repairs)
     return {
         "triangles": len(build.mesh.faces),
@@ -172,7 +103,7 @@ def _grid(grid: UnitGrid) -> dict[str, int]:
     return {"x": int(np.ptp(x)) + 1, "y": int(np.ptp(y)) + 1, "layers": int(np.ptp(layer)) + 1}
 
 
-def _levels(build: Built) -> Mask:
+def _levels(build: Build) -> Mask:
     """Return the solid model in levels of plates or of bricks, as overhangs were looked for, without empty rims."""
     solid = build.grid.solid
     one_brick = len(build.offsets.ring) == len(solid)
@@ -182,7 +113,7 @@ def _levels(build: Built) -> Mask:
     return levels[:, y, x]
 
 
-def _detail(cut: Sliced, grid: UnitGrid) -> dict[str, int | None]:
+def _detail(cut: Cut, grid: UnitGrid) -> dict[str, int | None]:
     """Return how many layers differ, were sliced plate by plate, and have columns that are not one brick."""
     plates = grid.solid.any(axis=1) & ~brick_columns(grid)[0]
     layers = len(grid.colour)
@@ -212,7 +143,7 @@ def _overhangs(levels: Mask) -> dict[str, int]:
     return {kind.name.lower(): found.count(kind) for kind in OverhangKind}
 
 
-def _hollowing(build: Built, levels: Mask) -> dict[str, Any]:
+def _hollowing(build: Build, levels: Mask) -> dict[str, Any]:
     """Return the cells that must and may be built, those of the solid model, and the cases of the paper's regions."""
     cover = build.hollow.cover
     return {
@@ -223,7 +154,7 @@ def _hollowing(build: Built, levels: Mask) -> dict[str, Any]:
     }
 
 
-def _counts(build: Built, catalogue: Catalogue, parts: PartsList) -> dict[str, Any]:
+def _counts(build: Build, catalogue: Catalogue, parts: PartsList) -> dict[str, Any]:
     bricks = build.bricks
     by_part = np.bincount(parts.part, parts.count, len(catalogue.parts)).astype(int).tolist()
     by_colour = np.bincount(parts.colour, parts.count, len(catalogue.colours)).astype(int).tolist()
@@ -231,7 +162,7 @@ def _counts(build: Built, catalogue: Catalogue, parts: PartsList) -> dict[str, A
     return {
         "bricks": len(bricks),
         "plates": int(plate[bricks.part].sum()),
-        "support_outside": int((bricks.role == Role.SUPPORT_OUTSIDE).sum()),
+        "support_outside": len(build.supports.removed) + int((bricks.role == Role.SUPPORT_KEPT).sum()),
         "support_inside": int((bricks.role == Role.SUPPORT_INSIDE).sum()),
         "unit_bricks_before": int(build.grid.solid.any(axis=1).sum()),
         "by_part": {part.number: n for part, n in zip(catalogue.parts, by_part, strict=True) if n},
@@ -239,10 +170,10 @@ def _counts(build: Built, catalogue: Catalogue, parts: PartsList) -> dict[str, A
     }
 
 
-def _filled(build: Built) -> int:
+def _filled(build: Build) -> int:
     """Return the number of the model's cells that bricks fill, other than supports; some bricks fill further cells."""
     owner, low = build.connection.owner, build.connection.low
-    support = np.isin(build.bricks.role, (Role.SUPPORT_OUTSIDE, Role.SUPPORT_INSIDE))
+    support = np.isin(build.bricks.role, SUPPORTS)
     cell = np.argwhere(owner != NOBODY)
     cell = cell[~support[owner[tuple(cell.T)]]] + low[::-1]
     solid = build.grid.solid.reshape(-1, *build.grid.solid.shape[2:])
@@ -258,7 +189,7 @@ def _connection(connection: Connection) -> dict[str, int]:
     }
 
 
-def _layout(build: Built, catalogue: Catalogue) -> dict[str, Any]:
+def _layout(build: Build, catalogue: Catalogue) -> dict[str, Any]:
     """Return how near the number of bricks is to the proven bound.
 
     The bound holds for every layout of the same cells and colours, with the same
@@ -272,13 +203,14 @@ def _layout(build: Built, catalogue: Catalogue) -> dict[str, Any]:
     }
 
 
-def _stability(build: Built) -> dict[str, Any]:
-    """Return the verdict, and whether its proof was confirmed by a check apart from the search."""
+def _stability(build: Build, catalogue: Catalogue) -> dict[str, Any]:
+    """Return the verdict with its reasons, and whether its proof was confirmed by a check apart from the search."""
     found = build.stability
     enough = found.enough_hold
     return {
         "verdict": found.verdict.value,
         "stable": found.stable,
+        "reasons": list(remarks(build.bricks, found, catalogue)),
         "components": build.connection.n_components,
         "worst_margin": round(float(found.margin.min(initial=1.0)), 4),
         "failing": int((found.margin < 0).sum()),
@@ -287,6 +219,40 @@ def _stability(build: Built) -> dict[str, Any]:
         "enough_hold_n": round(enough, 4) if np.isfinite(enough) else None,
         "residual_n": float(f"{found.residual:.3g}"),
         "proof_confirmed": found.check(),
+    }
+
+
+def _building(build: Build) -> dict[str, Any]:
+    """Return the figures of the building order, and what its check found."""
+    supports, found = build.supports, build.supports.walk
+    return {
+        "steps": found.n_steps,
+        "moves": len(supports.moves),
+        "pressed_from_below": int(supports.moves.pressed.sum()),
+        "in_air": len(found.in_air),
+        "squeezed_in": len(found.squeezed),
+        "held_by_hand": len(supports.unsteady),
+        "ends_as_model": len(found.wrong_end) == 0,
+        "pieces": len(supports.pieces),
+        "joints": [asdict(joint) for joint in build.joints],
+    }
+
+
+def _supports(supports: Supports, catalogue: Catalogue) -> dict[str, Any]:
+    """Return the figures of the supports: those that are taken out, and those that stay."""
+    removed, stays = supports.removed, supports.stays
+    return {
+        "ways": [piece.plan.way for piece in supports.pieces],
+        "removed": len(removed),
+        "removed_mass_g": round(float(catalogue.mass[removed.part].sum()), 2),
+        "kept_outside": int((stays.role == Role.SUPPORT_KEPT).sum()),
+        "kept_inside": int((stays.role == Role.SUPPORT_INSIDE).sum()),
+        "bricks_in_need": sum(len(piece.need.bricks) for piece in supports.pieces),
+        "contacts": sum(len(piece.plan.contacts.cells) for piece in supports.pieces),
+        "clinging": len(supports.clinging),
+        "stuck": len(supports.walk.stuck),
+        "bear": all(piece.plan.bears for piece in supports.pieces),
+        "collisions": supports.contacts.collisions,
     }
 
 

@@ -110,9 +110,23 @@ class Settings:
     layout: Literal["fast", "standard", "exact"] = setting(
         "standard", "How much is done for few and well bonded bricks: a quick choice, linear programmes, or the fewest "
         "bricks that can be found, which takes several times as long.", group="Bricks")
+
     learned: bool = setting(
         True, "Let the quick layout make the exchanges of bricks that a trained support vector machine proposes.",
-        group="Bricks")
+        group="Learning")
+    learned_from: str = setting(
+        "", "File with the samples that the machine learned from, as learning from own models writes it; empty for the "
+        "samples that are shipped.", group="Learning")
+
+    supports: Literal["best", "tree", "columns", "beams", "none"] = setting(
+        "best", "What stands under overhangs while the model is built and is taken out again: trees, columns, beams on "
+        "pillars, the lightest of them that holds, or nothing.", group="Supports")
+    hanging: int = setting(
+        3, "Plates that bricks may hang one under another while building, pressed from below; 0 puts something below "
+        "every brick.", group="Supports", low=0, high=30)
+    split: int = setting(
+        1, "Most pieces in which the model may be built, each on the table by itself, where that saves a fifth of the "
+        "supports.", group="Supports", low=1, high=8)
 
     hold: float = setting(
         0.98, "Pull in N that the friction of one contact point of a stud bears; 0.7 is cautious.",

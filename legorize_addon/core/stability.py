@@ -12,7 +12,6 @@ from enum import Enum
 from typing import Final
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from .catalogue import Catalogue
 from .collapse import is_collapse, least_imbalance
@@ -21,7 +20,7 @@ from .equilibrium import Balance, Plane, balance, is_equilibrium, residual
 from .model import Bricks, Floats, Ints
 from .progress import Progress, silent
 from .statics import EQUATIONS, HOLD, Ground, Statics, statics
-from .units import STUD
+from .tipping import tipping, toppling
 
 PROGRAMME: Final = 600
 """Bricks that a linear programme takes in a second; where projections leave it open, it decides smaller models."""
@@ -169,6 +168,8 @@ def stability(
     """
     equations = statics(bricks, catalogue, connection, hold=hold, ground=ground, loads=loads)
     found = balance(equations, progress=progress)
+    if not found.found and not found.collapse:
+        found = _toppled(equations, found, connection)
     if programme and not found.found and not found.collapse:
         progress("stability", 1.0)
         found = _programmed(equations, found, programme)
@@ -185,7 +186,7 @@ def stability(
         torn=_torn(equations, motion),
         residual=float(np.abs(residual(equations, found.forces)).max(initial=0)),
         iterations=found.turns,
-        tipping=_tipping(equations, connection),
+        tipping=tipping(equations, connection),
         statics=equations,
     )
 
@@ -197,6 +198,14 @@ def _verdict(equations: Statics, found: Balance) -> Verdict:
     if found.collapse and is_collapse(equations, found.motion):
         return Verdict.COLLAPSES
     return Verdict.UNDECIDED
+
+
+def _toppled(equations: Statics, found: Balance, connection: Connection) -> Balance:
+    """See whether it tips over as a whole: the slowest motion to find by search, and the quickest to write down."""
+    motion = toppling(equations, connection)
+    if not is_collapse(equations, motion):
+        return found
+    return Balance(found.forces, False, motion, True, found.turns)
 
 
 def _programmed(equations: Statics, found: Balance, most: int) -> Balance:
@@ -244,30 +253,3 @@ def _torn(equations: Statics, motion: Floats) -> Ints:
     _, first = np.unique(pairs, axis=0, return_index=True)
     pairs = pairs[np.sort(first)]
     return np.where(pairs == NOBODY, NOBODY, equations.rows[pairs])
-
-
-def _tipping(equations: Statics, connection: Connection) -> Floats:
-    """Return how far inside the feet of each component its weight and loads meet the ground, in mm."""
-    contacts = equations.contacts
-    feet = np.flatnonzero(contacts.by == NOBODY)
-    component = connection.component[equations.rows]
-    loads = equations.loads.reshape(-1, EQUATIONS)
-    inside = np.full(connection.n_components, np.nan)
-    for number in np.unique(component):
-        below = contacts.point[feet[component[contacts.on[feet]] == number]]
-        members = component == number
-        force, middle = loads[members, :3], equations.middle[members] - (0, 0, below[0, 2])
-        down = -force[:, 2].sum()
-        # where the resultant meets the ground: no torque is left about this point
-        lever = middle[:, :2] * -force[:, 2:] + middle[:, 2:] * force[:, :2]
-        if down > 0:
-            inside[number] = _inside(below[:, :2], lever.sum(axis=0) / down) * STUD
-        else:
-            inside[number] = -np.inf
-    return inside
-
-
-def _inside(points: Floats, place: Floats) -> float:
-    """Return the distance to the nearest edge of the convex hull of points, less than 0 outside."""
-    edges = ConvexHull(points).equations
-    return float(-(edges[:, :2] @ place + edges[:, 2]).max())

@@ -11,13 +11,14 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from legorize_addon.core.backing import with_backing
+from legorize_addon.core.build import Build
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.colour_difference import ciede2000, lab_from_srgb
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.facing import Facing
 from legorize_addon.core.mesh import TriangleMesh
 from legorize_addon.core.model import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Cover, Role, UnitGrid
-from legorize_addon.core.pipeline import Build, legorize
+from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from tests.core.solids import box, sheet, sphere
 from tests.core.textured import painted, rgb_of, textured, turned_about_z

@@ -10,49 +10,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.catalogue import footprint, load_catalogue
+from legorize_addon.core.catalogue import footprint
 from legorize_addon.core.errors import BuildError
-from legorize_addon.core.ldraw import ldraw_matrix, read_ldr, write_ldr, write_mpd
-from legorize_addon.core.model import Bricks, Role
+from legorize_addon.core.ldraw import ldraw_matrix, read_ldr, write_ldr
+from legorize_addon.core.ldraw_document import write_mpd
+from legorize_addon.core.model import Bricks
 from legorize_addon.core.units import PLATE, STUD
+from tests.core.any_bricks import CATALOGUE, ORIENTATIONS, any_bricks, everything, multiset, table
 
-CATALOGUE = load_catalogue()
 unhurried = settings(deadline=None, max_examples=50)
 GOLDEN = Path(__file__).parents[1] / "golden" / "catalogue.ldr"
-ORIENTATIONS = [(row, turn) for row, part in enumerate(CATALOGUE.parts) for turn in range(part.turns)]
-
-
-def table(rows):
-    """Return bricks from rows of part, x, y, z, turn, colour, role, piece, step."""
-    part, x, y, z, turn, colour, role, piece, step = np.array(rows, np.int64).reshape(-1, 9).T
-    return Bricks(
-        part=part.astype(np.int16),
-        corner=np.stack([x, y, z], axis=1).astype(np.int32),
-        turn=turn.astype(np.uint8),
-        colour=colour.astype(np.int16),
-        role=role.astype(np.uint8),
-        piece=piece.astype(np.int16),
-        step=step.astype(np.int32),
-    )
-
-
-def everything():
-    """Return every part in each of its orientations, a part per row of the plan and a step each."""
-    codes = CATALOGUE.codes
-    return table(
-        [
-            (row, 10 * turn, 5 * row, row % 4, turn, codes[number % len(codes)], 0, 0, row)
-            for number, (row, turn) in enumerate(ORIENTATIONS)
-        ]
-    )
-
-
-def multiset(bricks, *, steps=True):
-    """Return the bricks as sorted rows, turns reduced by the parts' symmetry."""
-    turns = np.array([part.turns for part in CATALOGUE.parts])[bricks.part]
-    columns = [bricks.part, bricks.corner, bricks.turn % turns, bricks.colour, bricks.role, bricks.piece]
-    rows = np.column_stack([*columns, bricks.step] if steps else columns)
-    return sorted(map(tuple, rows.tolist()))
 
 
 def parts_in(text):
@@ -64,41 +31,12 @@ def parts_in(text):
     ]
 
 
-@st.composite
-def any_bricks(draw):
-    """Draw bricks of all kinds, overlapping or not, with steps 0, 1, 2, ... without gaps."""
-    columns = [
-        st.integers(0, len(CATALOGUE.parts) - 1),
-        *(st.integers(-99, 99) for _ in range(3)),
-        st.integers(0, 3),
-        st.sampled_from(CATALOGUE.codes.tolist()),
-        st.sampled_from([int(role) for role in Role]),
-        st.integers(0, 3),
-        st.integers(0, 4),
-    ]
-    bricks = draw(st.lists(st.tuples(*columns), max_size=25))
-    steps = sorted({brick[-1] for brick in bricks})
-    return table([(*brick[:-1], steps.index(brick[-1])) for brick in bricks])
-
-
 @unhurried
 @given(any_bricks())
 def test_read_gives_back_the_bricks(bricks):
     """Part, place, turn up to symmetry, colour, role, piece and step survive writing and reading."""
     read = read_ldr(write_ldr(bricks, CATALOGUE, name="m.ldr", title="m"), CATALOGUE)
     assert multiset(read) == multiset(bricks)
-
-
-@unhurried
-@given(any_bricks())
-def test_multi_part_document_holds_the_same_bricks(bricks):
-    """The sub-models together are the model, and what is built first has the lower steps."""
-    read = read_ldr(write_mpd(bricks, CATALOGUE, name="m.ldr", title="m"), CATALOGUE)
-    assert multiset(read, steps=False) == multiset(bricks, steps=False)
-    support = np.isin(read.role, [Role.SUPPORT_OUTSIDE, Role.SUPPORT_INSIDE])
-    stage = read.piece * 2 + ~support
-    order = np.argsort(read.step, kind="stable")
-    assert (np.diff(stage[order]) >= 0).all()
 
 
 @unhurried
@@ -173,23 +111,6 @@ def test_header_and_steps():
     assert [line[:6] for line in lines if line.startswith(("1", "0 STEP"))] == [
         "1 4 10", "0 STEP", "1 4 30", "1 4 50", "0 STEP",
     ]  # fmt: skip
-
-
-def test_model_in_one_piece_is_not_divided():
-    """Without supports and pieces the document holds the model itself, line for line."""
-    single = write_ldr(everything(), CATALOGUE, name="m.ldr", title="m")
-    document = write_mpd(everything(), CATALOGUE, name="m.ldr", title="m")
-    assert document == f"0 FILE m.ldr\r\n{single}0 NOFILE\r\n"
-
-
-def test_supports_and_pieces_become_sub_models_in_assembly_order():
-    """Supports of a piece come before it, pieces by number, each as a sub-model called once by the main model."""
-    rows = [(0, 0, 0, 0, 0, 4, 0, 1, 0), (0, 1, 0, 0, 0, 15, 4, 0, 0), (0, 2, 0, 0, 0, 4, 0, 0, 1)]
-    document = write_mpd(table([*rows, (0, 3, 0, 0, 0, 4, 5, 1, 0)]), CATALOGUE, name="m.ldr", title="m")
-    names = [line.removeprefix("0 FILE ") for line in document.splitlines() if line.startswith("0 FILE")]
-    assert names == ["m.ldr", "support-outside-0.ldr", "piece-0.ldr", "support-inside-1.ldr", "piece-1.ldr"]
-    calls = [line.split()[-1] for line in document.splitlines() if line.startswith("1 16 ")]
-    assert calls == names[1:]
 
 
 def test_sub_model_is_turned_moved_and_coloured_by_its_call():

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from legorize_addon.core.build import Build
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Role
-from legorize_addon.core.pipeline import Build, legorize
+from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.unit_bricks import outer_air, visible
 from tests.core.solids import box, joined, sphere

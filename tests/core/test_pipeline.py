@@ -8,29 +8,42 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
+from legorize_addon.core.build import Build
 from legorize_addon.core.catalogue import footprint, load_catalogue
 from legorize_addon.core.errors import Cancelled, LegorizeError, MeshError, SettingsError
 from legorize_addon.core.mesh import TriangleMesh
-from legorize_addon.core.model import COLOUR_ANY, Cover
-from legorize_addon.core.pipeline import Build, legorize
+from legorize_addon.core.model import COLOUR_ANY, Cover, Role
+from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.size import MOST_CELLS, check_size, model_scale
 from tests.core.light import holes
 from tests.core.solids import box, joined, mesh_of, moebius, reversed_mesh, sheet, sphere, tube, without
 from tests.core.textured import blob, cylinder, hollow_box, painted, rgb_of, split_at_x, table, torus
 
-STAGES = ["mesh", "colours", "slicing", "trajectories", "unit bricks", "overhangs", "hollowing", "layout", "stability"]
+STAGES = [
+    "mesh",
+    "colours",
+    "slicing",
+    "trajectories",
+    "unit bricks",
+    "overhangs",
+    "hollowing",
+    "layout",
+    "stability",
+    "supports",
+]
 """The stages in the order of the paper."""
 
 SMALL = Settings(width=12)
 
 
 def covered(build: Build) -> np.ndarray:
-    """Count how many bricks cover every cell, (3 n_layers, n_y, n_x)."""
+    """Count how many bricks cover every cell, (3 n_layers, n_y, n_x), leaving out posts that were put in to stay."""
     parts = load_catalogue().parts
     _, _, n_y, n_x = build.grid.colour.shape
     count = np.zeros((build.grid.colour.shape[0] * 3, n_y, n_x), int)
-    bricks = build.bricks
+    posts = (build.bricks.role == Role.SUPPORT_KEPT).sum() + sum(len(piece.posts) for piece in build.supports.pieces)
+    bricks = build.bricks.take(np.arange(len(build.bricks) - posts))
     for part, corner, turn in zip(bricks.part, bricks.corner, bricks.turn, strict=True):
         for x, y in footprint(parts[part], int(turn)):
             count[corner[2] : corner[2] + parts[part].height, corner[1] + y, corner[0] + x] += 1
@@ -334,9 +347,12 @@ def test_open_mesh_keeps_its_walls_and_is_told():
 
 
 def test_floating_part_is_told():
-    """A body that hangs in the air is built and told; a model in one piece is not complained about."""
-    build = legorize(KINDS["apart"], Settings(width=15))
-    assert any("hang in the air" in note for note in build.notes)
+    """A body in the air is told, and gets a post unless none is wanted; one piece is not complained about."""
+    build = legorize(KINDS["apart"], Settings(width=15, supports="none"))
+    assert any("in the air" in note for note in build.notes)
+    carried = legorize(KINDS["apart"], Settings(width=15))
+    assert carried.connection.n_floating == 0
+    assert any("stay in the model" in note or "stays in the model" in note for note in carried.notes)
     assert legorize(box(), SMALL).notes == ()
 
 

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from legorize_addon.core.build import Cut
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.connection import connect
 from legorize_addon.core.hollowing import hollow
@@ -16,10 +17,10 @@ from legorize_addon.core.marking import Marks
 from legorize_addon.core.mesh import Repairs, TriangleMesh
 from legorize_addon.core.model import COLOUR_EMPTY, Bricks, Cover, Role, UnitGrid
 from legorize_addon.core.overhangs import Offsets, offset_rings
-from legorize_addon.core.pipeline import Cut
 from legorize_addon.core.report import report
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.stability import stability
+from legorize_addon.core.supports import supported
 
 CATALOGUE = load_catalogue()
 
@@ -61,6 +62,7 @@ def build_of(rows):
         images=(np.zeros((1, 1, 3), np.uint8),),
         image_clamp=np.ones(1, bool),
     )
+    supports = supported(bricks, CATALOGUE, wish="none")
     solid = np.zeros((3, 6, 8), bool)
     solid[:2, 1:5, 1:7] = True
     return SimpleNamespace(
@@ -75,6 +77,8 @@ def build_of(rows):
         bricks=bricks,
         connection=connect(bricks, CATALOGUE),
         stability=stability(bricks, CATALOGUE, connect(bricks, CATALOGUE)),
+        supports=supports,
+        joints=(),
         notes=("A remark.",),
         timings={"slicing": 0.25},
     )
@@ -88,7 +92,7 @@ def described():
         ("3001", 2, 2, 3, 4, Role.INSIDE),
         ("2357", 6, 3, 3, 3, Role.SHELL),
         ("3020", 1, 3, 0, 15, Role.PLATE),
-        ("3005", 6, 4, 0, 15, Role.SUPPORT_OUTSIDE),
+        ("3005", 6, 4, 0, 15, Role.SUPPORT_KEPT),
     ]
     return report(build_of(rows), CATALOGUE, version="1.2.3", mm_per_unit=1000.0)
 
@@ -219,6 +223,7 @@ def test_verdict_is_told_with_its_proof(described):
     told = described["stability"]
     assert told["verdict"] in ("stable", "collapses", "undecided")
     assert told["stable"] == (told["verdict"] == "stable")
+    assert any("pieces that no brick joins" in reason for reason in told["reasons"])
     assert told["hold_n"] == 0.98
     assert told["proof_confirmed"] is True
     assert told["components"] == described["connection"]["components"]

@@ -17,6 +17,7 @@
 ``exchange``        fewer small bricks by exchanging a few against others
 ``svm``             which exchanges the fast tier tries: learned from samples
 ``svm_training``    the samples and the training
+``learning``        files of samples: the one chosen, and learning more from a user's own models
 ``table``           what lies on a sheet; the table of all bricks
 ``repair``          joins components that float, by exchanges
 ``windows``         joins what is left of them, by small windows laid anew

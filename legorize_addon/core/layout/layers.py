@@ -27,7 +27,7 @@ from .problem import BRIDGE, GROUND, Problem, pose, with_margins
 from .repair import connect_loose
 from .shapes import Index, Rows, Shapes, shapes
 from .sheets import Sheets, split
-from .svm import improved
+from .svm import improved, shipped
 from .table import bricks_of, gathered
 from .windows import join_by_windows
 
@@ -61,7 +61,9 @@ def lay(
     rng: np.random.Generator,
     tier: Tier = "standard",
     learned: bool = True,
+    table: Mask | None = None,
     filler: int = FILLER,
+    join: bool = True,
     progress: Progress = silent,
 ) -> Bricks:
     """Cover a model by bricks.
@@ -79,8 +81,13 @@ def lay(
         ``"standard"`` (see :mod:`.linear`) or ``"exact"`` (see :mod:`.exact`).
     learned : bool
         Whether the fast tier makes the exchanges that :mod:`.svm` proposes.
+    table : (4, 16, 16, 24) bool array, optional
+        What it proposes, as :meth:`~.svm.Machine.table`; by default what was
+        learned from the shipped samples.
     filler : int
         LDraw code of the bricks that nobody sees.
+    join : bool
+        Whether bricks that hold to nothing are joined to the others in the end.
     progress : Progress
         Told before each batch of sheets.
 
@@ -105,13 +112,16 @@ def lay(
     owner = np.full(must.shape, NOBODY, dtype=np.int32)
     owner[: min(int(sheets.level[0]) for sheets, _ in work) + 1] = GROUND
     slab_of_layer = np.cumsum(grid.solid.any(axis=1).sum(axis=(1, 2))) // _SLAB
+    worth = (shipped() if table is None else table) if tier == "fast" and learned else None
     laid: list[Bricks] = []
     n_sheets, n_laid = sum(len(sheets) for sheets, _ in work), 0
     for sheets, among, found in _batches(work, slab_of_layer, tier):
         progress("layout", n_laid / n_sheets)
         n_laid += len(sheets)
         problem = pose(sheets, among, found, owner, must, _BRIDGE[tier])
-        laid.append(_laid(problem, owner, sum(map(len, laid)), tier, learned, rng))
+        laid.append(_laid(problem, owner, sum(map(len, laid)), tier, worth, rng))
+    if not join:
+        return gathered(laid)
     bricks = connect_loose(gathered(laid), grid, work, catalogue, rng, progress)
     return join_by_windows(bricks, grid, work, catalogue, progress)
 
@@ -146,12 +156,14 @@ def _order(sheets: Sheets, found: Placements, tier: Tier) -> list[Index]:
     return batches
 
 
-def _laid(problem: Problem, owner: Rows, first: int, tier: Tier, learned: bool, rng: np.random.Generator) -> Bricks:
+def _laid(
+    problem: Problem, owner: Rows, first: int, tier: Tier, worth: Mask | None, rng: np.random.Generator
+) -> Bricks:
     """Lay sheets that do not touch; write the numbers of their bricks, from `first`, into `owner`."""
     sheets = problem.sheets
     chosen = fewer_small(problem, _COVERS[tier](problem, rng), rng)
-    if tier == "fast" and learned:
-        chosen = improved(problem, chosen, rng)
+    if worth is not None:
+        chosen = improved(problem, chosen, rng, worth)
     covering = problem.owner(chosen)
     _check_covered(sheets, problem.must & (covering == NOBODY))
     here = np.full(sheets.colour.shape, NOBODY, dtype=np.int32)

@@ -166,7 +166,9 @@ def _drawn(pool: Samples, rows: Index, n: int, rng: np.random.Generator) -> Inde
     return order[np.argsort(turn, kind="stable")[:n]]
 
 
-def train(samples: Samples, rng: np.random.Generator) -> Trained:
+def train(
+    samples: Samples, rng: np.random.Generator, *, costs: Sequence[float] = COSTS, gammas: Sequence[float] = GAMMAS
+) -> Trained:
     """Choose C and gamma by cross-validation.
 
     Parameters
@@ -175,6 +177,8 @@ def train(samples: Samples, rng: np.random.Generator) -> Trained:
         From at least five models; those of one model are never on both sides.
     rng : numpy.random.Generator
         Deals the models out to the folds.
+    costs, gammas : sequence of float
+        The grid of C and gamma.
 
     Returns
     -------
@@ -186,7 +190,7 @@ def train(samples: Samples, rng: np.random.Generator) -> Trained:
         There are fewer models than folds.
     """
     fold = folds(samples.model, rng)
-    answers = {(c, gamma): _answers(samples, fold, c, gamma) for c in COSTS for gamma in GAMMAS}
+    answers = {(c, gamma): _answers(samples, fold, c, gamma) for c in costs for gamma in gammas}
     grid = {pair: float(np.mean(each == samples.pays)) for pair, each in answers.items()}
     # of equals the first: the smoothest machine
     c, gamma = max(grid, key=lambda pair: grid[pair])

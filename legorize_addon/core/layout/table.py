@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import Bricks, Role
+from ..model import Bricks, Role, joined
 from ..units import PLATES_PER_BRICK
 from .problem import Problem
 from .shapes import Index
@@ -57,7 +57,7 @@ def gathered(tables: Sequence[Bricks]) -> Bricks:
     Bricks
         By ascending plate, then y, then x.
     """
-    bricks = Bricks(*(np.concatenate([getattr(each, name) for each in tables]) for name in Bricks.__slots__))
+    bricks = joined(tables)
     return bricks.take(np.lexsort(tuple(bricks.corner.T)))
 
 

@@ -149,3 +149,11 @@ def test_progress_may_cancel():
 
     with pytest.raises(Cancelled):
         laid(brick_grid(np.full((1, 2, 2), RED)), progress=stop)
+
+
+def test_loose_bricks_are_left_where_joining_is_not_wanted():
+    """Without joining, the layout covers the same cells, and is the same where nothing was loose."""
+    grid = random_grid(7, plates=True)
+    assert_covers(laid(grid, join=False), grid)
+    solid = hollow(brick_grid(np.full((4, 8, 8), RED)), shell=1)
+    assert rows(laid(solid, join=False)) == rows(laid(solid))

@@ -1,0 +1,105 @@
+"""What a run leaves behind: the result of every stage."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .colours import SurfaceColours
+from .connection import Connection
+from .marking import Marks
+from .mesh import Repairs, TriangleMesh
+from .model import Bricks, UnitGrid
+from .overhangs import Offsets
+from .segmentation import Joint
+from .settings import Settings
+from .slicing import Slices
+from .stability import Stability
+from .supports import Supports
+from .trajectories import Trajectories
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cut:
+    """The cut of the mesh.
+
+    Attributes
+    ----------
+    slices : Slices
+    layer : (n_slices,) int32 array
+        Brick layer of every slice.
+    plate : (n_slices,) int8 array
+        Plate of that layer whose middle the slice is.
+    marks : Marks or None
+        Layers that differ from their neighbours, where plates were asked for.
+    """
+
+    slices: Slices
+    layer: NDArray[np.int32]
+    plate: NDArray[np.int8]
+    marks: Marks | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Build:
+    """The result of every stage.
+
+    Attributes
+    ----------
+    settings : Settings
+        What was asked for.
+    mesh : TriangleMesh
+        The repaired mesh in the size of the model, in mm.
+    repairs : Repairs
+        What was mended.
+    scale : float
+        Model mm per world mm.
+    surface : SurfaceColours
+        The brick colour of every texel.
+    cut : Cut
+        The mesh cut in slices.
+    trajectories : Trajectories
+        The coloured loops.
+    offsets : Offsets
+        What closes horizontal faces.
+    grid : UnitGrid
+        All unit bricks, before hollowing.
+    hollow : UnitGrid
+        What must and what may be built.
+    bricks : Bricks
+        The layout, with the posts that stay in it, and the step in which each
+        brick is placed.
+    connection : Connection
+        How the bricks hold together.
+    stability : Stability
+        Whether they stand, and the proof.
+    supports : Supports
+        What stands below them while they are built, and the building order.
+    joints : tuple of Joint
+        Between the pieces of a split model.
+    notes : tuple of str
+        Sentences for the user.
+    timings : mapping of str to float
+        CPU seconds by stage.
+    """
+
+    settings: Settings
+    mesh: TriangleMesh
+    repairs: Repairs
+    scale: float
+    surface: SurfaceColours
+    cut: Cut
+    trajectories: Trajectories
+    offsets: Offsets
+    grid: UnitGrid
+    hollow: UnitGrid
+    bricks: Bricks
+    connection: Connection
+    stability: Stability
+    supports: Supports
+    joints: tuple[Joint, ...]
+    notes: tuple[str, ...]
+    timings: Mapping[str, float]

@@ -1,0 +1,146 @@
+"""Files of samples: the one that was chosen, and one more version learned from a user's own models.
+
+A file is never changed. Learning writes a new one, which has all samples of the
+one before and those of further models, and a version one higher; so whatever
+was laid with an earlier version can be laid again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from ..catalogue import ASSETS, Catalogue
+from ..errors import SettingsError
+from ..model import Bricks, Mask, UnitGrid
+from .svm import Machine, Samples, read
+from .svm_training import samples_of, train, written
+
+SHIPPED_VERSION: Final = 1
+
+EACH: Final = 60
+"""Samples taken from each model."""
+
+_ADVICE: Final = "choose a file that learning from models wrote, or leave it empty."
+_NEEDED: Final = frozenset({"C", "gamma"})
+_KEPT: Final = 4
+"""Machines of files that are kept."""
+
+
+def learned_table(path: str) -> Mask:
+    """Return what the machine of a file of samples proposes.
+
+    Parameters
+    ----------
+    path : str
+        The file; empty for the one that is shipped.
+
+    Returns
+    -------
+    (4, 16, 16, 24) bool array
+        As :meth:`~.svm.Machine.table`.
+
+    Raises
+    ------
+    SettingsError
+        It is no file of samples.
+    """
+    return _table(samples_text(path))
+
+
+@lru_cache(maxsize=_KEPT)
+def _table(text: str) -> Mask:
+    samples, facts = read(text)
+    return Machine.of(samples, c=float(facts["C"]), gamma=float(facts["gamma"])).table()
+
+
+def samples_text(path: str) -> str:
+    """Read a file of samples.
+
+    Parameters
+    ----------
+    path : str
+        The file; empty for the one that is shipped.
+
+    Returns
+    -------
+    str
+        Its text, which :func:`~.svm.read` reads.
+
+    Raises
+    ------
+    SettingsError
+        It cannot be read, or is no file of samples.
+    """
+    try:
+        text = Path(path or ASSETS / "layout_svm.csv").read_text(encoding="utf-8")
+        samples, facts = read(text)
+    except (OSError, ValueError, IndexError) as error:
+        raise SettingsError(
+            f"learned_from is {path!r}, which cannot be read as samples ({error}): {_ADVICE}"
+        ) from error
+    if not facts.keys() >= _NEEDED or len(np.unique(samples.pays)) < 2:
+        raise SettingsError(f"learned_from is {path!r}, which lacks C, gamma or samples of both kinds: {_ADVICE}")
+    return text
+
+
+def version_of(text: str) -> int:
+    """Return the version of a file of samples."""
+    return int(read(text)[1].get("version", SHIPPED_VERSION))
+
+
+def learned_more(
+    text: str,
+    models: Sequence[tuple[UnitGrid, Bricks]],
+    catalogue: Catalogue,
+    rng: np.random.Generator,
+    *,
+    names: Sequence[str],
+    version: int,
+) -> str:
+    """Add samples of further models to those of a file, and judge the machine that learns from all.
+
+    Parameters
+    ----------
+    text : str
+        The file so far.
+    models : sequence of (UnitGrid, Bricks)
+        Hollowed models, and their layouts by the fast tier without learning.
+    catalogue : Catalogue
+        Parts and colours.
+    rng : numpy.random.Generator
+        Draws the samples.
+    names : sequence of str
+        Of the models, for people.
+    version : int
+        Of the new file.
+
+    Returns
+    -------
+    str
+        The new file: the samples so far, in their order, then the new ones. C
+        and gamma stay; how many samples the machine judges rightly is
+        found by cross-validation over models.
+
+    Raises
+    ------
+    BuildError
+        The models give too few samples.
+    """
+    before, facts = read(text)
+    more = samples_of(models, catalogue, rng, EACH * len(models))
+    samples = Samples(
+        np.concatenate([before.levels, more.levels]),
+        np.concatenate([before.pays, more.pays]),
+        np.concatenate([before.model, more.model + before.model.max() + 1]),
+    )
+    trained = train(samples, rng, costs=[float(facts["C"])], gammas=[float(facts["gamma"])])
+    # a name is one line's part here, whatever it is elsewhere
+    learned = ", ".join(" ".join(name.split()) for name in names)
+    kept = {name: facts[name] for name in ("what", "formulation") if name in facts}
+    origin = f"those of version {version_of(text)} ({facts.get('models', 'unknown')}), then {learned}"
+    return written(trained, {**kept, "made by": "learning from models", "version": str(version), "models": origin})

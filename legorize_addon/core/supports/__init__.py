@@ -1,0 +1,23 @@
+"""What stands under a model while it is built.
+
+==================  =====================================================================
+``carrying``        how deep each brick hangs, as more and more are held
+``need``            which bricks need a support, and where it touches them
+``room``            where supports may stand, and can be pulled out of again
+``posts``           what stays: under what floats, and in closed hollows
+``boxes``           supports before they are bricks
+``tree``            trees: branches that meet on their way down
+``columns``         straight columns; full ones, to compare with
+``beams``           the paper's beams on pillars
+``links``           the bricks that join beams side by side
+``plan``            supports of one kind under one piece, until all stands and bears
+``whole``           all pieces, and the order in which they are built: :func:`supported`
+==================  =====================================================================
+"""
+
+from __future__ import annotations
+
+from .posts import with_floating_carried
+from .whole import Supports, supported
+
+__all__ = ["Supports", "supported", "with_floating_carried"]

@@ -1,0 +1,104 @@
+"""Supports as boxes of cells, before they are bricks.
+
+A box is a row ``(x, y, z, length along x, length along y, height)``: its lowest
+corner in studs and plates, and its size in the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..catalogue import Catalogue
+from ..model import Bricks, Role
+from ..units import PLATES_PER_BRICK
+
+Boxes = NDArray[np.int32]
+
+OUTSIDE_COLOUR: Final = 15
+"""White, the paper's colour of supports that are taken out again."""
+
+INSIDE_COLOUR: Final = 4
+"""Red, the paper's colour of supports that stay inside."""
+
+TALL: Final = 3 * PLATES_PER_BRICK
+"""Height of a tall brick in plates."""
+
+
+def boxes_of(rows: Iterable[tuple[int, int, int, int, int, int]]) -> Boxes:
+    """Return rows as an array, (n, 6) int32."""
+    return np.array(list(rows), dtype=np.int32).reshape(-1, 6)
+
+
+def sizes_in(catalogue: Catalogue, colour: int) -> dict[tuple[int, int, int], int]:
+    """Return the rows of all parts but corners that are made in a colour, by (longer side, shorter side, height)."""
+    made = catalogue.exists_in(np.arange(len(catalogue.parts)), colour)
+    return {
+        (part.length, part.width, part.height): row
+        for row, part in enumerate(catalogue.parts)
+        if made[row] and not part.corner
+    }
+
+
+def joined_upwards(boxes: Boxes, catalogue: Catalogue, colour: int) -> Boxes:
+    """Put one tall brick in place of three that stand on each other.
+
+    Parameters
+    ----------
+    boxes : (n, 6) int32 array
+    catalogue : Catalogue
+    colour : int
+        In which the tall part must be made.
+
+    Returns
+    -------
+    (m, 6) int32 array
+        Boxes that cover the same cells, by ascending place.
+    """
+    sizes = sizes_in(catalogue, colour)
+    left = {tuple(box) for box in boxes.tolist()}
+    done = []
+    for box in sorted(left, key=lambda each: (each[2], each)):
+        if box not in left:
+            continue
+        x, y, z, a, b, height = box
+        run = [(x, y, z + height * step, a, b, height) for step in range(TALL // max(height, 1))]
+        tall = height == PLATES_PER_BRICK and (max(a, b), min(a, b), TALL) in sizes and left.issuperset(run)
+        left.difference_update(run if tall else [box])
+        done.append((x, y, z, a, b, TALL) if tall else box)
+    return boxes_of(done)
+
+
+def bricks_of_boxes(boxes: Boxes, catalogue: Catalogue, *, colour: int, role: Role) -> Bricks:
+    """Write boxes down as bricks.
+
+    Parameters
+    ----------
+    boxes : (n, 6) int32 array
+        Each of the size of a part.
+    catalogue : Catalogue
+    colour : int
+        LDraw code.
+    role : Role
+
+    Returns
+    -------
+    Bricks
+        In the order of the boxes, of piece and step 0.
+    """
+    sizes = sizes_in(catalogue, colour)
+    a, b = boxes[:, 3], boxes[:, 4]
+    keys = np.stack([np.maximum(a, b), np.minimum(a, b), boxes[:, 5]], axis=1)
+    n = len(boxes)
+    return Bricks(
+        part=np.array([sizes[tuple(key)] for key in keys.tolist()], dtype=np.int16),
+        corner=boxes[:, :3].astype(np.int32),
+        turn=(b > a).astype(np.uint8),
+        colour=np.full(n, colour, dtype=np.int16),
+        role=np.full(n, role, dtype=np.uint8),
+        piece=np.zeros(n, dtype=np.int16),
+        step=np.zeros(n, dtype=np.int32),
+    )

@@ -1,0 +1,206 @@
+"""Straight supports: a column under each contact, and the full columns that others are compared with.
+
+References
+----------
+Paper, section on segmentation (the three types of bricks) and Table 4, which
+compares supports with full columns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+from ..model import Mask
+from ..units import PLATES_PER_BRICK
+from .boxes import TALL, Boxes, boxes_of
+from .room import Room
+
+Cells = NDArray[np.integer]
+
+FLAT: Final = ((6, 2), (4, 2), (6, 1), (3, 2), (4, 1), (2, 2), (3, 1), (2, 1), (1, 1))
+"""Types 1 and 2 of the paper: lengths of bricks and plates in studs, the largest first."""
+
+TALL_SIZES: Final = ((4, 2), (2, 2))
+"""Type 3: bricks three times as high."""
+
+_FOOT: Final = 2
+"""Studs along each side of a foot."""
+
+
+def columns(contacts: Sequence[tuple[int, int, int]], room: Room) -> Boxes:
+    """Put a straight column under each contact, with a wide foot where there is room.
+
+    Parameters
+    ----------
+    contacts : sequence of (x, y, z)
+        Cells in the room, z the plate on which the carried brick lies, more than
+        0. Each has room from there down to the ground.
+    room : Room
+
+    Returns
+    -------
+    (n, 6) int32 array
+        Boxes in the room's cells: bricks, and single plates right under contacts.
+        Columns side by side share a foot.
+    """
+    rows = pillars(contacts)
+    standing = rows[:, 5] == PLATES_PER_BRICK
+    low = standing & (rows[:, 2] == 0)
+    feet = _feet([(x, y) for x, y, *_ in rows[low].tolist()], _ground_for_feet(rows[~standing], room))
+    return np.concatenate([boxes_of((x, y, 0, a, b, PLATES_PER_BRICK) for x, y, a, b in feet), rows[~low]])
+
+
+def pillars(contacts: Sequence[tuple[int, int, int]]) -> Boxes:
+    """Put one brick of 1 x 1 a layer under each contact, and single plates right under it.
+
+    Parameters
+    ----------
+    contacts : sequence of (x, y, z)
+        As for :func:`columns`.
+
+    Returns
+    -------
+    (n, 6) int32 array
+        Boxes, from the ground up.
+    """
+    return boxes_of(
+        row
+        for x, y, z in contacts
+        for row in (
+            *((x, y, layer * PLATES_PER_BRICK, 1, 1, PLATES_PER_BRICK) for layer in range(z // PLATES_PER_BRICK)),
+            *((x, y, plate, 1, 1, 1) for plate in range(z - z % PLATES_PER_BRICK, z)),
+        )
+    )
+
+
+def full_columns(cells: Cells, room: Room) -> Boxes:
+    """Fill all room below cells with the largest bricks that fit, as support without any optimisation does.
+
+    Parameters
+    ----------
+    cells : (n, 3) integer array
+        Cells (x, y, z) in the room, z the plate on which the carried brick lies.
+        Those without room down to the ground are left out.
+    room : Room
+
+    Returns
+    -------
+    (n, 6) int32 array
+        Boxes of the paper's three types, and plates right under the cells.
+    """
+    x, y, z = with_room(cells, room).T
+    height = np.zeros(room.open.shape[1:], dtype=np.int64)
+    height[y, x] = z
+    layers, plates = np.divmod(height, PLATES_PER_BRICK)
+    filled = np.arange(layers.max(initial=0))[:, None, None] < layers
+    tall, left = _tall(filled)
+    flat = _boxes(covered(left, FLAT), PLATES_PER_BRICK, PLATES_PER_BRICK)
+    levels = np.arange(int(height.max(initial=0)))[:, None, None]
+    thin = _boxes(covered((levels >= height - plates) & (levels < height), FLAT), 1, 1)
+    return np.concatenate([tall, flat, thin])
+
+
+def with_room(cells: Cells, room: Room) -> Cells:
+    """Return the cells, once each, below which there is room down to the ground."""
+    x, y, z = cells.T
+    raised = cells[z > 0]
+    x, y, z = raised.T
+    return np.unique(raised[room.open[z - 1, y, x]], axis=0)
+
+
+def covered(cells: Mask, sizes: Sequence[tuple[int, int]]) -> NDArray[np.int64]:
+    """Cover cells of several levels, each by itself, greedily with rectangles.
+
+    Parameters
+    ----------
+    cells : (n_levels, n_y, n_x) bool array
+    sizes : sequence of (int, int)
+        Sides of the rectangles, in the order in which they are tried, either way
+        round. Cells that none fits into stay uncovered.
+
+    Returns
+    -------
+    (n, 5) int64 array
+        Level, x, y and the lengths along x and y of each rectangle.
+    """
+    left = cells.copy()
+    found = [np.zeros((0, 5), dtype=np.int64)]
+    for a, b in dict.fromkeys(turned for long, short in sizes for turned in ((long, short), (short, long))):
+        for y, x in np.argwhere(_fitting(left, a, b).any(axis=0)).tolist():
+            # levels are independent of each other: a place is tried in all of them at once
+            window = left[:, y : y + b, x : x + a]
+            levels = np.flatnonzero(window.all(axis=(1, 2)))
+            window[levels] = False
+            found.append(np.column_stack([levels, np.tile([x, y, a, b], (len(levels), 1))]))
+    return np.concatenate(found)
+
+
+def _fitting(cells: Mask, a: int, b: int) -> Mask:
+    """Return where a rectangle fits on each level, by its lowest corner."""
+    if cells.shape[1] < b or cells.shape[2] < a:
+        return np.zeros((len(cells), 0, 0), dtype=bool)
+    along: Mask = sliding_window_view(cells, a, axis=2).all(axis=-1)
+    fits: Mask = sliding_window_view(along, b, axis=1).all(axis=-1)
+    return fits
+
+
+def _tall(filled: Mask) -> tuple[Boxes, Mask]:
+    """Take tall bricks from layers that are filled downwards; return them and the cells that are left."""
+    n = TALL // PLATES_PER_BRICK
+    found = covered(filled[n - 1 :: n], TALL_SIZES)
+    left = filled.copy()
+    for group, x, y, a, b in found.tolist():
+        left[n * group : n * group + n, y : y + b, x : x + a] = False
+    return _boxes(found, TALL, TALL), left
+
+
+def _boxes(found: NDArray[np.int64], step: int, height: int) -> Boxes:
+    """Write rectangles down as boxes of a height, on levels of so many plates."""
+    level, *sides = found.T
+    x, y, a, b = sides
+    return np.stack([x, y, level * step, a, b, np.full_like(x, height)], axis=1).astype(np.int32)
+
+
+def _ground_for_feet(plates: Boxes, room: Room) -> Mask:
+    """Return the columns (n_y, n_x) in which a brick may stand on the ground beside low plates."""
+    ground = room.layer(0).copy()
+    low = plates[plates[:, 2] < PLATES_PER_BRICK]
+    ground[low[:, 1], low[:, 0]] = False
+    return ground
+
+
+def _feet(standing: Sequence[tuple[int, int]], ground: Mask) -> list[tuple[int, int, int, int]]:
+    """Return one foot (x, y, length along x, length along y) for each column, or for several side by side."""
+    waiting = dict.fromkeys(standing)
+    feet = []
+    while waiting:
+        x, y = next(iter(waiting))
+        box = max(_places(x, y, ground), key=lambda place: sum(cell in waiting for cell in _cells(place)))
+        # columns that stand on this foot need none of their own
+        for cell in _cells(box):
+            waiting.pop(cell, None)
+            ground[cell[1], cell[0]] = False
+        feet.append(box)
+    return feet
+
+
+def _places(x: int, y: int, ground: Mask) -> list[tuple[int, int, int, int]]:
+    """Return the free places of a foot of a column, or its own cell if there are none."""
+    n_y, n_x = ground.shape
+    wide = [
+        (at_x, at_y, _FOOT, _FOOT)
+        for at_y in range(max(y + 1 - _FOOT, 0), min(y, n_y - _FOOT) + 1)
+        for at_x in range(max(x + 1 - _FOOT, 0), min(x, n_x - _FOOT) + 1)
+        if ground[at_y : at_y + _FOOT, at_x : at_x + _FOOT].all()
+    ]
+    return wide or [(x, y, 1, 1)]
+
+
+def _cells(box: tuple[int, int, int, int]) -> list[tuple[int, int]]:
+    x, y, a, b = box
+    return [(x + i, y + j) for j in range(b) for i in range(a)]

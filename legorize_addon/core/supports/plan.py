@@ -1,0 +1,263 @@
+"""Supports of one kind under one piece, until it stands at every step and they bear what lies on them.
+
+Contacts are added where the piece would fall over while it is built; branches of
+trees that do not bear their load become trunks of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Final, Literal
+
+import numpy as np
+
+from ..building.balance import STEADY, Tipping, corners, inside, tipping
+from ..building.order import ordered
+from ..catalogue import Catalogue
+from ..connection import Connection, Rows, connect
+from ..model import Bricks, Floats, Ints, Mask, Role, joined
+from ..stability import Verdict, stability
+from .beams import beams
+from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, joined_upwards
+from .columns import columns
+from .need import Need
+from .tree import tree
+
+Way = Literal["tree", "columns", "beams", "none"]
+
+ROUNDS: Final = 12
+"""Times that contacts are added or branches straightened."""
+
+BY_HAND: Final = 50.0
+"""Weight in g of supports for which it is worth to hold one more tower by hand."""
+
+ENOUGH: Final = 1.0
+"""Studs inside of its feet from which on a tower is as steady as it needs to be."""
+
+MOVING: Final = 1e-6
+"""Share of the fastest motion of a collapse from which on a brick moves."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contacts:
+    """Where supports touch a piece.
+
+    Attributes
+    ----------
+    cells : (k, 3) int32 array
+        Cells (x, y, z) of the room, z the plate on which the carried brick lies.
+    carried : (k,) int64 array
+        Rows of the bricks on them.
+    load : (k,) float64 array
+        Weight in N that lies on each.
+    straight : (k,) bool array
+        Contacts whose branch shall not join others.
+    """
+
+    cells: Rows
+    carried: Ints
+    load: Floats
+    straight: Mask
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """Supports of one kind under one piece.
+
+    Attributes
+    ----------
+    way : {"tree", "columns", "beams", "none"}
+    supports : Bricks
+        What is taken out again.
+    contacts : Contacts
+    unsteady : tuple of Tipping
+        Towers that fall over on the way, as no contact can hold them; their rows
+        count the bricks of the piece and then the supports.
+    bears : bool
+        Whether the supports are proven to bear what lies on them.
+    """
+
+    way: Way
+    supports: Bricks
+    contacts: Contacts
+    unsteady: tuple[Tipping, ...]
+    bears: bool
+
+
+def planned(bricks: Bricks, catalogue: Catalogue, need: Need, *, ways: Sequence[Way], hold: float) -> Plan:
+    """Put supports under a piece.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The piece, with the posts that stay in it.
+    catalogue : Catalogue
+    need : Need
+        Of these bricks.
+    ways : sequence of {"tree", "columns", "beams"}
+        Kinds to choose from, the most promising first; none of them if nothing
+        shall be put under the piece.
+    hold : float
+        Pull in N that one contact point bears.
+
+    Returns
+    -------
+    Plan
+        The lightest of those with the fewest faults.
+    """
+    contacts = Contacts(need.contacts, need.carried, need.load, np.zeros(len(need.contacts), dtype=bool))
+    best: Plan | None = None
+    for way in ways:
+        # contacts are added, never taken away: what is too heavy to begin with stays so
+        first = _laid(contacts, need, catalogue, way)
+        if best is not None and (
+            not len(contacts.cells) or _worth(best, catalogue) <= (False, _mass(first, catalogue))
+        ):
+            continue
+        found = _settled(bricks, catalogue, need, contacts, way, hold)
+        if best is None or _worth(found, catalogue) < _worth(best, catalogue):
+            best = found
+    return _bare(bricks, need, contacts, catalogue) if best is None else best
+
+
+def _worth(plan: Plan, catalogue: Catalogue) -> tuple[bool, float]:
+    """Return what a better plan has less of: supports that break, and weight."""
+    return not plan.bears, _mass(plan.supports, catalogue) + BY_HAND * len(plan.unsteady)
+
+
+def _mass(bricks: Bricks, catalogue: Catalogue) -> float:
+    return float(catalogue.mass[bricks.part].sum())
+
+
+def _settled(bricks: Bricks, catalogue: Catalogue, need: Need, contacts: Contacts, way: Way, hold: float) -> Plan:
+    """Add contacts and straighten branches until all stands and bears, or nothing more helps."""
+    for _ in range(ROUNDS):
+        nothing = np.zeros(len(contacts.cells), dtype=bool)
+        supports = _laid(contacts, need, catalogue, way)
+        falling, props = _falling(bricks, supports, contacts, need, catalogue)
+        giving, bears = nothing, True
+        if way != "columns" and len(contacts.cells):
+            giving, bears = _giving(contacts, supports, need, catalogue, hold)
+        better = contacts
+        if way == "tree":
+            leaning = [tower.bricks - len(bricks) for tower in falling if tower.bricks[0] >= len(bricks)]
+            crooked = giving | _resting_on(contacts, supports, need, catalogue, leaning)
+            if (crooked & ~contacts.straight).any():
+                better = replace(contacts, straight=contacts.straight | crooked)
+        if props:
+            better = _with(better, need, props)
+        if better is contacts:
+            break
+        contacts = better
+    return Plan(way, supports, contacts, tuple(falling), bears)
+
+
+def _bare(bricks: Bricks, need: Need, contacts: Contacts, catalogue: Catalogue) -> Plan:
+    """Return the plan that puts nothing under a piece."""
+    nothing = bricks.take(np.zeros(0, dtype=np.int64))
+    none = Contacts(contacts.cells[:0], contacts.carried[:0], contacts.load[:0], contacts.straight[:0])
+    everything = connect(bricks, catalogue).pairs
+    moves = ordered(bricks, everything, temporary=np.zeros(len(bricks), dtype=bool))
+    return Plan("none", nothing, none, tuple(tipping(moves, bricks, catalogue, everything)), True)
+
+
+def _falling(
+    bricks: Bricks, supports: Bricks, contacts: Contacts, need: Need, catalogue: Catalogue
+) -> tuple[list[Tipping], list[int]]:
+    """Return the towers that fall over while a piece is built, and undersides that hold those that do not."""
+    everything = joined([bricks, supports])
+    pairs = connect(everything, catalogue).pairs
+    moves = ordered(everything, pairs, temporary=np.arange(len(everything)) >= len(bricks))
+    props: list[int] = []
+
+    def prop(tower: Tipping) -> tuple[int, int] | None:
+        best = _steadying(tower, contacts, need, props)
+        if best is None:
+            return None
+        props.append(best)
+        x, y = (need.undersides[best] + need.room.low)[:2].tolist()
+        return x, y
+
+    return tipping(moves, everything, catalogue, pairs, prop=prop), props
+
+
+def _laid(contacts: Contacts, need: Need, catalogue: Catalogue, way: Way) -> Bricks:
+    """Return the bricks of all supports, in the cells of the model's grid."""
+    if way == "tree":
+        boxes = tree(contacts.cells, contacts.load, need.room, straight=contacts.straight)
+    elif way == "columns":
+        boxes = columns(contacts.cells.tolist(), need.room)
+    else:
+        boxes = beams(np.unique(np.concatenate([need.cells, contacts.cells]), axis=0), need.room)
+    boxes = joined_upwards(boxes, catalogue, OUTSIDE_COLOUR)
+    boxes[:, :3] += need.room.low
+    return bricks_of_boxes(boxes, catalogue, colour=OUTSIDE_COLOUR, role=Role.SUPPORT_OUTSIDE)
+
+
+def _tops(contacts: Contacts, need: Need, connection: Connection) -> Ints:
+    """Return the row of the support brick under each contact."""
+    x, y, z = (contacts.cells + need.room.low - connection.low).T
+    tops: Ints = connection.owner[z - 1, y, x].astype(np.int64)
+    return tops
+
+
+def _giving(contacts: Contacts, supports: Bricks, need: Need, catalogue: Catalogue, hold: float) -> tuple[Mask, bool]:
+    """Load the supports by themselves; tell which contacts rest on some that give way, and whether none does.
+
+    A straight column stands right under its load, on a foot around it, and needs no proof.
+    """
+    whole = connect(supports, catalogue)
+    under = whole.component[_tops(contacts, need, whole)]
+    bent = np.isin(whole.component, under[~contacts.straight])
+    if not bent.any():
+        return np.zeros(len(under), dtype=bool), True
+    loaded = np.isin(under, whole.component[bent])
+    crooked = supports.take(bent)
+    connection = connect(crooked, catalogue)
+    tops = _tops(replace(contacts, cells=contacts.cells[loaded]), need, connection)
+    loads = np.zeros((len(crooked), 3))
+    np.add.at(loads[:, 2], tops, -contacts.load[loaded])
+    # a branch that is not soon proven to bear is straightened as well, which is cheaper than a linear programme
+    found = stability(crooked, catalogue, connection, hold=hold, loads=loads, programme=0)
+    moving = (np.abs(found.motion) > MOVING).any(axis=1)
+    if found.verdict is Verdict.UNDECIDED:
+        moving |= found.margin < 0
+    # not a number where it floats, which is no support at all
+    giving = np.union1d(found.component[moving], np.flatnonzero(~(found.tipping >= 0)))
+    weak = np.zeros(len(under), dtype=bool)
+    weak[loaded] = np.isin(found.component[tops], giving)
+    return weak, found.verdict is Verdict.STABLE
+
+
+def _resting_on(contacts: Contacts, supports: Bricks, need: Need, catalogue: Catalogue, towers: Sequence[Ints]) -> Mask:
+    """Tell which contacts rest on trees of which some bricks are given."""
+    if not towers:
+        return np.zeros(len(contacts.cells), dtype=bool)
+    connection = connect(supports, catalogue)
+    tops = _tops(contacts, need, connection)
+    return np.isin(connection.component[tops], connection.component[np.concatenate(towers)])
+
+
+def _steadying(tower: Tipping, contacts: Contacts, need: Need, props: Sequence[int]) -> int | None:
+    """Return the underside at which a support keeps a tower upright best, if one helps."""
+    under = np.flatnonzero(np.isin(need.over, tower.bricks))
+    taken = np.concatenate([contacts.cells, need.undersides[list(props)]])[:, :2]
+    under = under[~(need.undersides[under, None, :2] == taken[None]).all(axis=2).any(axis=1)]
+    cells = need.undersides[under] + need.room.low
+    before = inside(tower.feet, tower.middle)
+    after = np.array([inside(np.concatenate([tower.feet, corners([(x, y)])]), tower.middle) for x, y, _ in cells])
+    if not len(after) or after.max() <= before + STEADY:
+        return None
+    return int(under[np.lexsort((cells[:, 2], -np.minimum(after, ENOUGH)))[0]])
+
+
+def _with(contacts: Contacts, need: Need, undersides: Sequence[int]) -> Contacts:
+    """Return contacts with others at undersides."""
+    more = list(undersides)
+    return Contacts(
+        cells=np.concatenate([contacts.cells, need.undersides[more]]),
+        carried=np.concatenate([contacts.carried, need.over[more]]),
+        load=np.concatenate([contacts.load, np.zeros(len(more))]),
+        straight=np.concatenate([contacts.straight, np.zeros(len(more), dtype=bool)]),
+    )

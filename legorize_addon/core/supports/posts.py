@@ -1,0 +1,113 @@
+"""Posts that stay in the model: thin columns from what nothing else carries down to what is below it.
+
+In a closed hollow no support could be taken out again, and what touches nothing
+else would fall without one.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..catalogue import Catalogue
+from ..connection import NOBODY, Connection, connect, stud_columns
+from ..model import Bricks, Ints, Mask, Role, joined
+from ..units import PLATES_PER_BRICK
+from .boxes import INSIDE_COLOUR, OUTSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, joined_upwards, sizes_in
+
+
+def with_floating_carried(bricks: Bricks, catalogue: Catalogue, connection: Connection) -> tuple[Bricks, Connection]:
+    """Put a post under each component that floats, in the colour of the brick on it if posts are made in it.
+
+    Parameters
+    ----------
+    bricks : Bricks
+    catalogue : Catalogue
+    connection : Connection
+        Of these bricks.
+
+    Returns
+    -------
+    bricks : Bricks
+        All that came in, in their order, and then the posts, ``SUPPORT_KEPT``.
+    connection : Connection
+        Of those: nothing floats.
+    """
+    while connection.n_floating:
+        floating = np.unique(connection.component[~connection.grounded])
+        posts = []
+        for number in floating.tolist():
+            boxes, carried = _shortest(bricks, catalogue, connection, connection.component == number)
+            colour = _colour(int(bricks.colour[carried]), catalogue)
+            posts.append(_bricks(boxes, catalogue, colour, Role.SUPPORT_KEPT))
+        bricks = joined([bricks, *posts])
+        connection = connect(bricks, catalogue)
+    return bricks, connection
+
+
+def with_inside_carried(
+    bricks: Bricks, catalogue: Catalogue, connection: Connection, rows: Ints
+) -> tuple[Bricks, Connection]:
+    """Put a red post under each of the given bricks, one after the other from the lowest.
+
+    Parameters
+    ----------
+    bricks : Bricks
+    catalogue : Catalogue
+    connection : Connection
+        Of these bricks.
+    rows : (k,) int64 array
+        Bricks to carry, with free cells below them.
+
+    Returns
+    -------
+    bricks : Bricks
+        All that came in, in their order, and then the posts, ``SUPPORT_INSIDE``.
+    connection : Connection
+        Of those.
+    """
+    posts = []
+    for row in rows.tolist():
+        boxes, _ = _shortest(bricks, catalogue, connection, np.arange(len(bricks)) == row)
+        posts.append(_bricks(boxes, catalogue, INSIDE_COLOUR, Role.SUPPORT_INSIDE))
+    if not posts:
+        return bricks, connection
+    bricks = joined([bricks, *posts])
+    return bricks, connect(bricks, catalogue)
+
+
+def _bricks(boxes: Boxes, catalogue: Catalogue, colour: int, role: Role) -> Bricks:
+    return bricks_of_boxes(joined_upwards(boxes, catalogue, colour), catalogue, colour=colour, role=role)
+
+
+def _colour(wanted: int, catalogue: Catalogue) -> int:
+    """Return a colour if posts can be made in it, else that of all supports outside."""
+    made = sizes_in(catalogue, wanted)
+    return wanted if all((1, 1, height) in made for height in (1, PLATES_PER_BRICK)) else OUTSIDE_COLOUR
+
+
+def _shortest(bricks: Bricks, catalogue: Catalogue, connection: Connection, mine: Mask) -> tuple[Boxes, int]:
+    """Return the shortest post under some bricks that stands on another one or on the ground, and whom it carries."""
+    brick, columns = stud_columns(bricks, catalogue)
+    own = mine[brick]
+    brick, cells = brick[own], columns[own] - connection.low
+    owner, ground = connection.owner, int(bricks.corner[:, 2].min()) - connection.low[2]
+    best: tuple[int, int, int, int] | None = None
+    for row, (x, y, z) in zip(brick.tolist(), cells.tolist(), strict=True):
+        below = np.flatnonzero(owner[:z, y, x] != NOBODY)
+        foot = int(below[-1]) + 1 if len(below) else ground
+        if foot == z or (len(below) and mine[owner[foot - 1, y, x]]):
+            continue
+        if best is None or z - foot < best[0]:
+            best = z - foot, x, y, row
+    if best is None:
+        raise AssertionError("the lowest of bricks that float looks down on the ground or on others")
+    length, x, y, row = best
+    z = int(bricks.corner[row, 2] - connection.low[2])
+    return _post(x, y, z, length) + np.array([*connection.low, 0, 0, 0], dtype=np.int32), row
+
+
+def _post(x: int, y: int, top: int, length: int) -> Boxes:
+    """Return a column of bricks with plates on top, whatever its length in plates."""
+    heights = [PLATES_PER_BRICK] * (length // PLATES_PER_BRICK) + [1] * (length % PLATES_PER_BRICK)
+    floors = top - length + np.concatenate([[0], np.cumsum(heights)])
+    return boxes_of((x, y, int(floor), 1, 1, height) for floor, height in zip(floors, heights, strict=False))

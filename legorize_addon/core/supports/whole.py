@@ -1,0 +1,173 @@
+"""All supports of a model and the order in which it is built."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final, Literal
+
+import numpy as np
+
+from ..building.balance import Tipping
+from ..building.links import Links, links
+from ..building.moves import Moves
+from ..building.order import ordered
+from ..building.walk import Walk, walk
+from ..catalogue import Catalogue
+from ..connection import connect
+from ..model import Bricks, Ints, Mask, joined
+from ..progress import Progress, silent
+from ..statics import HOLD
+from .need import Need, needed
+from .plan import Plan, Way, planned
+from .posts import with_inside_carried
+from .room import Room, room_around
+
+Wish = Literal["best", Way]
+
+
+WAYS: Final[tuple[Way, ...]] = ("tree", "columns", "beams")
+"""Kinds of supports, the one that is mostly best first."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Piece:
+    """One piece with its supports.
+
+    Attributes
+    ----------
+    rows : (k,) int64 array
+        Rows of its bricks in the model as it came in.
+    posts : Bricks
+        What was put into it to stay.
+    need : Need
+        Of the bricks and then the posts.
+    plan : Plan
+    """
+
+    rows: Ints
+    posts: Bricks
+    need: Need
+    plan: Plan
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Supports:
+    """A model with its supports, and how it is built.
+
+    Attributes
+    ----------
+    bricks : Bricks
+        The model with all that stays in it, then the supports that are taken out.
+    temporary : (n,) bool array
+        Which are taken out again.
+    contacts : Links
+        What touches what while it is built.
+    pieces : tuple of Piece
+        By ascending number.
+    moves : Moves
+        Order in which all is built.
+    walk : Walk
+        What the check of the order found.
+    """
+
+    bricks: Bricks
+    temporary: Mask
+    contacts: Links
+    pieces: tuple[Piece, ...]
+    moves: Moves
+    walk: Walk
+
+    @property
+    def stays(self) -> Bricks:
+        """The model that is there in the end, each brick with the step in which it is placed."""
+        return self.bricks.take(~self.temporary)
+
+    @property
+    def removed(self) -> Bricks:
+        """What is taken out again."""
+        return self.bricks.take(self.temporary)
+
+    @property
+    def clinging(self) -> Ints:
+        """Rows of carried bricks that hold on to the model by no more studs than to their support.
+
+        They are to be held by hand while the support is pulled off.
+        """
+        lower, upper = self.contacts.pairs.T
+        studs = self.contacts.studs
+        n = len(self.bricks)
+        support = np.bincount(upper, studs * self.temporary[lower], n)
+        model = np.bincount(upper, studs * ~self.temporary[lower], n) + np.bincount(lower, studs, n)
+        return np.flatnonzero((support > 0) & (model <= support) & ~self.temporary)
+
+    @property
+    def unsteady(self) -> tuple[Tipping, ...]:
+        """Towers that have to be held by hand while they grow."""
+        return tuple(tower for piece in self.pieces for tower in piece.plan.unsteady)
+
+
+def supported(
+    bricks: Bricks,
+    catalogue: Catalogue,
+    *,
+    wish: Wish = "best",
+    deepest: int = 3,
+    hold: float = HOLD,
+    progress: Progress = silent,
+) -> Supports:
+    """Put supports under a model, piece by piece, and find the order in which it is built.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The model. Its pieces stand on the table each by itself.
+    catalogue : Catalogue
+    wish : {"best", "tree", "columns", "beams", "none"}
+        Kind of the supports that are taken out again; "best" is for each piece
+        the lightest of those that fail least, "none" adds nothing at all.
+    deepest : int
+        Plates that bricks may hang one under another while building.
+    hold : float
+        Pull in N that one contact point bears.
+    progress : Progress
+
+    Returns
+    -------
+    Supports
+    """
+    numbers = np.unique(bricks.piece).tolist()
+    pieces = []
+    for turn, number in enumerate(numbers):
+        progress("supports", turn / len(numbers))
+        # supports of the first piece are still there when the others are joined to it
+        room = room_around(connect(bricks, catalogue)) if number == 0 else None
+        pieces.append(_piece(bricks, np.flatnonzero(bricks.piece == number), catalogue, room, wish, deepest, hold))
+    posts = [_numbered(piece.posts, number) for piece, number in zip(pieces, numbers, strict=True)]
+    added = [_numbered(piece.plan.supports, number) for piece, number in zip(pieces, numbers, strict=True)]
+    everything = joined([bricks, *posts, *added])
+    temporary = np.arange(len(everything)) >= len(everything) - sum(len(each) for each in added)
+    contacts = links(everything, catalogue, temporary=temporary)
+    moves = ordered(everything, contacts.pairs, temporary=temporary)
+    everything = replace(everything, step=moves.step_of(len(everything)))
+    found = walk(moves, everything, catalogue, contacts, temporary=temporary)
+    return Supports(everything, temporary, contacts, tuple(pieces), moves, found)
+
+
+def _numbered(bricks: Bricks, number: int) -> Bricks:
+    return replace(bricks, piece=np.full(len(bricks), number, dtype=np.int16))
+
+
+def _piece(
+    model: Bricks, rows: Ints, catalogue: Catalogue, room: Room | None, wish: Wish, deepest: int, hold: float
+) -> Piece:
+    """Support one piece."""
+    bricks = _numbered(model.take(rows), 0)
+    connection = connect(bricks, catalogue)
+    need = needed(bricks, catalogue, connection, deepest=deepest, room=room)
+    if wish == "none":
+        return Piece(rows, bricks.take(rows[:0]), need, planned(bricks, catalogue, need, ways=(), hold=hold))
+    if len(need.enclosed):
+        bricks, connection = with_inside_carried(bricks, catalogue, connection, need.enclosed)
+        need = needed(bricks, catalogue, connection, deepest=deepest, room=room)
+    plan = planned(bricks, catalogue, need, ways=WAYS if wish == "best" else (wish,), hold=hold)
+    return Piece(rows, bricks.take(np.arange(len(rows), len(bricks))), need, plan)

@@ -1,0 +1,71 @@
+"""Posts that stay: under what floats, and in closed hollows."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.connection import connect
+from legorize_addon.core.model import Role
+from legorize_addon.core.supports.boxes import INSIDE_COLOUR, OUTSIDE_COLOUR
+from legorize_addon.core.supports.posts import with_floating_carried, with_inside_carried
+from tests.core.standing import CATALOGUE, table
+
+
+def carried(*rows, colour=4):
+    """Return bricks with posts under all that floats, and their connection."""
+    bricks = table(*rows)
+    bricks = replace(bricks, colour=np.full(len(bricks), colour, np.int16))
+    return (*with_floating_carried(bricks, CATALOGUE, connect(bricks, CATALOGUE)), len(bricks))
+
+
+@pytest.mark.parametrize("gap", range(1, 12))
+def test_post_fills_any_gap(gap):
+    """Whatever the height in plates, the brick stands afterwards, and nothing overlaps."""
+    bricks, connection, n = carried(("3003", 0, 0, 0), ("3003", 0, 0, 3 + gap))
+    assert connection.n_floating == connection.collisions == 0
+    heights = np.array([part.height for part in CATALOGUE.parts])[bricks.part[n:]]
+    assert heights.sum() == gap
+    assert (bricks.role[n:] == Role.SUPPORT_KEPT).all()
+    assert (bricks.colour[n:] == 4).all()
+
+
+def test_shortest_way_down_is_taken():
+    """A beam over the ground and over a tower gets its post on the tower."""
+    bricks, _, n = carried(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3009", 1, 0, 7))
+    assert bricks.corner[n:].tolist() == [[1, 0, 6]]
+
+
+def test_floating_parts_on_each_other_all_stand():
+    """One post on the ground, and one between the two that float."""
+    bricks, connection, n = carried(("3003", 9, 9, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 9))
+    assert connection.n_floating == 0
+    assert len(bricks) - n == 2
+
+
+def test_colour_without_posts_gives_white():
+    """In a colour in which no 1 x 1 plate is made, posts are white."""
+    plate, brick = CATALOGUE.part_row("3024"), CATALOGUE.part_row("3005")
+    without = CATALOGUE.codes[~(CATALOGUE.exists[plate] & CATALOGUE.exists[brick])]
+    for code in without.tolist():
+        bricks, _, n = carried(("3003", 0, 0, 0), ("3003", 0, 0, 4), colour=code)
+        assert set(bricks.colour[n:].tolist()) == {OUTSIDE_COLOUR}
+
+
+def test_nothing_floats_nothing_changes():
+    """A model in one piece comes back as it was."""
+    bricks, _, n = carried(("3003", 0, 0, 0), ("3003", 0, 0, 3))
+    assert len(bricks) == n
+
+
+def test_post_inside_is_red():
+    """It stands on the floor below the brick that is named, and joins the two."""
+    bricks = table(("3001", 0, 0, 0), ("3003", 0, 0, 3), ("3001", 0, 0, 6), ("3005", 3, 0, 5))
+    bricks = table(("3001", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 6), ("3001", 0, 0, 9), ("3005", 3, 0, 6))
+    with_post, connection = with_inside_carried(bricks, CATALOGUE, connect(bricks, CATALOGUE), np.array([4]))
+    assert with_post.corner[5:].tolist() == [[3, 0, 3]]
+    assert with_post.role[5:].tolist() == [Role.SUPPORT_INSIDE]
+    assert with_post.colour[5:].tolist() == [INSIDE_COLOUR]
+    assert {(0, 5), (5, 4)} <= set(map(tuple, connection.pairs.tolist()))
