@@ -136,7 +136,8 @@ class _Site:
             batch = self._next(self.from_below, level)
             if not batch:
                 return
-            self._place_all(piece, batch, (level, turn, "from below"))
+            # the highest first: what hangs lower may belong under it
+            self._place_all(piece, batch[::-1], (level, turn, "from below"))
             turn += 1
 
     def _next(self, agenda: list[tuple[tuple[int, ...], int]], level: int) -> list[int]:
@@ -155,25 +156,26 @@ class _Site:
 
     def _first(self, brick: int) -> Iterator[int]:
         """Yield the bricks that must be in place before one, else they would have to be squeezed in, and it."""
-        agenda, seen = [(brick, False)], set()
+        agenda, seen = [brick], {brick}
         while agenda:
-            each, ready = agenda.pop()
-            if not self.waiting[each]:
+            each = agenda[-1]
+            # whatever was yielded is in place by now, which may have brought others into a squeeze
+            sooner = [one for one in self._squeezed_by(each) if one not in seen] if self.waiting[each] else []
+            if sooner:
+                seen.update(sooner)
+                agenda += sooner
                 continue
-            if ready:
+            agenda.pop()
+            if self.waiting[each]:
                 yield each
-                continue
-            if each in seen:
-                continue
-            seen.add(each)
-            agenda.append((each, True))
-            squeezed = [
-                one for one in self.above[each] if self.waiting[one] and self._any(self.above[one], self.assembly[each])
-            ]
-            squeezed += [
-                one for one in self.below[each] if self.waiting[one] and self._any(self.below[one], self.assembly[each])
-            ]
-            agenda += ((one, False) for one in squeezed if self.assembly[one] == self.assembly[each])
+
+    def _squeezed_by(self, brick: int) -> Iterator[int]:
+        """Yield the bricks still to come that would lie between one and others in place."""
+        assembly = self.assembly[brick]
+        for beside in (self.above, self.below):
+            for one in beside[brick]:
+                if self.waiting[one] and self.assembly[one] == assembly and self._any(beside[one], assembly):
+                    yield one
 
     def _any(self, bricks: list[int], assembly: int) -> bool:
         """Whether one of some bricks is in place in an assembly."""

@@ -8,6 +8,7 @@ brick is carried as well, and may carry others from above.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,9 @@ from ..model import Bricks, Floats, Ints
 from ..statics import GRAVITY
 from .carrying import NOT_HELD, Carrying
 from .room import Room, room_around
+
+INSIDE: Final = 6
+"""Plates by which bricks in closed hollows may hang deeper than others."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -102,6 +106,9 @@ def needed(
     off = np.abs(cells[:, :2] + 0.5 - middle[brick]).sum(axis=1)
     order = np.lexsort((off, brick))
     first = order[np.searchsorted(brick[order], chosen)]
+    depth = carrying.depth
+    # inside, a post would stay for good: bricks may hang deeper before one is worth it
+    carrying.deepen(deepest + INSIDE)
     return Need(
         room=room,
         bricks=wanting,
@@ -111,7 +118,7 @@ def needed(
         carried=chosen,
         load=load,
         enclosed=enclosed[carrying.depth[enclosed] == NOT_HELD],
-        depth=carrying.depth,
+        depth=depth,
     )
 
 

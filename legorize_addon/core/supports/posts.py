@@ -6,6 +6,8 @@ else would fall without one.
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 
 from ..catalogue import Catalogue
@@ -13,6 +15,10 @@ from ..connection import NOBODY, Connection, connect, stud_columns
 from ..model import Bricks, Ints, Mask, Role, joined
 from ..units import PLATES_PER_BRICK
 from .boxes import INSIDE_COLOUR, OUTSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, joined_upwards, sizes_in
+
+
+GROUND: Final = 30
+"""Plates that a post to a brick may be longer than one to the ground."""
 
 
 def with_floating_carried(bricks: Bricks, catalogue: Catalogue, connection: Connection) -> tuple[Bricks, Connection]:
@@ -91,17 +97,19 @@ def _shortest(bricks: Bricks, catalogue: Catalogue, connection: Connection, mine
     own = mine[brick]
     brick, cells = brick[own], columns[own] - connection.low
     owner, ground = connection.owner, int(bricks.corner[:, 2].min()) - connection.low[2]
-    best: tuple[int, int, int, int] | None = None
+    best: tuple[int, int, int, int, int] | None = None
     for row, (x, y, z) in zip(brick.tolist(), cells.tolist(), strict=True):
         below = np.flatnonzero(owner[:z, y, x] != NOBODY)
         foot = int(below[-1]) + 1 if len(below) else ground
         if foot == z or (len(below) and mine[owner[foot - 1, y, x]]):
             continue
-        if best is None or z - foot < best[0]:
-            best = z - foot, x, y, row
+        # a post on the ground leaves its part beside the model, one on a brick joins the two
+        price = z - foot + (0 if len(below) else GROUND)
+        if best is None or price < best[0]:
+            best = price, x, y, row, z - foot
     if best is None:
         raise AssertionError("the lowest of bricks that float looks down on the ground or on others")
-    length, x, y, row = best
+    _, x, y, row, length = best
     z = int(bricks.corner[row, 2] - connection.low[2])
     return _post(x, y, z, length) + np.array([*connection.low, 0, 0, 0], dtype=np.int32), row
 

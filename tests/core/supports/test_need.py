@@ -73,13 +73,14 @@ def test_no_contact_over_the_model():
 
 
 def test_closed_hollow_is_told_apart():
-    """A brick under the lid of a closed box hangs over air that nothing reaches."""
+    """Of three bricks that hang under each other in a closed box the lowest hangs too deep, and no air reaches it."""
     floor = [("3001", 0, 0, 0), ("3001", 0, 2, 0), ("3001", 0, 4, 0)]
-    walls = [("3010", 0, 0, 3), ("3010", 0, 5, 3), ("3010", 0, 0, 6), ("3010", 0, 5, 6)]
-    walls += [("3010", x, 1, z, 1) for x in (0, 3) for z in (3, 6)]
-    lid = [("3005", 1, 2, 6), ("3001", 0, 0, 9), ("3001", 0, 2, 9), ("3001", 0, 4, 9)]
-    found = need(*floor, *walls, *lid, deepest=0)
-    assert found.enclosed.tolist() == [len(floor) + len(walls)]
+    levels = (3, 6, 9, 12)
+    walls = [("3010", 0, y, z) for y in (0, 5) for z in levels] + [("3010", x, 1, z, 1) for x in (0, 3) for z in levels]
+    lid = [("3001", 0, 0, 15), ("3001", 0, 2, 15), ("3001", 0, 4, 15)]
+    hanging = [("3005", 1, 2, 6), ("3005", 1, 2, 9), ("3005", 1, 2, 12)]
+    found = need(*floor, *walls, *lid, *hanging, deepest=0)
+    assert found.enclosed.tolist() == [len(floor) + len(walls) + len(lid)]
     assert len(found.contacts) == 0
 
 

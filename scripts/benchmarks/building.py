@@ -1,0 +1,102 @@
+"""Whether every model can be built: its order followed from the file, whole and in pieces."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Final
+
+from legorize_addon.core.building.order_file import build_order_csv
+from legorize_addon.core.catalogue import Catalogue, load_catalogue
+from legorize_addon.core.ldraw import write_ldr
+from legorize_addon.core.mesh import TriangleMesh
+from legorize_addon.core.model import Bricks
+from legorize_addon.core.pipeline import legorize
+from legorize_addon.core.settings import Settings
+from tests.core.overhanging import overhanging
+
+from .followed import follow
+from .meshes import read_mesh
+from .tables import Row, Table
+
+FIXTURE_SIZE: Final = 400.0
+"""Of the four fixtures in mm; they are scaled to the width anyway."""
+
+
+def measure(paths: Sequence[Path], *, widths: Sequence[int], split: int) -> list[Table]:
+    """Build every model and four fixtures, whole and in pieces.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        Model files.
+    widths : sequence of int
+        Studs along the longer horizontal side.
+    split : int
+        Most pieces.
+
+    Returns
+    -------
+    list of Table
+        One row a model, width and number of pieces.
+    """
+    title = "Building orders followed from their files; all faults 0 is wanted, and the model left is that of model.ldr"
+    rows = [
+        _row(name, mesh, width, most)
+        for width in widths
+        for name, mesh in _meshes(paths)
+        for most in dict.fromkeys((1, split))
+    ]
+    return [Table("building", title, tuple(rows))]
+
+
+def _meshes(paths: Sequence[Path]) -> Iterator[tuple[str, TriangleMesh]]:
+    for path in paths:
+        yield path.stem, read_mesh(path)
+    yield from overhanging(FIXTURE_SIZE).items()
+
+
+def _row(name: str, mesh: TriangleMesh, width: int, most: int) -> Row:
+    print(f"building {name} at {width}", file=sys.stderr)
+    catalogue = load_catalogue()
+    start = time.process_time()
+    build = legorize(mesh, Settings(width=width, split=most))
+    total = time.process_time() - start
+    supports = build.supports
+    faults, left = follow(build_order_csv(supports.moves, supports.bricks, catalogue), catalogue)
+    removed = supports.removed
+    return {
+        "model": name,
+        "studs": width,
+        "at_most": most,
+        "pieces": len(supports.pieces),
+        "bricks": len(build.bricks),
+        "ways": " ".join(dict.fromkeys(piece.plan.way for piece in supports.pieces)),
+        "removed": len(removed),
+        "removed_g": float(catalogue.mass[removed.part].sum()),
+        "kept": sum(len(piece.posts) for piece in supports.pieces),
+        "contacts": sum(len(piece.plan.contacts.cells) for piece in supports.pieces),
+        "clinging": len(supports.clinging),
+        "by_hand": len(supports.unsteady),
+        "pressed": int(supports.moves.pressed.sum()),
+        "steps": supports.walk.n_steps,
+        "in_air": faults.in_air,
+        "overlapping": faults.overlapping,
+        "squeezed": faults.squeezed,
+        "stuck": faults.stuck,
+        "loose": faults.loose,
+        "components": build.connection.n_components,
+        "verdict": build.stability.verdict.value,
+        "supports_cpu_s": build.timings["supports"],
+        "all_cpu_s": total,
+        "built_met": faults.total() == 0 and left == _lines(build.bricks, catalogue),
+    }
+
+
+def _lines(bricks: Bricks, catalogue: Catalogue) -> Counter[str]:
+    """Return the lines of the model's own file."""
+    text = write_ldr(bricks, catalogue, name="model.ldr", title="model")
+    return Counter(line for line in text.splitlines() if line.startswith("1 "))

@@ -1,0 +1,158 @@
+"""A building order followed cell by cell, from its file alone: a second opinion on the product's own check."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import Counter, defaultdict
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from legorize_addon.core.catalogue import Catalogue, footprint
+from legorize_addon.core.ldraw import read_ldr
+
+Cell = tuple[int, int, int]
+
+NEVER: Final = 10**9
+
+
+@dataclass(slots=True)
+class Faults:
+    """What cannot be done, counted; and the bricks that are left in the end, by their line.
+
+    Attributes
+    ----------
+    in_air : int
+        Bricks that touch no stud as they are placed, or are left without a way to the table.
+    overlapping : int
+        Bricks placed into others.
+    squeezed : int
+        Bricks placed between studs below and above.
+    stuck : int
+        Bricks taken out that others lie below.
+    loose : int
+        Pieces joined that touch nothing, or that have bricks above them in their way.
+    """
+
+    in_air: int = 0
+    overlapping: int = 0
+    squeezed: int = 0
+    stuck: int = 0
+    loose: int = 0
+
+    def total(self) -> int:
+        """Return the number of all faults."""
+        return self.in_air + self.overlapping + self.squeezed + self.stuck + self.loose
+
+
+def follow(text: str, catalogue: Catalogue) -> tuple[Faults, Counter[str]]:
+    """Follow ``build_order.csv`` from its first row to its last.
+
+    Parameters
+    ----------
+    text : str
+        The file.
+    catalogue : Catalogue
+        Sizes of the parts.
+
+    Returns
+    -------
+    faults : Faults
+    left : Counter
+        Lines of the bricks that are there at the end.
+    """
+    rows = list(csv.DictReader(io.StringIO(text)))
+    places = _cells([row["ldraw"] for row in rows if row["action"] == "place"], catalogue)
+    floor: dict[str, int] = defaultdict(lambda: NEVER)
+    for row in rows:
+        if row["action"] == "place":
+            floor[row["piece"]] = min(floor[row["piece"]], min(z for _, _, z in places[row["ldraw"]]))
+    tables = {piece: _Table(level) for piece, level in floor.items()}
+    faults, removing = Faults(), ""
+    for row in rows:
+        if removing and row["action"] != "remove":
+            faults.in_air += tables[removing].in_the_air()
+        removing = row["piece"] if row["action"] == "remove" else ""
+        table = tables.get(row["piece"], _Table(0))
+        if row["action"] == "place":
+            table.place(row["ldraw"], places[row["ldraw"]], faults)
+        elif row["action"] == "remove":
+            table.remove(row["ldraw"], faults)
+        else:
+            tables["0"].join(table, faults)
+            tables[row["piece"]] = tables["0"]
+    faults.in_air += tables["0"].in_the_air()
+    return faults, Counter(list(tables["0"].bricks))
+
+
+def _cells(lines: list[str], catalogue: Catalogue) -> dict[str, list[Cell]]:
+    """Return the cells of each line's brick."""
+    bricks = read_ldr("\n".join(lines), catalogue)
+    found = {}
+    for line, part, corner, turn in zip(lines, bricks.part, bricks.corner.tolist(), bricks.turn, strict=True):
+        x, y, z = corner
+        squares = footprint(catalogue.parts[part], int(turn)).tolist()
+        height = catalogue.parts[part].height
+        found[line] = [(x + i, y + j, z + k) for i, j in squares for k in range(height)]
+    return found
+
+
+class _Table:
+    """What stands on one table."""
+
+    def __init__(self, floor: int) -> None:
+        self.floor = floor
+        self.owner: dict[Cell, str] = {}
+        self.bricks: dict[str, list[Cell]] = {}
+
+    def place(self, line: str, cells: list[Cell], faults: Faults) -> None:
+        faults.overlapping += any(cell in self.owner for cell in cells)
+        below, above = self._touched(line, cells)
+        standing = min(z for _, _, z in cells) == self.floor
+        faults.in_air += not (below or above or standing)
+        faults.squeezed += bool((below or standing) and above)
+        self.bricks[line] = cells
+        self.owner.update(dict.fromkeys(cells, line))
+
+    def remove(self, line: str, faults: Faults) -> None:
+        cells = self.bricks.pop(line)
+        for cell in cells:
+            del self.owner[cell]
+        lowest = min(z for _, _, z in cells)
+        squares = {(x, y) for x, y, _ in cells}
+        faults.stuck += any((x, y, z) in self.owner for x, y in squares for z in range(self.floor, lowest))
+
+    def join(self, other: _Table, faults: Faults) -> None:
+        touching = sum(bool(set(self._touched(line, cells)[0])) for line, cells in other.bricks.items())
+        top: dict[tuple[int, int], int] = defaultdict(lambda: -NEVER)
+        for x, y, z in self.owner:
+            top[x, y] = max(top[x, y], z)
+        faults.loose += not touching or any(top[x, y] > z for x, y, z in other.owner)
+        self.bricks |= other.bricks
+        self.owner |= other.owner
+
+    def in_the_air(self) -> int:
+        """Count the bricks from which no way over studs leads to the table."""
+        number = {line: row for row, line in enumerate(self.bricks)}
+        near: list[list[int]] = [[] for _ in number]
+        for line, cells in self.bricks.items():
+            for other in (*self._touched(line, cells)[0], *self._touched(line, cells)[1]):
+                near[number[line]].append(number[other])
+        agenda = [number[line] for line, cells in self.bricks.items() if min(z for _, _, z in cells) == self.floor]
+        seen = np.zeros(len(number), dtype=bool)
+        while agenda:
+            row = agenda.pop()
+            if not seen[row]:
+                seen[row] = True
+                agenda += near[row]
+        return int(np.count_nonzero(~seen))
+
+    def _touched(self, line: str, cells: list[Cell]) -> tuple[list[str], list[str]]:
+        """Return the bricks right below and right above a brick."""
+        low, high = min(z for _, _, z in cells), max(z for _, _, z in cells)
+        squares = {(x, y) for x, y, _ in cells}
+        below = {self.owner.get((x, y, low - 1), line) for x, y in squares} - {line}
+        above = {self.owner.get((x, y, high + 1), line) for x, y in squares} - {line}
+        return sorted(below), sorted(above)
