@@ -37,7 +37,8 @@ def running_bond(problem: Problem) -> Index:
     """
     found, extents = problem.placements, problem.shapes.extent[problem.placements.shape]
     row: Index = np.flatnonzero(found.totals(_deep(problem)) == found.size)
-    row = row[extents[row].min(axis=1) == _WIDTH]
+    # a corner part has the sides of a square one, but lies beside others in another way
+    row = row[(extents[row].min(axis=1) == _WIDTH) & (extents[row].prod(axis=1) == found.size[row])]
     if not len(row):
         return row
     _, area = np.unique(np.stack([found.corner[row, 2], found.colour[row]]), axis=1, return_inverse=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from legorize_addon.core.layout.bond import running_bond
 
@@ -47,3 +48,12 @@ def test_the_bond_lies_across_the_seams_below():
         problem = problem_of(np.full((30, 30), RED), owner=below.astype(np.int32))
         extent = problem.shapes.extent[problem.placements.shape[running_bond(problem)]]
         assert (extent.argmax(axis=1) == along).all()
+
+
+@pytest.mark.parametrize("side", range(5, 13))
+def test_parts_of_the_bond_share_no_cell(side):
+    """In areas of any size, down to a middle of two by two studs, no cell is covered twice."""
+    problem = problem_of(np.full((side, side), RED))
+    found = problem.placements
+    cells = found.cells[found.entries(running_bond(problem))]
+    assert len(np.unique(cells)) == len(cells)
