@@ -105,6 +105,8 @@ class _Towers:
         self.feet: list[list[tuple[int, int]]] = [[] for _ in range(n)]
         for row, x, y in zip(brick[standing].tolist(), *columns[standing, :2].T.tolist(), strict=True):
             self.feet[row].append((x, y))
+        # of the feet, as long as they stay the same
+        self.hull: list[Floats | None] = [None] * n
         self.members = [[row] for row in range(n)]
         self.parent = list(range(n))
         self.placed = [False] * n
@@ -137,6 +139,7 @@ class _Towers:
                 self.fallen[tower] = True
                 return [found]
             self.feet[tower].append(square)
+            self.hull[tower] = None
         return []
 
     def falls(self, tower: int) -> bool:
@@ -148,7 +151,10 @@ class _Towers:
         # most towers stand on a cell right below their middle
         if (int(np.floor(x)), int(np.floor(y))) in cells and len(cells) > 1:
             return False
-        return inside(corners(cells), np.array([x, y])) < STEADY
+        planes = self.hull[tower]
+        if planes is None:
+            planes = self.hull[tower] = hull(corners(cells))
+        return _within(planes, np.array([x, y])) < STEADY
 
     def _middle(self, tower: int) -> Floats:
         """Return the middle of a tower's weight in studs, x and y."""
@@ -163,7 +169,9 @@ class _Towers:
         self.parent[other] = one
         self.mass[one] += self.mass[other]
         self.moment[one] = [a + b for a, b in zip(self.moment[one], self.moment[other], strict=True)]
-        self.feet[one] += self.feet[other]
+        if self.feet[other]:
+            self.feet[one] += self.feet[other]
+            self.hull[one] = None
         self.members[one] += self.members[other]
         self.fallen[one] = self.fallen[one] or self.fallen[other]
 
@@ -176,5 +184,14 @@ def corners(cells: list[tuple[int, int]]) -> Floats:
 
 def inside(points: Floats, place: Floats) -> float:
     """Return the distance to the nearest edge of the convex hull of points, less than 0 outside."""
-    planes = ConvexHull(points).equations
+    return _within(hull(points), place)
+
+
+def hull(points: Floats) -> Floats:
+    """Return the half-planes of the convex hull of points, (k, 3): outward normal and offset."""
+    planes: Floats = ConvexHull(points).equations
+    return planes
+
+
+def _within(planes: Floats, place: Floats) -> float:
     return float(-(planes[:, :2] @ place + planes[:, 2]).max())

@@ -16,7 +16,6 @@ from ..model import Bricks, Ints, Mask, Role, joined
 from ..units import PLATES_PER_BRICK
 from .boxes import INSIDE_COLOUR, OUTSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, joined_upwards, sizes_in
 
-
 GROUND: Final = 30
 """Plates that a post to a brick may be longer than one to the ground."""
 
