@@ -8,6 +8,10 @@
     python scripts/benchmark.py detail    [MESH ...] [--judge DIR] what plates gain and cost
     python scripts/benchmark.py hollowing [MESH ...] [--out DIR]   against a shell of two cells
     python scripts/benchmark.py stability [MESH ...] [--out DIR]   against HiGHS, and the StableLego cases
+    python scripts/benchmark.py goals     [MESH ...] [--out DIR]   every goal of the layout, in one table
+    python scripts/benchmark.py layouts   [MESH ...] [--peer PY]   against the layouts of the field, and a peer
+    python scripts/benchmark.py supports  [MESH ...] [--out DIR]   trees, columns and beams against full columns
+    python scripts/benchmark.py building  [MESH ...] [--out DIR]   building orders, followed from their files
     python scripts/benchmark.py judge     [MESH ...] --judge DIR   an external judge, on our bricks and on a peer's
     python scripts/benchmark.py sliders  [--bricks N] [--out DIR] what Blender takes to show layers and sections
 
@@ -31,7 +35,19 @@ ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 from legorize_addon.core.errors import LegorizeError  # noqa: E402 - found through the line above
-from scripts.benchmarks import detail, hollowing, judge, pipeline, slicing, stability, units  # noqa: E402
+from scripts.benchmarks import (  # noqa: E402
+    building,
+    detail,
+    goals,
+    hollowing,
+    judge,
+    layouts,
+    pipeline,
+    slicing,
+    stability,
+    supports,
+    units,
+)
 from scripts.benchmarks.meshes import models_in  # noqa: E402
 from scripts.benchmarks.tables import Table, write  # noqa: E402
 
@@ -79,6 +95,15 @@ def measured(options: argparse.Namespace) -> list[Table]:
         return detail.measure(paths, widths=options.widths, judge=options.judge, out=options.out)
     if options.command == "stability":
         return stability.measure(paths, widths=options.widths, repeats=options.repeats, programme=options.programme)
+    if options.command == "goals":
+        return goals.measure(paths, widths=options.widths)
+    if options.command == "layouts":
+        chosen = {name: getattr(options, name) for name in ("width", "repeats", "seed", "peer", "peer_limit")}
+        return layouts.measure(paths, **chosen)
+    if options.command == "supports":
+        return supports.measure(paths, width=options.width, repeats=options.repeats)
+    if options.command == "building":
+        return building.measure(paths, widths=options.widths, split=options.split)
     if options.command == "hollowing":
         return hollowing.measure(paths, width=options.width)
     return judge.measure(paths, judge=options.judge, out=options.out, width=options.width, ldr_dir=options.ldr_dir)
@@ -95,6 +120,10 @@ def parser() -> argparse.ArgumentParser:
         ("detail", "what plates gain and cost", None, None),
         ("hollowing", "what hollowing leaves", 64, None),
         ("stability", "whether models stand", None, 3),
+        ("goals", "every goal of the layout", None, None),
+        ("layouts", "the layouts of the field and ours", 48, 1),
+        ("supports", "supports of every kind", 64, 3),
+        ("building", "whether every model can be built", None, None),
         ("judge", "an external judge", 48, None),
     ):
         command = commands.add_parser(name, help=text, description=text)
@@ -122,14 +151,27 @@ def add_options(name: str, command: argparse.ArgumentParser) -> None:
     elif name == "units":
         command.add_argument("--triangles", **counts, default=[0, 94_000], help=text)
         command.add_argument("--points", type=int, default=2_000_000, help="of the dense sampling")
-    elif name == "pipeline":
+    elif name in ("pipeline", "goals"):
         command.add_argument("--widths", **counts, default=[24, 48, 96], help="studs (default: %(default)s)")
     elif name == "stability":
         command.add_argument("--widths", **counts, default=[24, 48], help="studs (default: %(default)s)")
         command.add_argument("--programme", type=int, default=3000, help="bricks up to which HiGHS is timed")
+    elif name == "building":
+        command.add_argument("--widths", **counts, default=[64], help="studs (default: %(default)s)")
+        command.add_argument("--split", type=int, default=3, help="most pieces (default: %(default)s)")
     elif name == "detail":
         command.add_argument("--widths", **counts, default=[32, 64], help="studs (default: %(default)s)")
         command.add_argument("--judge", metavar="DIR", type=Path, help="judge.py, which else is not asked")
+    elif name == "layouts":
+        command.add_argument("--seed", type=int, default=0, help="of everything random (default: %(default)s)")
+        command.add_argument("--peer", metavar="PYTHON", type=Path, help="of an environment with legolization 0.5.0")
+        command.add_argument(
+            "--peer-limit",
+            metavar="SECONDS",
+            type=float,
+            default=0.0,
+            help="that the peer may take to make its layout hold; 0 only lets it lay (default: %(default)s)",
+        )
     elif name == "judge":
         command.add_argument("--judge", metavar="DIR", type=Path, required=True, help="judge.py and peer_voxels.py")
         command.add_argument("--ldr-dir", metavar="DIR", type=Path, help="NAME/model.ldr made by scripts/legorize.py")

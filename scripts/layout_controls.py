@@ -19,7 +19,6 @@ from legorize_addon.core.layout.bound import bound
 from legorize_addon.core.layout.exchange import exchange, fewer_small
 from legorize_addon.core.layout.features import gauss_normalised
 from legorize_addon.core.layout.greedy import cover
-from legorize_addon.core.layout.live import Live
 from legorize_addon.core.layout.problem import Problem
 from legorize_addon.core.layout.svm import LEVELS, Machine, Samples, changes, improved, read, shipped
 from legorize_addon.core.layout.svm_training import tasks
@@ -27,13 +26,12 @@ from legorize_addon.core.model import Bricks, Mask, UnitGrid
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from scripts.benchmarks.meshes import read_mesh
+from scripts.benchmarks.rules import Index, Way, by_key, largest
 from scripts.benchmarks.tables import Row, Table
 from scripts.train_layout import SHIPPED, UNSEEN, built
 from scripts.training_models import KINDS
 
 Floats = NDArray[np.float64]
-Index = NDArray[np.intp]
-Way = Callable[[Problem, np.random.Generator], Index]
 
 HELD_BACK: Final = 4
 """Models of each kind that are made by chance for the report."""
@@ -121,32 +119,6 @@ def ways() -> Mapping[str, Way]:
         "linear programmes": lambda problem, rng: fewer_small(problem, linear.cover(problem, rng), rng),
         "exact": exact.cover,
     }
-
-
-def by_key(key: Callable[[Problem, np.random.Generator], Index]) -> Way:
-    """Return a way that lays whatever has the greatest key where it lies, until nothing fits."""
-
-    def way(problem: Problem, rng: np.random.Generator) -> Index:
-        keys, covered, live = (
-            key(problem, rng).astype(np.int64),
-            np.zeros_like(problem.must),
-            Live.of(problem.placements),
-        )
-        chosen = [live.rows[:0]]
-        while len(live.rows):
-            won = live.only(live.winners(keys[live.rows], len(covered)))
-            chosen.append(won.rows)
-            covered[won.cells] = True
-            live = live.clear_of(covered)
-        return np.concatenate(chosen)
-
-    return way
-
-
-def largest(problem: Problem, rng: np.random.Generator) -> Index:
-    """Return keys by size, then by chance."""
-    n = len(problem.placements)
-    return problem.placements.size * n + rng.permutation(n)
 
 
 def fewer(problem: Problem, rng: np.random.Generator) -> Index:

@@ -15,6 +15,7 @@ pytest.importorskip("shapely", reason="benchmarks need the dependency group chec
 Image = pytest.importorskip("PIL.Image", reason="benchmarks need pillow")
 
 from legorize_addon.core.catalogue import load_catalogue  # noqa: E402 - after the packages that may be missing
+from legorize_addon.core.connection import connect  # noqa: E402
 from legorize_addon.core.errors import BuildError, MeshError  # noqa: E402
 from legorize_addon.core.model import Cover, UnitGrid  # noqa: E402
 from legorize_addon.core.pipeline import legorize  # noqa: E402
@@ -22,7 +23,8 @@ from legorize_addon.core.settings import Settings  # noqa: E402
 from legorize_addon.core.slicing import slice_mesh  # noqa: E402
 from legorize_addon.core.trajectories import link_loops  # noqa: E402
 from scripts import benchmark  # noqa: E402
-from scripts.benchmarks import clock, hollowing, judge, meshes, slicing, surface  # noqa: E402
+from scripts.benchmarks import clock, goals, hollowing, judge, layout_figures, meshes, slicing, surface  # noqa: E402
+from scripts.benchmarks.stablelego import placed  # noqa: E402
 from scripts.benchmarks.tables import Table  # noqa: E402
 
 RED, BLUE = (180, 0, 0), (30, 90, 168)
@@ -310,6 +312,89 @@ def test_stability_command(tmp_path: Path) -> None:
     assert all(case["met"] for case in tables["stability_cases"])
     standing = [stair["levels"] for stair in tables["stability_stairs"] if stair["at_0.98"] == "stable"]
     assert standing == list(range(14, 20))
+
+
+def test_what_a_layout_is_like() -> None:
+    """Two pillars carry a beam: none of them has to; a tower needs all below its top. One seam of two is covered."""
+    catalogue = load_catalogue()
+    bricks = placed(
+        [("3003", 0, 0, 0, 0), ("3003", 2, 0, 0, 0), ("3003", 0, 0, 3, 0), ("3003", 2, 0, 3, 0), ("3001", 0, 0, 6, 0)],
+        catalogue,
+    )
+    links = connect(bricks, catalogue)
+    # the pillars carry the beam both: without one the other still does
+    assert layout_figures.articulations(bricks, links) == 0
+    assert layout_figures.coinciding_seams(links) == 0.5
+    tower = bricks.take(np.array([0, 2, 4]))
+    assert layout_figures.articulations(tower, connect(tower, catalogue)) == 2
+    # the middle one carries nothing but what is left out
+    top = np.array([False, False, True])
+    assert layout_figures.articulations(tower, connect(tower, catalogue), top) == 1
+
+
+def test_forced_small_bricks_are_counted_apart() -> None:
+    """Of a red row with a blue cell in it, only the blue one can be nothing but a 1 x 1."""
+    catalogue = load_catalogue()
+    grid = red_cube(1)
+    row = replace(grid, **{name: np.repeat(getattr(grid, name), 5, axis=3) for name in ("colour", "cover", "role")})
+    row.colour[0, :, 0, 1] = 1
+    assert np.argwhere(layout_figures.alone(row, catalogue)).tolist() == [[0, 0, 0], [0, 0, 1]]
+    assert layout_figures.must_cells(row) == 5
+    bricks = placed([("3005", x, 0, 0, 0) for x in range(5)], catalogue)
+    assert layout_figures.single(bricks, catalogue).all()
+    assert layout_figures.forced_singles(bricks, row, catalogue).tolist() == [True, True, False, False, False]
+    # all bricks are red: the blue cell is lost, and so is what is not built
+    assert layout_figures.colours_lost(row, bricks, connect(bricks, catalogue)) == (15, 3)
+    fewer = bricks.take(np.arange(4))
+    assert layout_figures.colours_lost(row, fewer, connect(fewer, catalogue)) == (15, 6)
+
+
+def test_exponent_is_fitted_within_models() -> None:
+    """Seconds that grow with the cells to the 1.5 give 1.5, whatever the factor of each model."""
+    costs = [
+        {"model": model, "must": must, "layout": 2 * factor * must**1.5, "times_laid": 2}
+        for model, factor in (("a", 1e-6), ("b", 3e-5))
+        for must in (100, 1000, 20_000)
+    ]
+    assert goals.exponent(costs) == pytest.approx(1.5)
+    assert goals.exponent(costs[:1]) is None
+
+
+def test_missed_goals_are_named() -> None:
+    """A goal names the model and the size that miss it; goals of some sizes are asked of no other one."""
+    fine = {goal.figure: goal.most for goal in goals.GOALS} | {"at_0.98": "stable", "at_0.7": "collapses"}
+    rows = [{"model": "a", "studs": 24, **fine, "ratio": 1.5}, {"model": "a", "studs": 48, **fine, "single_free": 0.03}]
+    cost = {"studs": 48, "total_s": 3.0, "limit_s": 2.0, "time_met": False, "layout_us": 50.0, "layout_met": True}
+    costs = [{"model": "a", "must": 10, "layout": 0.1, "times_laid": 1, "memory_mb": 90.0, **cost}]
+    met = {row["goal"]: row for row in goals.goals_met(rows, costs)}
+    assert {name for name, row in met.items() if row["met"] is False} == {
+        "1 x 1, without those that are forced",
+        "CPU seconds of the whole way, by their limit",
+    }
+    assert met["1 x 1, without those that are forced"]["not_by"] == "a 48"
+    assert met["bricks to the bound, after repair at 48 and 96 studs"]["kept_by"] == "1 of 1"
+    assert met["certified at 0.7 N"]["kept_by"] == "0 of 2"
+    assert met["CPU seconds of the whole way, by their limit"]["worst"] == 1.5
+
+
+def test_goals_command(tmp_path: Path) -> None:
+    """A leaning arm is built and named with the reason why it falls; every case has figures, costs and memory."""
+    foot, arm = trimesh.creation.box([0.16, 0.16, 0.48]), trimesh.creation.box([1.6, 0.16, 0.48])
+    arm.apply_translation([0.72, 0, 0.48])
+    both = trimesh.util.concatenate([foot, arm])
+    both.apply_transform(trimesh.transformations.rotation_matrix(-np.pi / 2, [1, 0, 0]))
+    both.export(tmp_path / "arm.glb")
+    tables = run(tmp_path, "goals", tmp_path / "arm.glb", "--widths", 20, 10)
+    assert [row["studs"] for row in tables["goals"]] == [10, 20]
+    for row in tables["goals"]:
+        assert row["bound"] <= row["bricks"]
+        assert (row["floating"], row["not_made"], row["colours_lost"], row["at_0.98"]) == (0, 0, 0, "collapses")
+    for row in tables["goals_costs"]:
+        assert row["layout_us"] == pytest.approx(1e6 * row["layout"] / row["must"])
+        assert row["memory_mb"] > 50
+        assert row["times_laid"] >= 1
+    assert [row["model"] for row in tables["goals_fallen"]] == ["arm", "arm"]
+    assert all("tips over" in row["reason"] for row in tables["goals_fallen"])
 
 
 def test_judge_wants_the_bricks(tmp_path: Path) -> None:

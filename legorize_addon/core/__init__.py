@@ -24,11 +24,15 @@
 ``connection``          what holds to what
 ``stability``           whether it stands: forces in balance, or a collapse, as proof (``statics``,
                         ``equilibrium``, ``collapse``, ``tipping``); walls made thicker where it tears (``thickening``)
-``remarks``             what does not hold or stand, and why, in sentences
-``ldraw``               bricks <-> LDraw text
+``remarks``             what does not hold or stand, and what a builder has to know, in sentences
+``segmentation``        pieces that are built on the table and joined, where that saves supports
+``supports``            what stands below bricks while the model is built; what stays of it
+``building``            the order in which every brick finds hold, and its check
+``ldraw``               bricks <-> LDraw text (``ldraw_document``: pieces and supports as sub-models)
 ``shopping``            parts lists and the shops' files
 ``report``              what was built, in numbers
 ``size``                the scale, and what is too large or too small
+``build``               the result of every stage
 ``pipeline``            the stages in order: :func:`legorize_addon.core.pipeline.legorize`
 ======================  ====================================================================
 

@@ -26,7 +26,7 @@ from .layout.learning import learned_table
 from .levels import levels_of
 from .marking import Marks, differing_layers
 from .mesh import Repairs, TriangleMesh, repair, scaled
-from .model import Bricks, Mask, UnitGrid
+from .model import Bricks, Mask, Role, UnitGrid
 from .offset_bricks import with_offset_bricks
 from .progress import Progress, silent
 from .remarks import remarks, remarks_on_building
@@ -238,11 +238,14 @@ def _standing(
         with stage("layout"):
             bricks = relay(shell)
             connection = connect(bricks, catalogue)
+            if settings.supports != "none":
+                bricks, connection = with_floating_carried(bricks, catalogue, connection)
         with stage("stability"):
             found = stability(bricks, catalogue, connection, hold=settings.hold, progress=progress)
         tried.append((shell, bricks, connection, found))
-        # what hangs in the air falls whatever the walls
-        torn = found.torn if found.standing is Verdict.COLLAPSES and not connection.n_floating else found.torn[:0]
+        # what hangs in the air falls whatever the walls, and a post under it bears little
+        whole = not connection.n_floating and not (bricks.role == Role.SUPPORT_KEPT).any()
+        torn = found.torn if found.standing is Verdict.COLLAPSES and whole else found.torn[:0]
         if reach is None or len(torn) == 0:
             break
         weak = np.unique(torn[torn != NOBODY])
@@ -254,8 +257,6 @@ def _supported(
     bricks: Bricks, connection: Connection, settings: Settings, catalogue: Catalogue, progress: Progress
 ) -> tuple[Supports, tuple[Joint, ...]]:
     """Cut the model into pieces, put supports under them, and find the building order."""
-    if settings.supports != "none":
-        bricks, connection = with_floating_carried(bricks, catalogue, connection)
     bricks, joints = segmented(bricks, catalogue, connection, most=settings.split, deepest=settings.hanging)
     supports = supported(
         bricks,
@@ -269,9 +270,10 @@ def _supported(
 
 
 def _failing(laid: tuple[UnitGrid, Bricks, Connection, Stability]) -> tuple[int, bool, float]:
-    """Return what a better layout has less of: loose bricks, doubt, load on its weakest brick."""
-    _, _, connection, found = laid
-    return connection.n_floating, found.standing is not Verdict.STABLE, -float(found.margin.min())
+    """Return what a better layout has less of: loose bricks and posts for them, doubt, load on its weakest brick."""
+    _, bricks, connection, found = laid
+    loose = connection.n_floating + int(np.count_nonzero(bricks.role == Role.SUPPORT_KEPT))
+    return loose, found.standing is not Verdict.STABLE, -float(found.margin.min())
 
 
 def _table(settings: Settings) -> Mask | None:

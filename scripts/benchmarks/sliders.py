@@ -10,11 +10,13 @@ from typing import Final
 import bpy
 import numpy as np
 
+from legorize_addon.core.building.moves import Action, Moves
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.model import Bricks, Role
 from legorize_addon.scene import show_build
 from legorize_addon.section import AXES, Section
-from legorize_addon.view import cut_away, roles_shown, show_layers, show_role
+from legorize_addon.steps import explode
+from legorize_addon.view import cut_away, roles_shown, show_layers, show_role, show_steps
 
 from .tables import Row, Table
 
@@ -24,6 +26,7 @@ LIMIT: Final = 50.0
 MOVES: Final = 10
 LAYERS: Final = 60
 ROLES: Final = (Role.SHELL, Role.INSIDE, Role.PLATE, Role.OFFSET)
+STEPS_A_LAYER: Final = 3
 BREADTH: Final = 200
 """Studs along x and y."""
 
@@ -43,9 +46,11 @@ def measure(*, bricks: int) -> list[Table]:
     """
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene = bpy.context.scene
+    model = large_model(bricks)
     build = show_build(
-        scene, large_model(bricks), load_catalogue(), origin=(0.0, 0.0, 0.0), scale=1.0, mm_per_unit=1.0, name="large"
-    )
+        scene, model, load_catalogue(), origin=(0.0, 0.0, 0.0), scale=1.0, mm_per_unit=1.0, name="large",
+        moves=moves_of(model),
+    )  # fmt: skip
     bpy.context.view_layer.update()
     tops = [1 + move * 37 % LAYERS for move in range(MOVES)]
     rows = [_row("top layer", [milliseconds(lambda top=top: show_layers(scene, build, top)) for top in tops])]
@@ -54,6 +59,15 @@ def measure(*, bricks: int) -> list[Table]:
         cuts = [Section(axis, 0.1 + 0.8 * move / MOVES) for move in range(MOVES)]
         rows.append(_row(f"section {axis}", [milliseconds(lambda cut=cut: cut_away(build, cut)) for cut in cuts]))
     cut_away(build, Section())
+    ways = [move / MOVES for move in range(1, MOVES + 1)]
+    rows.append(_row("explode", [milliseconds(lambda way=way: explode(build, way)) for way in ways]))
+    explode(build, 0.0)
+    show_steps(build, 1)
+    bpy.context.view_layer.update()
+    steps = [1 + move * 37 % (LAYERS * STEPS_A_LAYER) for move in range(1, MOVES + 1)]
+    rows.append(_row("step", [milliseconds(lambda step=step: show_steps(build, step)) for step in steps]))
+    show_steps(build, 0)
+    bpy.context.view_layer.update()
     role = next(iter(roles_shown(build)))
     switched = [milliseconds(lambda on=on: show_role(build, role, visible=on)) for on in (False, True) * (MOVES // 2)]
     rows.append(_row("a role's switch", switched) | {"goal_met": None})
@@ -62,7 +76,7 @@ def measure(*, bricks: int) -> list[Table]:
 
 
 def large_model(n: int) -> Bricks:
-    """Return bricks as a large model has them: every role in every layer, and 36 of 144 kinds in each layer."""
+    """Return bricks as a large model has them: every role in every layer, 36 of 144 kinds in each, in two pieces."""
     rng = np.random.default_rng(0)
     layer = np.sort(np.arange(n) % LAYERS)
     return Bricks(
@@ -71,8 +85,20 @@ def large_model(n: int) -> Bricks:
         turn=rng.integers(0, 4, n).astype(np.uint8),
         colour=load_catalogue().codes[(layer // 5 + rng.integers(0, 3, n)) % 12],
         role=rng.choice(np.array(ROLES, dtype=np.uint8), n),
-        piece=np.zeros(n, dtype=np.int16),
-        step=np.zeros(n, dtype=np.int32),
+        piece=(2 * layer // LAYERS).astype(np.int16),
+        step=np.sort(layer * STEPS_A_LAYER + rng.integers(0, STEPS_A_LAYER, n)).astype(np.int32),
+    )
+
+
+def moves_of(model: Bricks) -> Moves:
+    """Return the order in which the bricks of a model are placed, by their steps."""
+    n = len(model)
+    return Moves(
+        action=np.full(n, Action.PLACE, dtype=np.uint8),
+        brick=np.arange(n, dtype=np.int32),
+        piece=model.piece,
+        pressed=np.zeros(n, dtype=bool),
+        step=model.step,
     )
 
 

@@ -10,9 +10,10 @@ from typing import Final
 
 import numpy as np
 
+from ..building.balance import STEADY, corners, inside
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, connect, stud_columns
-from ..model import Bricks, Ints, Mask, Role, joined
+from ..model import Bricks, Floats, Ints, Mask, Role, joined
 from ..units import PLATES_PER_BRICK
 from .boxes import INSIDE_COLOUR, OUTSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, joined_upwards, sizes_in
 
@@ -41,7 +42,7 @@ def with_floating_carried(bricks: Bricks, catalogue: Catalogue, connection: Conn
         floating = np.unique(connection.component[~connection.grounded])
         posts = []
         for number in floating.tolist():
-            boxes, carried = _shortest(bricks, catalogue, connection, connection.component == number)
+            boxes, carried = _under(bricks, catalogue, connection, connection.component == number)
             colour = _colour(int(bricks.colour[carried]), catalogue)
             posts.append(_bricks(boxes, catalogue, colour, Role.SUPPORT_KEPT))
         bricks = joined([bricks, *posts])
@@ -72,7 +73,7 @@ def with_inside_carried(
     """
     posts = []
     for row in rows.tolist():
-        boxes, _ = _shortest(bricks, catalogue, connection, np.arange(len(bricks)) == row)
+        boxes, _ = _under(bricks, catalogue, connection, np.arange(len(bricks)) == row)
         posts.append(_bricks(boxes, catalogue, INSIDE_COLOUR, Role.SUPPORT_INSIDE))
     if not posts:
         return bricks, connection
@@ -90,27 +91,58 @@ def _colour(wanted: int, catalogue: Catalogue) -> int:
     return wanted if all((1, 1, height) in made for height in (1, PLATES_PER_BRICK)) else OUTSIDE_COLOUR
 
 
-def _shortest(bricks: Bricks, catalogue: Catalogue, connection: Connection, mine: Mask) -> tuple[Boxes, int]:
-    """Return the shortest post under some bricks that stands on another one or on the ground, and whom it carries."""
+def _under(bricks: Bricks, catalogue: Catalogue, connection: Connection, mine: Mask) -> tuple[Boxes, int]:
+    """Return posts under some bricks that stand on another one or, upright, on the ground; and whom they carry.
+
+    One post joins them to a brick below. On the ground they stand by themselves:
+    posts are added there until the middle of their weight lies over the feet.
+    """
+    row, x, y, length, on_brick = _places(bricks, catalogue, connection, mine)
+    # a post on the ground leaves its part beside the model, one on a brick joins the two
+    first = int(np.lexsort((y, x, length + GROUND * ~on_brick))[0])
+    chosen = [first]
+    if not on_brick[first]:
+        squares = np.column_stack([x, y])
+        middle = _middle(bricks.take(mine), catalogue) - connection.low[:2]
+        standing = np.flatnonzero(~on_brick)
+        steady = [(_inside(squares[[*chosen, each]], middle), each) for each in standing.tolist()]
+        while _inside(squares[chosen], middle) < STEADY and max(steady)[0] > _inside(squares[chosen], middle):
+            chosen.append(max(steady)[1])
+            steady = [(_inside(squares[[*chosen, each]], middle), each) for each in standing.tolist()]
+    tops = bricks.corner[row, 2] - connection.low[2]
+    boxes = np.concatenate([_post(int(x[k]), int(y[k]), int(tops[k]), int(length[k])) for k in chosen])
+    return boxes + np.array([*connection.low, 0, 0, 0], dtype=np.int32), int(row[first])
+
+
+def _places(
+    bricks: Bricks, catalogue: Catalogue, connection: Connection, mine: Mask
+) -> tuple[Ints, Ints, Ints, Ints, Mask]:
+    """List where posts can stand: the brick above, x, y, the length in plates, and whether a brick is below."""
     brick, columns = stud_columns(bricks, catalogue)
     own = mine[brick]
     brick, cells = brick[own], columns[own] - connection.low
     owner, ground = connection.owner, int(bricks.corner[:, 2].min()) - connection.low[2]
-    best: tuple[int, int, int, int, int] | None = None
+    found = []
     for row, (x, y, z) in zip(brick.tolist(), cells.tolist(), strict=True):
         below = np.flatnonzero(owner[:z, y, x] != NOBODY)
         foot = int(below[-1]) + 1 if len(below) else ground
-        if foot == z or (len(below) and mine[owner[foot - 1, y, x]]):
-            continue
-        # a post on the ground leaves its part beside the model, one on a brick joins the two
-        price = z - foot + (0 if len(below) else GROUND)
-        if best is None or price < best[0]:
-            best = price, x, y, row, z - foot
-    if best is None:
-        raise AssertionError("the lowest of bricks that float looks down on the ground or on others")
-    _, x, y, row, length = best
-    z = int(bricks.corner[row, 2] - connection.low[2])
-    return _post(x, y, z, length) + np.array([*connection.low, 0, 0, 0], dtype=np.int32), row
+        if foot < z and not (len(below) and mine[owner[foot - 1, y, x]]):
+            found.append((row, x, y, z - foot, len(below) > 0))
+    row, x, y, length, on_brick = np.array(found, dtype=np.int64).reshape(-1, 5).T
+    return row, x, y, length, on_brick.astype(bool)
+
+
+def _middle(bricks: Bricks, catalogue: Catalogue) -> Floats:
+    """Return the middle of the weight of bricks in studs, x and y."""
+    brick, columns = stud_columns(bricks, catalogue)
+    share = (catalogue.mass[bricks.part] / np.bincount(brick, minlength=len(bricks)))[brick]
+    middle: Floats = (columns[:, :2] + 0.5).T @ share / share.sum()
+    return middle
+
+
+def _inside(squares: Ints, middle: Floats) -> float:
+    """Return how far the middle of a weight lies inside of feet, in studs."""
+    return inside(corners([(int(x), int(y)) for x, y in squares]), middle)
 
 
 def _post(x: int, y: int, top: int, length: int) -> Boxes:

@@ -9,6 +9,7 @@ import pytest
 
 from legorize_addon.core.connection import connect
 from legorize_addon.core.model import Role
+from legorize_addon.core.stability import stability
 from legorize_addon.core.supports.boxes import INSIDE_COLOUR, OUTSIDE_COLOUR
 from legorize_addon.core.supports.posts import with_floating_carried, with_inside_carried
 from tests.core.standing import CATALOGUE, table
@@ -38,11 +39,21 @@ def test_shortest_way_down_is_taken():
     assert bricks.corner[n:].tolist() == [[1, 0, 6]]
 
 
+def test_part_on_the_ground_stands_by_itself():
+    """A beam of eight studs beside the model gets posts with the middle of its weight between them."""
+    bricks, connection, _ = carried(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3008", 5, 5, 3), ("3005", 12, 5, 6))
+    own = connection.component == connection.component[2]
+    feet = bricks.corner[own & (bricks.corner[:, 2] == 0), 0]
+    assert feet.min() < 9 < feet.max() + 1
+    assert stability(bricks, CATALOGUE, connection).stable
+
+
 def test_floating_parts_on_each_other_all_stand():
-    """One post on the ground, and one between the two that float."""
+    """One post between the two that float, and upright ones down to the ground."""
     bricks, connection, n = carried(("3003", 9, 9, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 9))
     assert connection.n_floating == 0
-    assert len(bricks) - n == 2
+    assert sorted(bricks.corner[n:, 2].tolist())[-1] == 6
+    assert stability(bricks, CATALOGUE, connection).stable
 
 
 def test_colour_without_posts_gives_white():
@@ -62,7 +73,6 @@ def test_nothing_floats_nothing_changes():
 
 def test_post_inside_is_red():
     """It stands on the floor below the brick that is named, and joins the two."""
-    bricks = table(("3001", 0, 0, 0), ("3003", 0, 0, 3), ("3001", 0, 0, 6), ("3005", 3, 0, 5))
     bricks = table(("3001", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 6), ("3001", 0, 0, 9), ("3005", 3, 0, 6))
     with_post, connection = with_inside_carried(bricks, CATALOGUE, connect(bricks, CATALOGUE), np.array([4]))
     assert with_post.corner[5:].tolist() == [[3, 0, 3]]

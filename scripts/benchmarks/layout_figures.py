@@ -1,0 +1,145 @@
+"""How good a layout is beside the number of its bricks: small bricks, bonding, colours."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+from legorize_addon.core.catalogue import Catalogue
+from legorize_addon.core.connection import NOBODY, Connection
+from legorize_addon.core.layout import FILLER
+from legorize_addon.core.layout.placements import placements
+from legorize_addon.core.layout.problem import owners
+from legorize_addon.core.layout.shapes import Shapes, shapes
+from legorize_addon.core.layout.sheets import Sheets, split
+from legorize_addon.core.model import Bricks, Mask, UnitGrid
+
+GROUND: Final = -1
+"""What the lowest bricks stand on, beside the rows of the bricks."""
+
+
+def single(bricks: Bricks, catalogue: Catalogue) -> Mask:
+    """Return which bricks have one stud, shape (n,)."""
+    small = np.array([part.length == part.width == 1 for part in catalogue.parts])
+    return small[bricks.part]
+
+
+def must_cells(grid: UnitGrid) -> int:
+    """Count the cells that must be built, one brick high where bricks are laid and one plate high where plates are."""
+    return sum(int(sheets.must.sum()) for sheets in split(grid))
+
+
+def alone(grid: UnitGrid, catalogue: Catalogue) -> Mask:
+    """Find the cells that no part but a 1 x 1 can cover: colours and heights forbid all others.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        The hollowed model.
+    catalogue : Catalogue
+        Parts and colours.
+
+    Returns
+    -------
+    (n_plates, n_y, n_x) bool array
+        True at the lowest plate of such cells.
+    """
+    found = np.zeros((3 * len(grid.colour), *grid.colour.shape[2:]), dtype=bool)
+    codes = np.unique(grid.colour[grid.colour >= 0])
+    for sheets in split(grid):
+        among = shapes(catalogue, sheets.height, codes, FILLER)
+        for row in range(len(sheets)):
+            found[sheets.level[row]] |= _alone(sheets.take(slice(row, row + 1)), among)
+    return found
+
+
+def _alone(sheet: Sheets, among: Shapes) -> Mask:
+    every = placements(sheet, among)
+    larger = every.take(np.flatnonzero(every.size > 1))
+    left = sheet.must[0].copy()
+    left.reshape(-1)[sheet.cells[larger.cells]] = False
+    return left
+
+
+def forced_singles(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue) -> Mask:
+    """Return which bricks are 1 x 1 because nothing else could lie there, shape (n,)."""
+    x, y, z = bricks.corner.T
+    return single(bricks, catalogue) & alone(grid, catalogue)[z, y, x]
+
+
+def articulations(bricks: Bricks, links: Connection, left_out: Mask | None = None) -> int:
+    """Count the bricks without which others would hold to the ground no more.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The layout.
+    links : Connection
+        What holds to what.
+    left_out : (n,) bool array, optional
+        Bricks that do not count as others, nor by themselves.
+
+    Returns
+    -------
+    int
+    """
+    level = bricks.corner[:, 2]
+    graph = nx.Graph(links.pairs.tolist())
+    graph.add_edges_from((GROUND, row) for row in np.flatnonzero(level == level.min()).tolist())
+    if left_out is not None:
+        graph.remove_nodes_from(np.flatnonzero(left_out).tolist())
+    return len(set(nx.articulation_points(graph)) - {GROUND})
+
+
+def coinciding_seams(links: Connection) -> float:
+    """Return the share of seams that another one lies upon, where a new level of bricks begins on both sides.
+
+    Parameters
+    ----------
+    links : Connection
+        The bricks as cells.
+
+    Returns
+    -------
+    float
+        0 where no two bricks lie on each other beside two others.
+    """
+    below, above = links.owner[:-1], links.owner[1:]
+    begins = (below != above) & (below != NOBODY) & (above != NOBODY)
+    seams = coinciding = 0
+    for axis in (1, 2):
+        one, other = (_along(axis, side) for side in (slice(None, -1), slice(1, None)))
+        seam = begins[one] & begins[other] & (below[one] != below[other])
+        seams += int(seam.sum())
+        coinciding += int((seam & (above[one] != above[other])).sum())
+    return coinciding / max(seams, 1)
+
+
+def _along(axis: int, part: slice) -> tuple[slice, ...]:
+    return tuple(part if each == axis else slice(None) for each in range(3))
+
+
+def colours_lost(grid: UnitGrid, bricks: Bricks, links: Connection) -> tuple[int, int]:
+    """Count the cells that are seen, and those of them in which no brick of their colour lies.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        The solid model before hollowing: what is seen of it has a colour.
+    bricks : Bricks
+        The layout.
+    links : Connection
+        The same as cells.
+
+    Returns
+    -------
+    seen, lost : int
+    """
+    colour = grid.colour.reshape(-1, *grid.colour.shape[2:])
+    owner = owners(links, (len(colour) + 2, *colour.shape[1:]))[1:-1]
+    built: NDArray[np.int16] = np.append(bricks.colour, np.int16(NOBODY))[owner]
+    seen = colour >= 0
+    return int(seen.sum()), int((seen & (built != colour)).sum())

@@ -1,0 +1,47 @@
+"""Laying by a fixed rule: whatever has the greatest key where it lies, until nothing fits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from legorize_addon.core.layout.live import Live
+from legorize_addon.core.layout.problem import Problem
+
+Index = NDArray[np.intp]
+Way = Callable[[Problem, np.random.Generator], Index]
+
+
+def by_key(key: Callable[[Problem, np.random.Generator], Index]) -> Way:
+    """Return a way that lays whatever has the greatest key where it lies, until nothing fits."""
+
+    def way(problem: Problem, rng: np.random.Generator) -> Index:
+        keys, covered, live = (
+            key(problem, rng).astype(np.int64),
+            np.zeros_like(problem.must),
+            Live.of(problem.placements),
+        )
+        chosen = [live.rows[:0]]
+        while len(live.rows):
+            won = live.only(live.winners(keys[live.rows], len(covered)))
+            chosen.append(won.rows)
+            covered[won.cells] = True
+            live = live.clear_of(covered)
+        return np.concatenate(chosen)
+
+    return way
+
+
+def largest(problem: Problem, rng: np.random.Generator) -> Index:
+    """Return keys by size, then by chance."""
+    n = len(problem.placements)
+    return problem.placements.size * n + rng.permutation(n)
+
+
+def largest_in_rows(problem: Problem, rng: np.random.Generator) -> Index:
+    """Return keys by size, then by shape, y and x: the same shapes side by side leave fewer gaps than by chance."""
+    del rng
+    n = len(problem.placements)
+    return problem.placements.size * n + np.arange(n)[::-1]
