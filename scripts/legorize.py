@@ -50,7 +50,7 @@ try:
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.heat_map import show_heat_map
     from legorize_addon.read_mesh import read_objects
-    from legorize_addon.render import render_still
+    from legorize_addon.render import AZIMUTH, View, render_still
     from legorize_addon.result import show_result
     from legorize_addon.scene import builds, clear_build
     from legorize_addon.section import AXES, Section
@@ -63,7 +63,7 @@ except ModuleNotFoundError as missing:
 SIZES: Final = ("size_by", "width", "height", "scale")
 """Settings that exclude each other; each of the last three also chooses itself in the first."""
 
-IN_PICTURE: Final = ("section", "outlines", "heat_map", "explode", "show_supports")
+IN_PICTURE: Final = ("view", "section", "outlines", "heat_map", "explode", "show_supports")
 """Flags that change the picture alone."""
 
 MOST_PICTURES: Final = 400
@@ -76,6 +76,7 @@ class Wanted(NamedTuple):
     """What is shown in the scene and written of it, by the flags of the same names."""
 
     render: bool
+    view: View | None
     section: Section | None
     outlines: bool
     heat_map: bool
@@ -130,6 +131,11 @@ def parser() -> Parser:
 def add_pictures(made: Parser) -> None:
     """Add the flags for pictures."""
     made.add_argument("--render", action="store_true", help="write a picture, render.png")
+    made.add_argument(
+        "--view", choices=tuple(AZIMUTH),
+        help="corner from which the model is seen in the picture; below shows its undersides (default: front_right, "
+        "with a section the side that is cut open)",
+    )  # fmt: skip
     made.add_argument(
         "--section", metavar="AXIS=SHARE", type=section,
         help="hide the bricks beyond a cut in the picture, which looks onto it: x=0.5 shows the half with x below the "
@@ -236,7 +242,7 @@ def show(build: Build, folder: Path, wanted: Wanted, *, name: str, sources: Sequ
     shown = show_result(scene, build, mm_per_unit=mm_per_unit(), name=name, sources=sources, notes=build.notes)
     if wanted.render:
         with posed(shown, wanted):
-            view = "section" if wanted.section else "front_right"
+            view = wanted.view or ("section" if wanted.section else "front_right")
             render_still(scene, folder / "render.png", view=view, outlines=wanted.outlines)
     if wanted.contact_sheet:
         path = folder / "contact-sheet.png"
@@ -273,6 +279,9 @@ def failed_checks(facts: dict[str, Any]) -> list[str]:
         (colours["bricks"], 0, "Bricks in a colour in which their part was never made: {}."),
     )
     failed = [sentence.format(count) for count, allowed, sentence in counts if count > allowed]
+    proof = facts["building"]["proof"]
+    if proof and proof["collapsing"] + proof["undecided"]:
+        failed.append(f"Steps not proven to stand: {len(proof['collapsing'] + proof['undecided'])}.")
     if not facts["stability"]["stable"]:
         failed.append(
             "Stability is not proven: {verdict}, {failing} bricks bear too little.".format(**facts["stability"])

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .building.proof import Proof
 from .colours import SurfaceColours
 from .connection import Connection
 from .marking import Marks
@@ -80,6 +81,8 @@ class Build:
         What stands below them while they are built, and the building order.
     joints : tuple of Joint
         Between the pieces of a split model.
+    proof : Proof or None
+        Whether every building step stands by forces, where that was asked for.
     notes : tuple of str
         Sentences for the user.
     timings : mapping of str to float
@@ -101,5 +104,6 @@ class Build:
     stability: Stability
     supports: Supports
     joints: tuple[Joint, ...]
+    proof: Proof | None
     notes: tuple[str, ...]
     timings: Mapping[str, float]

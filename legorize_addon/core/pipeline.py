@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from .backing import with_backing
 from .build import Build, Cut
+from .building.proof import prove_steps
 from .catalogue import Catalogue, load_catalogue
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .connection import NOBODY, Connection, connect
@@ -29,7 +30,7 @@ from .mesh import Repairs, TriangleMesh, repair, scaled
 from .model import Bricks, Mask, Role, UnitGrid
 from .offset_bricks import with_offset_bricks
 from .progress import Progress, silent
-from .remarks import remarks, remarks_on_building
+from .remarks import remarks, remarks_on_building, remarks_on_proof
 from .segmentation import Joint, segmented
 from .settings import Settings
 from .size import check_any, check_size, model_scale
@@ -100,9 +101,18 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
             connection = connect(supports.stays, catalogue)
             found = stability(supports.stays, catalogue, connection, hold=settings.hold, progress=progress)
     bricks = supports.stays
-    notes = (*repairs.sentences(), *remarks(bricks, found, catalogue), *remarks_on_building(supports, catalogue))
+    proof = None
+    if settings.prove_steps:
+        with stage("proof"):
+            proof = prove_steps(supports.moves, supports.bricks, catalogue, hold=settings.hold, progress=progress)
+    notes = (
+        *repairs.sentences(),
+        *remarks(bricks, found, catalogue),
+        *remarks_on_building(supports, catalogue),
+        *remarks_on_proof(proof),
+    )
     made = (mesh, repairs, scale, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
-    return Build(settings, *made, supports, joints, notes, timings)
+    return Build(settings, *made, supports, joints, proof, notes, timings)
 
 
 def _in_plates(settings: Settings) -> bool:

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Final
 
 import numpy as np
 
+from .building.proof import Proof
 from .catalogue import Catalogue
 from .connection import NOBODY, Rows
 from .model import Bricks, Ints, Role
 from .stability import Stability, Verdict
 from .supports import Supports
 from .units import PLATES_PER_BRICK
+
+SHOWN: Final = 5
+"""Steps that a sentence names."""
 
 
 def remarks(bricks: Bricks, found: Stability, catalogue: Catalogue) -> tuple[str, ...]:
@@ -83,6 +88,33 @@ def remarks_on_building(supports: Supports, catalogue: Catalogue) -> tuple[str, 
                 f"{_count(len(rows), 'brick', 'bricks')} {what}; the first is the "
                 f"{brick_name(supports.bricks, first, catalogue)} in layer {layer_of(supports.bricks, first)}."
             )
+    return tuple(sentences)
+
+
+def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
+    """Name the building steps that do not stand by forces.
+
+    Parameters
+    ----------
+    proof : Proof or None
+        What was found, None where nobody asked.
+
+    Returns
+    -------
+    tuple of str
+        A sentence for the steps that collapse, and one for those in doubt.
+    """
+    if proof is None:
+        return ()
+    sentences = []
+    for steps, what in (
+        (proof.collapsing, "fall unless they are held"),
+        (proof.undecided, "may fall: no proof was found"),
+    ):
+        if len(steps):
+            which = ", ".join(str(step + 1) for step in steps[:SHOWN].tolist())
+            more = f" and {len(steps) - SHOWN} more" if len(steps) > SHOWN else ""
+            sentences.append(f"Bricks in place after {_count(len(steps), 'step', 'steps')} ({which}{more}) {what}.")
     return tuple(sentences)
 
 

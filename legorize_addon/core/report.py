@@ -235,6 +235,13 @@ def _building(build: Build) -> dict[str, Any]:
         "ends_as_model": len(found.wrong_end) == 0,
         "pieces": len(supports.pieces),
         "joints": [asdict(joint) for joint in build.joints],
+        "proof": None
+        if build.proof is None
+        else {
+            "steps": len(build.proof.steps),
+            "collapsing": (build.proof.collapsing + 1).tolist(),
+            "undecided": (build.proof.undecided + 1).tolist(),
+        },
     }
 
 

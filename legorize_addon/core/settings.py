@@ -132,6 +132,10 @@ class Settings:
         0.98, "Pull in N that the friction of one contact point of a stud bears; 0.7 is cautious.",
         group="Check", low=0.05, high=5.0)
 
+    prove_steps: bool = setting(
+        False, "Test by forces after every building step whether what is in place stands, supports included; it "
+        "takes several times as long as all the rest.", group="Check")
+
     seed: int = setting(
         0, "Seed of everything random: the same seed gives the same model.", group="Run", low=0, high=2**31 - 1)
     # fmt: on

@@ -79,6 +79,7 @@ def build_of(rows):
         stability=stability(bricks, CATALOGUE, connect(bricks, CATALOGUE)),
         supports=supports,
         joints=(),
+        proof=None,
         notes=("A remark.",),
         timings={"slicing": 0.25},
     )

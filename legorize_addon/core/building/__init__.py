@@ -6,6 +6,7 @@
 ``order``           every brick pushed onto something that holds
 ``balance``         towers that would fall over on the way
 ``walk``            the order followed move by move: the check
+``proof``           every step tested by forces, where that is asked for
 ``order_file``      ``build_order.csv``
 ==================  =====================================================================
 """

@@ -1,0 +1,67 @@
+"""Every building step tested by forces."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.building.links import links
+from legorize_addon.core.building.order import ordered
+from legorize_addon.core.building.proof import prove_steps
+from legorize_addon.core.errors import Cancelled
+from legorize_addon.core.remarks import remarks_on_proof
+from legorize_addon.core.supports import supported
+from tests.core.standing import CATALOGUE, table
+
+BRIDGE = (("3005", 0, 0, 0), ("3010", 0, 0, 3), ("3005", 7, 0, 0), ("3010", 4, 0, 3), ("3008", 0, 0, 6))
+"""Stands when it is whole; its halves fall before."""
+
+
+def proof(bricks, temporary=None, **options):
+    """Return the proof of bricks in their order."""
+    gone = np.zeros(len(bricks), bool) if temporary is None else temporary
+    moves = ordered(bricks, links(bricks, CATALOGUE, temporary=gone).pairs, temporary=gone)
+    return prove_steps(moves, bricks, CATALOGUE, hold=0.98, **options)
+
+
+def test_tower_stands_at_every_step():
+    """A tower is proven after each of its bricks."""
+    found = proof(table(*(("3003", 0, 0, 3 * k) for k in range(4))))
+    assert found.stands
+    assert found.steps.tolist() == [0, 1, 2, 3]
+    assert remarks_on_proof(found) == ()
+
+
+def test_step_that_falls_is_named():
+    """The halves of a bridge fall in the step before the last, though the whole stands."""
+    found = proof(table(*BRIDGE))
+    assert found.collapsing.tolist() == [1]
+    assert len(found.undecided) == 0
+    [sentence] = remarks_on_proof(found)
+    assert "1 step (2) fall" in sentence
+
+
+def test_supports_make_all_steps_stand():
+    """With what the supports add, the same bridge is proven at every step, and when they are gone."""
+    built = supported(table(*BRIDGE), CATALOGUE)
+    assert prove_steps(built.moves, built.bricks, CATALOGUE, hold=0.98).stands
+
+
+def test_pieces_are_tested_on_their_own_tables():
+    """A stair that leans too far stands as a piece of its own, and falls as soon as it is joined to a narrow foot."""
+    bricks = table(("3003", 0, 0, 0), ("3001", 0, 0, 3), ("3001", 1, 0, 6))
+    assert proof(replace(bricks, piece=np.array([0, 1, 1], np.int16))).collapsing.tolist() == [3]
+    wide = table(("3001", 0, 0, 0), ("3001", 0, 0, 3), ("3001", 1, 0, 6))
+    assert proof(replace(wide, piece=np.array([0, 1, 1], np.int16))).stands
+
+
+def test_proof_can_be_cancelled():
+    """A request to stop ends it."""
+
+    def stop(*_):
+        raise Cancelled("now")
+
+    with pytest.raises(Cancelled):
+        proof(table(*BRIDGE), progress=stop)
