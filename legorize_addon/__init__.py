@@ -10,19 +10,21 @@ from __future__ import annotations
 
 def register() -> None:
     """Register everything with Blender."""
-    from . import export_operators, operators, panels, properties
+    from . import export_operators, learning_operators, operators, panels, properties
 
     properties.register()
     operators.register()
     export_operators.register()
+    learning_operators.register()
     panels.register()
 
 
 def unregister() -> None:
     """Undo :func:`register`; a running job is stopped."""
-    from . import export_operators, operators, panels, properties
+    from . import export_operators, learning_operators, operators, panels, properties
 
     panels.unregister()
+    learning_operators.unregister()
     export_operators.unregister()
     operators.unregister()
     properties.unregister()

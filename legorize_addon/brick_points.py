@@ -6,7 +6,7 @@ A point is the middle of its brick's lower face, in model mm; the columns of
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import bpy
@@ -29,9 +29,18 @@ HEIGHT: Final = "height"
 ROW: Final = "row"
 """Attribute with the row of a brick in the table it came from."""
 
-
 MARGIN: Final = "margin"
 """Attribute with what a brick has left before it fails, where that was found out."""
+
+NO_MARGIN: Final = float("inf")
+"""Margin of what is no part of the finished model, and was not checked."""
+
+KINDS: Final[dict[str, tuple[str, type[np.generic], tuple[int, ...]]]] = {
+    "INT": ("value", np.int32, ()),
+    "FLOAT": ("value", np.float32, ()),
+    "FLOAT_VECTOR": ("vector", np.float32, (3,)),
+}
+"""Of each kind of attribute in use: where Blender keeps it, as what, and the shape of a value."""
 
 
 def sizes(part: Rows, turn: Rows, catalogue: Catalogue) -> NDArray[np.int32]:
@@ -103,7 +112,7 @@ def box_corners(bricks: Bricks, catalogue: Catalogue) -> Floats:
 
 
 def points_mesh(
-    name: str, bricks: Bricks, catalogue: Catalogue, variant: Rows, row: Rows, margin: Floats | None = None
+    name: str, bricks: Bricks, catalogue: Catalogue, variant: Rows, row: Rows, more: Mapping[str, NDArray[np.generic]]
 ) -> bpy.types.Mesh:
     """Return a new mesh with one point a brick.
 
@@ -119,8 +128,8 @@ def points_mesh(
         Row of each brick's part and colour among the instanced objects.
     row : (n,) integer array
         Row of each brick in the whole model's table.
-    margin : (n,) float64 array, optional
-        What each brick has left, see :class:`~legorize_addon.core.stability.Stability`.
+    more : mapping of str to array
+        Further attributes: (n,) whole numbers or floats, (n, 3) vectors.
 
     Returns
     -------
@@ -130,12 +139,17 @@ def points_mesh(
     mesh.vertices.add(len(bricks))
     mesh.vertices.foreach_set("co", positions(bricks, catalogue).astype(np.float32).ravel())
     columns = {column: getattr(bricks, column) for column in COLUMNS}
-    columns |= {VARIANT: variant, ROW: row, HEIGHT: heights(bricks, catalogue)}
+    columns |= {VARIANT: variant, ROW: row, HEIGHT: heights(bricks, catalogue), **more}
     for key, values in columns.items():
-        mesh.attributes.new(key, "INT", "POINT").data.foreach_set("value", values.astype(np.int32))
-    if margin is not None:
-        mesh.attributes.new(MARGIN, "FLOAT", "POINT").data.foreach_set("value", margin.astype(np.float32))
+        _write(mesh, key, values)
     return mesh
+
+
+def _write(mesh: bpy.types.Mesh, name: str, values: NDArray[np.generic]) -> None:
+    number = "FLOAT" if np.issubdtype(values.dtype, np.floating) else "INT"
+    kind = "FLOAT_VECTOR" if values.ndim == 2 else number
+    field, dtype, _ = KINDS[kind]
+    mesh.attributes.new(name, kind, "POINT").data.foreach_set(field, values.astype(dtype).ravel())
 
 
 def read_points(meshes: Sequence[bpy.types.Mesh], part_numbers: Sequence[str], catalogue: Catalogue) -> Bricks:
@@ -160,9 +174,8 @@ def read_points(meshes: Sequence[bpy.types.Mesh], part_numbers: Sequence[str], c
     BuildError
         A part number is not in the catalogue.
     """
-    column = {name: np.concatenate([_read(mesh, name) for mesh in meshes]) for name in (*COLUMNS, ROW)}
-    order = np.argsort(column[ROW], kind="stable")
-    part, turn, colour, role, piece, step = (column[name][order] for name in COLUMNS)
+    part, turn, colour, role, piece, step = read_columns(meshes, COLUMNS).values()
+    order = _order(meshes)
     part = np.array([catalogue.part_row(number) for number in part_numbers], dtype=np.int16)[part]
     position = read_positions(meshes)[order]
     return Bricks(
@@ -184,11 +197,23 @@ def read_positions(meshes: Sequence[bpy.types.Mesh]) -> Floats:
     return np.concatenate(found).reshape(-1, 3).astype(np.float64)
 
 
+def read_columns(meshes: Sequence[bpy.types.Mesh], names: Sequence[str]) -> dict[str, NDArray[np.generic]]:
+    """Return attributes of the points of several meshes, in the first order of the table."""
+    order = _order(meshes)
+    return {name: np.concatenate([_read(mesh, name) for mesh in meshes])[order] for name in names}
+
+
+def _order(meshes: Sequence[bpy.types.Mesh]) -> NDArray[np.intp]:
+    return np.argsort(np.concatenate([_read(mesh, ROW) for mesh in meshes]), kind="stable")
+
+
 def _half(size: NDArray[np.int32]) -> Floats:
     return np.insert(size / 2, 2, 0.0, axis=1)
 
 
-def _read(mesh: bpy.types.Mesh, name: str) -> NDArray[np.int32]:
-    values = np.empty(len(mesh.vertices), dtype=np.int32)
-    mesh.attributes[name].data.foreach_get("value", values)
+def _read(mesh: bpy.types.Mesh, name: str) -> NDArray[np.generic]:
+    attribute = mesh.attributes[name]
+    field, dtype, shape = KINDS[attribute.data_type]
+    values = np.empty((len(mesh.vertices), *shape), dtype=dtype)
+    attribute.data.foreach_get(field, values.ravel())
     return values

@@ -7,9 +7,10 @@ from typing import Any, Final
 
 import numpy as np
 
+from .core.catalogue import load_catalogue
 from .core.model import Bricks
+from .core.remarks import brick_name, layer_of
 from .core.stability import Stability, Verdict
-from .core.units import PLATES_PER_BRICK
 
 ICONS: Final = {"stable": "CHECKMARK", "collapses": "CANCEL", "undecided": "QUESTION"}
 UNCHECKED: Final = "Not checked: legorize the object again to find out whether the model stands."
@@ -30,17 +31,19 @@ def check_of(stability: Stability, bricks: Bricks) -> dict[str, Any]:
     dict
         ``verdict``, a word; ``sentence``; ``floating``, the number of bricks that
         hang in the air; of the weakest of the others ``weakest``, its row,
-        ``layer``, counted from 1, and ``left``, its margin.
+        ``name``, its colour and part, ``layer``, counted from 1, and ``left``,
+        its margin.
     """
     standing = np.setdiff1d(np.arange(len(bricks)), stability.unsupported)
     weakest = int(standing[stability.margin[standing].argmin()])
     left = float(stability.margin[weakest])
     return {
         "verdict": stability.verdict.value,
-        "sentence": _sentence(stability, left),
+        "sentence": _sentence(stability, bricks, left),
         "floating": len(stability.unsupported),
         "weakest": weakest,
-        "layer": int(bricks.corner[weakest, 2]) // PLATES_PER_BRICK + 1,
+        "name": brick_name(bricks, weakest, load_catalogue()),
+        "layer": layer_of(bricks, weakest),
         "left": left,
     }
 
@@ -62,20 +65,28 @@ def check_lines(check: Mapping[str, Any] | None) -> list[tuple[str, str]]:
     lines = [(check["sentence"], ICONS[check["verdict"]])]
     if check["floating"]:
         lines.append((f"Bricks that hang in the air: {check['floating']}", "ERROR"))
-    weakest = f"Weakest: brick {check['weakest']} in layer {check['layer']}, {_left(check['left'])}"
+    # builds of earlier versions know the number alone
+    name = check.get("name", f"brick {check['weakest']}")
+    weakest = f"Weakest: {name} in layer {check['layer']}, {_left(check['left'])}"
     return [*lines, (weakest, "BLANK1")]
 
 
-def _sentence(stability: Stability, left: float) -> str:
+def _sentence(stability: Stability, bricks: Bricks, left: float) -> str:
     if stability.standing is Verdict.UNDECIDED:
         return "Not decided: there is no proof that it stands, and none that it collapses"
     if stability.standing is Verdict.COLLAPSES:
-        how = f"first at brick {stability.torn[0].max()}" if len(stability.torn) else "it tips over"
-        return f"Collapses: proven, {how}"
+        return f"Collapses: proven, {_how(stability, bricks)}"
     proof = f"proven, no brick needs more than {100 - 100 * left:.0f} % of its friction"
     if len(stability.unsupported):
         return f"Collapses: bricks hang in the air; the others stand: {proof}"
     return f"Stands: {proof}"
+
+
+def _how(stability: Stability, bricks: Bricks) -> str:
+    if not len(stability.torn):
+        return "it tips over"
+    first = int(stability.torn[0].max())
+    return f"first at the {brick_name(bricks, first, load_catalogue())} in layer {layer_of(bricks, first)}"
 
 
 def _left(margin: float) -> str:

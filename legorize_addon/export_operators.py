@@ -8,12 +8,14 @@ from pathlib import Path
 from typing import Final
 
 import bpy
-from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from .core.catalogue import load_catalogue
 from .core.errors import BuildError
 from .core.ldraw import write_ldr
+from .core.ldraw_document import write_mpd
+from .core.model import Role
 from .operators import OnBuild
 from .properties import current_build, label
 from .render import AZIMUTH, render_still
@@ -27,7 +29,10 @@ class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
 
     bl_idname = "legorize.export_ldr"
     bl_label = "Export LDraw"
-    bl_description = "Write the bricks as an LDraw model, which LeoCAD, BrickLink Studio and other programs open"
+    bl_description = (
+        "Write the finished model as an LDraw file, which LeoCAD, BrickLink Studio and other programs open; supports "
+        "that are taken out again are left out"
+    )
     bl_options = {"REGISTER"}
     filename_ext = ".ldr"
     filter_glob: StringProperty(default="*.ldr", options={"HIDDEN"})
@@ -37,9 +42,34 @@ class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
         return self.reported(self._write, current_build(context.scene))
 
     def _write(self, build: bpy.types.Collection) -> set[str]:
+        path, bricks = Path(self.filepath), read_bricks(build)
+        finished = bricks.take(bricks.role != Role.SUPPORT_OUTSIDE)
+        write_whole(path, write_ldr(finished, load_catalogue(), name=path.name, title=build.name))
+        self.report({"INFO"}, f"Wrote {path}.")
+        return {"FINISHED"}
+
+
+class LEGORIZE_OT_export_mpd(OnBuild, bpy.types.Operator, ExportHelper):
+    """Write the build that the panel shows, with its pieces and supports, as an LDraw multi-part document."""
+
+    bl_idname = "legorize.export_mpd"
+    bl_label = "Export LDraw with Supports"
+    bl_description = (
+        "Write the model, its pieces and its supports as sub-models of one LDraw document, in the order in which they "
+        "are put together"
+    )
+    bl_options = {"REGISTER"}
+    filename_ext = ".mpd"
+    filter_glob: StringProperty(default="*.mpd", options={"HIDDEN"})
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Write the file."""
+        return self.reported(self._write, current_build(context.scene))
+
+    def _write(self, build: bpy.types.Collection) -> set[str]:
         path = Path(self.filepath)
-        text = write_ldr(read_bricks(build), load_catalogue(), name=path.name, title=build.name)
-        write_whole(path, text)
+        name = path.with_suffix(".ldr").name
+        write_whole(path, write_mpd(read_bricks(build), load_catalogue(), name=name, title=build.name))
         self.report({"INFO"}, f"Wrote {path}.")
         return {"FINISHED"}
 
@@ -66,6 +96,7 @@ class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
         items=VIEWS,
         default="front_right",
     )
+    outlines: BoolProperty(name="Outlines", description="Tell the bricks apart by dark lines", default=False)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Render and write the file."""
@@ -73,7 +104,8 @@ class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
 
     def _render(self, scene: bpy.types.Scene) -> set[str]:
         path = Path(self.filepath)
-        render_still(scene, path, samples=self.samples, resolution=(self.width, self.height), view=self.view)
+        size = self.width, self.height
+        render_still(scene, path, samples=self.samples, resolution=size, view=self.view, outlines=self.outlines)
         self.report({"INFO"}, f"Wrote {path}.")
         return {"FINISHED"}
 
@@ -114,9 +146,10 @@ def _move(partial: Path, path: Path) -> None:
 
 def _draw_export(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     self.layout.operator(LEGORIZE_OT_export_ldr.bl_idname, text="Legorize Model (.ldr)")
+    self.layout.operator(LEGORIZE_OT_export_mpd.bl_idname, text="Legorize Model with Supports (.mpd)")
 
 
-classes = (LEGORIZE_OT_export_ldr, LEGORIZE_OT_render_still)
+classes = (LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still)
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
 
 

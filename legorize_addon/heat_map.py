@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .brick_points import MARGIN
+from .brick_points import MARGIN, NO_MARGIN
 from .core.catalogue import Part, load_catalogue
 from .core.errors import BuildError
 from .core.model import Floats
@@ -29,29 +29,32 @@ HEAT: Final = "heat"
 
 HEAT_KEY: Final = "legorize_heat"
 LEGEND: Final = (
-    "Friction left: green much, yellow half, red none; black: asked for more than it bears; magenta: hangs in the air"
+    "Friction left: green much, yellow half, red none; black: asked for more than it bears; magenta: hangs in the air; "
+    "grey: a support, which is not checked"
 )
 
 HANGING: Final = (214, 20, 190)
 FAILING: Final = (25, 5, 8)
+NOT_CHECKED: Final = (150, 150, 150)
 RAMP: Final = ((200, 16, 20), (246, 205, 30), (50, 170, 75))
-"""From nothing left, through half, to all of the friction, in sRGB bytes like the two above."""
+"""From nothing left, through half, to all of the friction, in sRGB bytes like the three above."""
 
 STEPS: Final = 8
 """Colours of the ramp: a material each, and few enough to be told apart."""
 
 
 def heat_colours() -> NDArray[np.uint8]:
-    """Return the colours of the map in sRGB, shape (STEPS + 2, 3): hanging, failing, then from red to green."""
+    """Return the colours of the map in sRGB, shape (STEPS + 3, 3): hanging, failing, from red to green, not checked."""
     at = np.linspace(0, 1, STEPS)
     stops = np.linspace(0, 1, len(RAMP))
     ramp = np.stack([np.interp(at, stops, channel) for channel in np.transpose(RAMP)], axis=1)
-    return np.vstack([HANGING, FAILING, np.rint(ramp)]).astype(np.uint8)
+    return np.vstack([HANGING, FAILING, np.rint(ramp), NOT_CHECKED]).astype(np.uint8)
 
 
 def heat_of(margin: Floats) -> NDArray[np.int32]:
     """Return the rows of :func:`heat_colours` for margins of shape (n,), shape (n,)."""
     step = 2 + np.clip(np.floor(margin * STEPS), 0, STEPS - 1)
+    step = np.where(margin == NO_MARGIN, 2 + STEPS, step)
     return np.where(margin == UNSUPPORTED, 0, np.where(margin < 0, 1, step)).astype(np.int32)
 
 

@@ -4,7 +4,11 @@ The tree "Legorize Bricks" sets, on every point of a mesh, the object of a
 collection that the point's attribute ``variant`` counts to, turned by its
 attribute ``turn``. A plane hides the bricks whose middles lie beyond it and
 leaves the data as they are. A switch turns to another collection, which the
-attribute ``heat`` counts in: there the same parts have other colours.
+attribute ``heat`` counts in: there the same parts have other colours. "Explode"
+lifts each piece by its attribute ``tier``. From one on, "Steps" leaves what is
+there after that many building steps, by the attributes ``step``, in which a
+brick is placed, and ``removed``; until the step ``joined``, a piece stands
+``aside``.
 """
 
 from __future__ import annotations
@@ -21,13 +25,15 @@ from .core.units import PLATE
 
 TREE_NAME: Final = "Legorize Bricks"
 TREE_KEY: Final = "legorize_tree"
-TREE_VERSION: Final = 3
+TREE_VERSION: Final = 4
 MATERIAL_KEY: Final = "legorize_colour"
 MODIFIER_NAME: Final = "Bricks"
 PARTS: Final = "Parts"
 SECTION: Final = "Section"
 HEAT_PARTS: Final = "Heat parts"
 HEAT_MAP: Final = "Heat map"
+EXPLODE: Final = "Explode"
+STEPS: Final = "Steps"
 
 INTERFACE: Final = (
     ("Geometry", "INPUT", "NodeSocketGeometry"),
@@ -35,13 +41,15 @@ INTERFACE: Final = (
     (SECTION, "INPUT", "NodeSocketObject"),
     (HEAT_PARTS, "INPUT", "NodeSocketCollection"),
     (HEAT_MAP, "INPUT", "NodeSocketBool"),
+    (EXPLODE, "INPUT", "NodeSocketFloat"),
+    (STEPS, "INPUT", "NodeSocketInt"),
     ("Geometry", "OUTPUT", "NodeSocketGeometry"),
 )
 
 # name: type, place, properties, values of unlinked inputs
 NODES: Final[dict[str, tuple[str, tuple[int, int], dict[str, Any], dict[str, Any]]]] = {
     "In": ("NodeGroupInput", (-600, 0), {}, {}),
-    "Out": ("NodeGroupOutput", (600, 0), {}, {}),
+    "Out": ("NodeGroupOutput", (800, 0), {}, {}),
     "Variant": ("GeometryNodeInputNamedAttribute", (-400, -150), {"data_type": "INT"}, {"Name": "variant"}),
     "Heat": ("GeometryNodeInputNamedAttribute", (-400, -270), {"data_type": "INT"}, {"Name": "heat"}),
     "Pick": ("GeometryNodeSwitch", (-200, -200), {"input_type": "INT"}, {}),
@@ -60,7 +68,27 @@ NODES: Final[dict[str, tuple[str, tuple[int, int], dict[str, Any], dict[str, Any
     "Distance": ("ShaderNodeSeparateXYZ", (-400, 200), {}, {}),
     "Kept": ("FunctionNodeCompare", (-200, 200), {"data_type": "FLOAT", "operation": "LESS_EQUAL"}, {1: 0.0}),
     "Children": ("GeometryNodeCollectionInfo", (-200, 0), {}, {"Separate Children": True, "Reset Children": True}),
+    "Preview": ("FunctionNodeCompare", (-600, 900), {"data_type": "INT", "operation": "GREATER_THAN"}, {"B": 0}),
+    "Step": ("GeometryNodeInputNamedAttribute", (-600, 1350), {"data_type": "INT"}, {"Name": "step"}),
+    "Placed": ("FunctionNodeCompare", (-400, 1350), {"data_type": "INT", "operation": "LESS_THAN"}, {}),
+    "Removed": ("GeometryNodeInputNamedAttribute", (-600, 1150), {"data_type": "INT"}, {"Name": "removed"}),
+    "Left": ("FunctionNodeCompare", (-400, 1150), {"data_type": "INT", "operation": "GREATER_EQUAL"}, {}),
+    "There": ("FunctionNodeBooleanMath", (-200, 1250), {"operation": "AND"}, {}),
+    "Both": ("FunctionNodeBooleanMath", (0, 1100), {"operation": "AND"}, {}),
+    "Shown": ("GeometryNodeSwitch", (0, 300), {"input_type": "BOOLEAN"}, {}),
     "Instances": ("GeometryNodeInstanceOnPoints", (200, 0), {}, {"Pick Instance": True}),
+    "Tier": ("GeometryNodeInputNamedAttribute", (-400, -600), {"data_type": "INT"}, {"Name": "tier"}),
+    "Lift": ("ShaderNodeMath", (-200, -600), {"operation": "MULTIPLY"}, {}),
+    "Raised": ("ShaderNodeCombineXYZ", (0, -600), {}, {}),
+    "Joined": ("GeometryNodeInputNamedAttribute", (-400, -800), {"data_type": "INT"}, {"Name": "joined"}),
+    "Alone": ("FunctionNodeCompare", (-200, -800), {"data_type": "INT", "operation": "GREATER_EQUAL"}, {}),
+    "Apart": ("FunctionNodeBooleanMath", (0, -800), {"operation": "AND"}, {}),
+    "Aside": ("GeometryNodeInputNamedAttribute", (0, -1000), {"data_type": "FLOAT_VECTOR"}, {"Name": "aside"}),
+    "Way": ("GeometryNodeSwitch", (200, -700), {"input_type": "VECTOR"}, {}),
+    "Exploded": ("FunctionNodeCompare", (0, -250), {"data_type": "FLOAT", "operation": "GREATER_THAN"}, {1: 0.0}),
+    "Moving": ("FunctionNodeBooleanMath", (200, -250), {"operation": "OR"}, {}),
+    "Moved": ("GeometryNodeTranslateInstances", (400, -300), {}, {"Local Space": False}),
+    "Choose": ("GeometryNodeSwitch", (600, 0), {"input_type": "GEOMETRY"}, {}),
 }
 
 LINKS: Final = (
@@ -87,8 +115,39 @@ LINKS: Final = (
     ("Inverse", "Matrix", "Seen", "Transform"),
     ("Seen", "Vector", "Distance", "Vector"),
     ("Distance", "Z", "Kept", 0),
-    ("Kept", "Result", "Instances", "Selection"),
-    ("Instances", "Instances", "Out", "Geometry"),
+    ("Kept", "Result", "Shown", "False"),
+    ("In", STEPS, "Preview", "A"),
+    ("Preview", "Result", "Shown", "Switch"),
+    ("Step", "Attribute", "Placed", "A"),
+    ("In", STEPS, "Placed", "B"),
+    ("Removed", "Attribute", "Left", "A"),
+    ("In", STEPS, "Left", "B"),
+    ("Placed", "Result", "There", 0),
+    ("Left", "Result", "There", 1),
+    ("Kept", "Result", "Both", 0),
+    ("There", "Boolean", "Both", 1),
+    ("Both", "Boolean", "Shown", "True"),
+    ("Shown", "Output", "Instances", "Selection"),
+    ("Tier", "Attribute", "Lift", 0),
+    ("In", EXPLODE, "Lift", 1),
+    ("Lift", "Value", "Raised", "Z"),
+    ("Joined", "Attribute", "Alone", "A"),
+    ("In", STEPS, "Alone", "B"),
+    ("Preview", "Result", "Apart", 0),
+    ("Alone", "Result", "Apart", 1),
+    ("Apart", "Boolean", "Way", "Switch"),
+    ("Raised", "Vector", "Way", "False"),
+    ("Aside", "Attribute", "Way", "True"),
+    ("In", EXPLODE, "Exploded", 0),
+    ("Exploded", "Result", "Moving", 0),
+    ("Preview", "Result", "Moving", 1),
+    ("Instances", "Instances", "Moved", "Instances"),
+    ("Way", "Output", "Moved", "Translation"),
+    # nothing of this is evaluated where the switches are off
+    ("Moving", "Boolean", "Choose", "Switch"),
+    ("Instances", "Instances", "Choose", "False"),
+    ("Moved", "Instances", "Choose", "True"),
+    ("Choose", "Output", "Out", "Geometry"),
 )
 
 
@@ -107,6 +166,11 @@ def brick_tree() -> bpy.types.NodeTree:
     for source, output, target, entry in LINKS:
         tree.links.new(_socket(tree.nodes[source].outputs, output), _socket(tree.nodes[target].inputs, entry))
     return tree
+
+
+def brick_trees() -> list[bpy.types.NodeTree]:
+    """Return the trees of this file, those of earlier versions included."""
+    return [tree for tree in bpy.data.node_groups if TREE_KEY in tree]
 
 
 def add_bricks_modifier(target: bpy.types.Object, parts: bpy.types.Collection, section: bpy.types.Object) -> None:
@@ -210,7 +274,7 @@ def _add_node(
     for key, value in properties.items():
         setattr(node, key, value)
     for key, value in values.items():
-        node.inputs[key].default_value = value
+        _socket(node.inputs, key).default_value = value
 
 
 def _socket(sockets: Any, key: str | int) -> bpy.types.NodeSocket:

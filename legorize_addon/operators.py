@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -10,16 +10,17 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import job
-from .core.catalogue import load_catalogue
+from .core.build import Build
 from .core.errors import Cancelled, LegorizeError
 from .core.mesh import TriangleMesh
-from .core.pipeline import Build, legorize
+from .core.pipeline import legorize
 from .core.progress import Progress
 from .core.settings import Settings
 from .core.units import MM_PER_METRE
 from .properties import current_build, label, settings_of
 from .read_mesh import read_objects
-from .scene import BUILD_KEY, OWN_KEY, builds_of, clear_build, show_build, sources_of
+from .result import show_result
+from .scene import BUILD_KEY, OWN_KEY, builds_of, clear_build, sources_of
 from .view import readable
 
 TICK: Final = 0.1
@@ -90,7 +91,74 @@ class Reporting:
         return {"CANCELLED"}
 
 
-class LEGORIZE_OT_build(Reporting, bpy.types.Operator):
+class Working(Reporting):
+    """What takes long: done in a worker thread where there is a window, and straight through where there is none.
+
+    A class that has this one among its bases is an operator with two methods:
+    ``_take_order(context)`` returns what ``work(progress)`` can be called of, and
+    ``_show(context, order, result)`` shows what came of it.
+    """
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Work in a worker thread, so that Blender stays alive."""
+        if bpy.app.background:
+            return self.execute(context)
+        return self.reported(self._start, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Work straight through."""
+        return self.reported(self._work_now, context)
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Show how far the job has come; show its result at the end."""
+        if self._timer is None:
+            return {"CANCELLED"}
+        if event.type == "ESC" and event.value == "PRESS":
+            self._job.cancel()
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"} if event.type in NAVIGATION else {"RUNNING_MODAL"}
+        self._show_progress(context)
+        if self._job.is_alive():
+            return {"RUNNING_MODAL"}
+        self._close(context)
+        return self.reported(self._finish, context)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Stop: Blender closes the window or opens another file."""
+        job.stop()
+        self._close(context)
+
+    def _work_now(self, context: bpy.types.Context) -> set[str]:
+        order = self._take_order(context)
+        return self._show(context, order, order.work(lambda stage, share: None))
+
+    def _start(self, context: bpy.types.Context) -> set[str]:
+        self._order = self._take_order(context)
+        self._job = job.Job(self._order.work)
+        self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        self._job.start()
+        return {"RUNNING_MODAL"}
+
+    def _show_progress(self, context: bpy.types.Context) -> None:
+        stage, share = self._job.progress
+        text = "Stopping" if self._job.stopping else f"{label(stage)} {share:.0%} (Esc to stop)"
+        context.workspace.status_text_set(f"Legorize: {text}")
+        _redraw(context)
+
+    def _finish(self, context: bpy.types.Context) -> set[str]:
+        return self._show(context, self._order, self._job.result())
+
+    def _close(self, context: bpy.types.Context) -> None:
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
+        _redraw(context)
+
+
+class LEGORIZE_OT_build(Working, bpy.types.Operator):
     """Make a brick model of the chosen objects."""
 
     bl_idname = "legorize.build"
@@ -114,72 +182,20 @@ class LEGORIZE_OT_build(Reporting, bpy.types.Operator):
             return True
         return False
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Build in a worker thread, so that Blender stays alive."""
-        if bpy.app.background:
-            return self.execute(context)
-        return self.reported(self._start, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Build straight through."""
-        return self.reported(self._build_now, context)
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Show how far the job has come; show its result at the end."""
-        if self._timer is None:
-            return {"CANCELLED"}
-        if event.type == "ESC" and event.value == "PRESS":
-            self._job.cancel()
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"} if event.type in NAVIGATION else {"RUNNING_MODAL"}
-        self._show_progress(context)
-        if self._job.is_alive():
-            return {"RUNNING_MODAL"}
-        self._close(context)
-        return self.reported(self._finish, context)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Stop: Blender closes the window or opens another file."""
-        job.stop()
-        self._close(context)
-
-    def _build_now(self, context: bpy.types.Context) -> set[str]:
-        order = _take_order(context)
-        return self._show(context, order, order.work(lambda stage, share: None))
-
-    def _start(self, context: bpy.types.Context) -> set[str]:
-        self._order = _take_order(context)
-        self._job = job.Job(self._order.work)
-        self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        self._job.start()
-        return {"RUNNING_MODAL"}
-
-    def _show_progress(self, context: bpy.types.Context) -> None:
-        stage, share = self._job.progress
-        text = "Stopping" if self._job.stopping else f"{label(stage)} {share:.0%} (Esc to stop)"
-        context.workspace.status_text_set(f"Legorize: {text}")
-        _redraw(context)
-
-    def _finish(self, context: bpy.types.Context) -> set[str]:
-        return self._show(context, self._order, self._job.result())
+    def _take_order(self, context: bpy.types.Context) -> Order:
+        return order_of(context, chosen_sources(context), settings_of(context.scene.legorize.settings))
 
     def _show(self, context: bpy.types.Context, order: Order, build: Build) -> set[str]:
         sources = [bpy.data.objects[name] for name in order.sources if name in bpy.data.objects]
         notes = (*order.remarks, *build.notes)
         view = context.scene.legorize
-        collection = show_build(
+        collection = show_result(
             context.scene,
-            build.bricks,
-            load_catalogue(),
-            origin=build.grid.origin,
-            scale=build.scale,
+            build,
             mm_per_unit=order.mm_per_unit,
             name=" + ".join(order.sources),
             sources=sources,
-            settings=order.settings,
             notes=notes,
-            stability=build.stability,
             detail=view.detail,
         )
         view.build = collection
@@ -189,14 +205,6 @@ class LEGORIZE_OT_build(Reporting, bpy.types.Operator):
         for note in notes:
             self.report({"WARNING"}, note)
         return {"FINISHED"}
-
-    def _close(self, context: bpy.types.Context) -> None:
-        if self._timer is not None:
-            context.window_manager.event_timer_remove(self._timer)
-            self._timer = None
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
-        _redraw(context)
 
 
 class OnBuild(Reporting):
@@ -228,8 +236,22 @@ class LEGORIZE_OT_clear(OnBuild, bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _take_order(context: bpy.types.Context) -> Order:
-    sources = chosen_sources(context)
+def order_of(context: bpy.types.Context, sources: Sequence[bpy.types.Object], settings: Settings) -> Order:
+    """Read objects, which may be hidden, for a build.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+        Its scene has the objects.
+    sources : sequence of bpy.types.Object
+        With a surface.
+    settings : Settings
+        Of the build.
+
+    Returns
+    -------
+    Order
+    """
     with readable(sources):
         context.view_layer.update()
         mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get())
@@ -237,7 +259,7 @@ def _take_order(context: bpy.types.Context) -> Order:
         sources=tuple(source.name for source in sources),
         mesh=mesh,
         remarks=remarks,
-        settings=settings_of(context.scene.legorize.settings),
+        settings=settings,
         mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
     )
 

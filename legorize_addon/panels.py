@@ -14,14 +14,19 @@ from . import job
 from .check import check_lines
 from .core.settings import Settings, choices
 from .core.units import BRICK, STUD
-from .export_operators import LEGORIZE_OT_export_ldr, LEGORIZE_OT_render_still
+from .export_operators import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
 from .heat_map import LEGEND, has_margins
+from .learning_operators import LEGORIZE_OT_forget, LEGORIZE_OT_learn
 from .operators import LEGORIZE_OT_build, LEGORIZE_OT_clear
 from .properties import current_build, label
 from .scene import BUILD_KEY, builds
+from .steps import n_pieces, n_steps
 from .view import roles_shown
 
 MM_PER_CM: Final = 10.0
+BUTTONS: Final = MappingProxyType({"Learning": (LEGORIZE_OT_learn, LEGORIZE_OT_forget)})
+"""Operators below the settings of a group."""
+
 PIXELS_PER_LETTER: Final = 8.0
 """Width of a letter in the sidebar, with room for the icon: Blender does not wrap texts."""
 
@@ -63,11 +68,14 @@ class _SettingsPanel(_Tab):
         The settings, in their order.
     alternatives : mapping of str to str
         The setting whose choice decides whether another one counts.
+    buttons : tuple of type
+        Operators below them.
     """
 
     bl_parent_id = "LEGORIZE_PT_main"
     names: tuple[str, ...] = ()
     alternatives: Mapping[str, str] = MappingProxyType({})
+    buttons: tuple[type[bpy.types.Operator], ...] = ()
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the group's settings, without the numbers that its choice leaves unused."""
@@ -78,6 +86,8 @@ class _SettingsPanel(_Tab):
             choice = self.alternatives.get(name)
             if choice is None or getattr(group, choice) == name:
                 self.layout.prop(group, name)
+        for button in self.buttons:
+            self.layout.operator(button.bl_idname)
 
 
 def _settings_panels() -> tuple[type, ...]:
@@ -96,6 +106,7 @@ def _settings_panel(group: str, entries: Sequence[Field[Any]], *, closed: bool) 
         "bl_options": {"DEFAULT_CLOSED"} if closed else set(),
         "names": tuple(entry.name for entry in entries),
         "alternatives": MappingProxyType(alternatives),
+        "buttons": BUTTONS.get(group, ()),
     }
     return type(f"LEGORIZE_PT_{group.lower()}", (_SettingsPanel, bpy.types.Panel), members)
 
@@ -117,12 +128,13 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
     bl_label = "Layers"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the layer slider, the cut, the roles, and what else may be shown."""
+        """Draw the sliders of layers, steps and pieces, the cut, the roles, and what else may be shown."""
         view = context.scene.legorize
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         build = current_build(context.scene)
         self.layout.prop(view, "top_layer", text=f"Top of {build[BUILD_KEY]['layers']}")
+        self._draw_building(view, build)
         self.layout.row().prop(view, "section_axis", expand=True)
         if view.section_axis != "none":
             self.layout.prop(view, "section_at", slider=True)
@@ -132,6 +144,17 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
             shown.prop(view.roles, role.name.lower())
         self.layout.prop(view, "show_sources")
         self.layout.prop(view, "detail")
+
+    def _draw_building(self, view: bpy.types.PropertyGroup, build: bpy.types.Collection) -> None:
+        """Draw how far the model is built, and its pieces apart, as far as the build knows of them."""
+        if n_steps(build):
+            row = self.layout.row(heading=f"Step of {n_steps(build)}")
+            row.prop(view, "by_steps", text="")
+            slider = row.row()
+            slider.active = view.by_steps
+            slider.prop(view, "step", text="")
+        if n_pieces(build) > 1:
+            self.layout.prop(view, "exploded", slider=True)
 
 
 class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):
@@ -143,7 +166,7 @@ class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):
         """Draw the figures of the build and its remarks."""
         state = current_build(context.scene)[BUILD_KEY]
         column = self.layout.column(align=True)
-        for text in _figures(state["summary"]):
+        for text in (*_figures(state["summary"]), *_building_figures(state.get("building"))):
             column.label(text=text)
         for note in state["notes"]:
             _wrapped(context, self.layout, note, "ERROR")
@@ -176,6 +199,7 @@ class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the buttons that write files."""
         self.layout.operator(LEGORIZE_OT_export_ldr.bl_idname, icon="EXPORT")
+        self.layout.operator(LEGORIZE_OT_export_mpd.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_render_still.bl_idname, icon="RENDER_STILL")
 
 
@@ -196,6 +220,20 @@ def _figures(summary: Any) -> tuple[str, ...]:
         f"{x} x {y} studs, {layers} layers",
         "{:.1f} x {:.1f} x {:.1f} cm".format(*size),
     )
+
+
+def _building_figures(building: Mapping[str, Any] | None) -> tuple[str, ...]:
+    """Return the lines on supports and building; none for a build of an earlier version, which does not know them."""
+    if not building:
+        return ()
+    lines = [f"Support bricks to take out: {building['removed']}"]
+    if building["removed"]:
+        lines[0] += f", {building['removed_mass']:.0f} g"
+    lines.append(f"Support bricks that stay: {building['kept']}")
+    lines.append(f"Pieces: {building['pieces']}, building steps: {building['steps']}")
+    if building.get("by_hand"):
+        lines.append(f"Towers to hold by hand: {building['by_hand']}")
+    return tuple(lines)
 
 
 classes = (

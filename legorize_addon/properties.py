@@ -21,7 +21,8 @@ from .heat_map import has_margins, heat_map_shown, show_heat_map
 from .part_meshes import set_detail
 from .scene import BUILD_KEY, builds, show_sources
 from .section import AXES, Section
-from .view import cut_away, roles_shown, section_of, show_layers, show_role
+from .steps import explode, exploded, n_steps, steps_done
+from .view import cut_away, roles_shown, section_of, show_layers, show_role, show_steps
 
 CUTS: Final = ("none", *AXES)
 CUT_ITEMS: Final = [("none", "Off", ""), *((axis, axis.upper(), "") for axis in AXES)]
@@ -32,6 +33,7 @@ ROLE_TEXTS: Final = {
     Role.OFFSET: "the bricks under overhanging faces",
     Role.SUPPORT_OUTSIDE: "the supports to be taken away in the end",
     Role.SUPPORT_INSIDE: "the supports that stay inside",
+    Role.SUPPORT_KEPT: "the supports outside that stay, as they alone hold a part of the model",
 }
 
 
@@ -158,6 +160,39 @@ def _set_heat_map(self: bpy.types.PropertyGroup, value: bool) -> None:
         show_heat_map(build, visible=value)
 
 
+def _exploded(self: bpy.types.PropertyGroup) -> float:
+    build = current_build(self.id_data)
+    return exploded(build) if build else 0.0
+
+
+def _set_exploded(self: bpy.types.PropertyGroup, value: float) -> None:
+    build = current_build(self.id_data)
+    if build and n_steps(build):
+        explode(build, value)
+
+
+def _step(self: bpy.types.PropertyGroup) -> int:
+    build = current_build(self.id_data)
+    return steps_done(build) or n_steps(build) if build else 0
+
+
+def _set_step(self: bpy.types.PropertyGroup, value: int) -> None:
+    build = current_build(self.id_data)
+    if build and n_steps(build):
+        show_steps(build, max(1, min(value, n_steps(build))))
+
+
+def _by_steps(self: bpy.types.PropertyGroup) -> bool:
+    build = current_build(self.id_data)
+    return bool(build) and bool(steps_done(build))
+
+
+def _set_by_steps(self: bpy.types.PropertyGroup, value: bool) -> None:
+    build = current_build(self.id_data)
+    if build and n_steps(build):
+        show_steps(build, _step(self) if value else 0)
+
+
 def _update_sources(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     build = current_build(self.id_data)
     if build:
@@ -240,6 +275,30 @@ class LegorizeView(bpy.types.PropertyGroup):
         description="Hide the bricks on this side of the cut instead of those beyond it",
         get=_section_flip,
         set=_set_section_flip,
+    )
+    exploded: FloatProperty(
+        name="Explode",
+        description="How far each piece is lifted off the one below it, as a share of the model's height, in the "
+        "viewport and in renders",
+        subtype="FACTOR",
+        min=0.0,
+        max=1.0,
+        get=_exploded,
+        set=_set_exploded,
+    )
+    by_steps: BoolProperty(
+        name="Building steps",
+        description="Show what is there after a number of building steps: pieces that are not joined yet stand beside "
+        "the model, and supports are there until they are taken out",
+        get=_by_steps,
+        set=_set_by_steps,
+    )
+    step: IntProperty(
+        name="Step",
+        description="Building steps that are done, in the viewport and in renders",
+        min=1,
+        get=_step,
+        set=_set_step,
     )
     heat_map: BoolProperty(
         name="Heat map",

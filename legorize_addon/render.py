@@ -10,8 +10,8 @@ from __future__ import annotations
 import errno
 import math
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Final, Literal
 
@@ -19,17 +19,23 @@ import bpy
 import numpy as np
 from mathutils import Euler, Vector
 
-from .brick_points import box_corners
-from .core.catalogue import load_catalogue
 from .core.errors import BuildError
 from .core.model import Floats
+from .core.units import PLATE
+from .outlines import outlined
 from .scene import BUILD_KEY, builds
 from .section import hidden_side
-from .view import shown_bricks
+from .view import corners_while_building, shown_corners
 
-View = Literal["front_left", "front_right", "back_left", "back_right", "section"]
+View = Literal["front_left", "front_right", "back_left", "back_right", "below", "section"]
 
-AZIMUTH: Final[dict[View, float]] = {"front_left": -35.0, "front_right": 35.0, "back_left": -145.0, "back_right": 145.0}
+AZIMUTH: Final[dict[View, float]] = {
+    "front_left": -35.0,
+    "front_right": 35.0,
+    "back_left": -145.0,
+    "back_right": 145.0,
+    "below": 35.0,
+}
 """Direction in which the camera stands, in degrees from -y counter-clockwise as seen from above."""
 
 ELEVATION: Final = 24.0
@@ -37,11 +43,15 @@ BESIDE: Final = 28.0
 """How far beside the middle of an upright cut the camera stands, in degrees."""
 
 ABOVE: Final = 55.0
-"""Elevation from which a level cut is seen, in degrees."""
+"""Elevation from which a level cut is seen, and undersides from as far below, in degrees."""
 
 FOCAL_LENGTH: Final = 85.0
 MARGIN: Final = 0.08
 """Share of the camera's distance that is left free around the model."""
+
+LINE_PIXELS: Final = 2.75
+LINE_PLATES: Final = 0.35
+"""Reach of outlines from the edge, where they fade: in pixels, and in heights of a plate at most."""
 
 SKY: Final = (0.85, 0.92, 1.0)
 SKY_STRENGTH: Final = 0.4
@@ -60,6 +70,8 @@ def render_still(
     samples: int = 24,
     resolution: tuple[int, int] = (960, 720),
     view: View = "front_right",
+    outlines: bool = False,
+    whole_building: bool = False,
 ) -> None:
     """Write a picture of a scene's builds, from a little above, on a pale ground.
 
@@ -74,8 +86,14 @@ def render_still(
     resolution : tuple of two int, optional
         Width and height in pixels.
     view : str, optional
-        Corner from which the model is seen; "section" looks onto the cut
-        through the first build that is cut open, else as "front_right".
+        Corner from which the model is seen; "below" looks up at it, with no
+        ground; "section" looks onto the cut through the first build that is
+        cut open, else as "front_right".
+    outlines : bool, optional
+        Whether dark lines tell the bricks apart.
+    whole_building : bool, optional
+        Whether the camera takes in all places where bricks are in any building
+        step, so that pictures of several steps match.
 
     Raises
     ------
@@ -83,19 +101,35 @@ def render_still(
         Nothing is to be seen, Cycles is switched off, or the file cannot be written there.
     """
     partial = path.with_name(f".{path.name}.part.png")
-    with _writable(partial, path), _studio(scene) as studio:
-        corners = _corners(studio)
+    with writable(partial, path), _studio(scene) as studio:
+        corners = _corners(studio, corners_while_building if whole_building else shown_corners)
         azimuth, elevation = _place(studio, view)
         _set_up_render(studio, samples, resolution, partial)
-        _add_light(studio, azimuth)
-        _add_ground(studio, corners)
+        _add_light(studio, azimuth, elevation)
+        if elevation > 0:
+            _add_ground(studio, corners)
         _add_camera(studio, corners, azimuth, elevation)
-        bpy.ops.render.render("EXEC_DEFAULT", write_still=True, scene=studio.name)
+        lines = outlined(_materials(studio), _line_width(studio, corners)) if outlines else nullcontext()
+        with lines:
+            bpy.ops.render.render("EXEC_DEFAULT", write_still=True, scene=studio.name)
 
 
 @contextmanager
-def _writable(partial: Path, path: Path) -> Iterator[None]:
-    """Move a file to its place once it is written; find out before the work that it cannot be."""
+def writable(partial: Path, path: Path) -> Iterator[None]:
+    """Move a picture to its place once it is written; find out before the work that it cannot be.
+
+    Parameters
+    ----------
+    partial : pathlib.Path
+        What is written meanwhile, in the same folder; gone at the end.
+    path : pathlib.Path
+        The picture.
+
+    Raises
+    ------
+    BuildError
+        The picture cannot be written there.
+    """
     try:
         if path.is_dir():
             raise IsADirectoryError(errno.EISDIR, "it is a folder")
@@ -127,13 +161,12 @@ def _studio(scene: bpy.types.Scene) -> Iterator[bpy.types.Scene]:
             bpy.data.batch_remove([thing for thing in getattr(bpy.data, kind) if thing not in kept])
 
 
-def _corners(studio: bpy.types.Scene) -> Floats:
-    """Return the corners of all bricks that are shown, in world units, shape (n, 3)."""
+def _corners(studio: bpy.types.Scene, corners_of: Callable[[bpy.types.Collection], Floats]) -> Floats:
+    """Return the corners of all bricks in world units, shape (n, 3)."""
     found = []
     for build in studio.collection.children:
         matrix = np.array(build[BUILD_KEY]["root"].matrix_world)
-        corners = box_corners(shown_bricks(build), load_catalogue())
-        found.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
+        found.append(corners_of(build) @ matrix[:3, :3].T + matrix[:3, 3])
     if not found:
         raise BuildError("The scene has 0 brick models to take a picture of: legorize an object first.")
     return np.concatenate(found)
@@ -142,7 +175,7 @@ def _corners(studio: bpy.types.Scene) -> Floats:
 def _place(studio: bpy.types.Scene, view: View) -> tuple[float, float]:
     """Return the azimuth and elevation of the camera in degrees."""
     if view != "section":
-        return AZIMUTH[view], ELEVATION
+        return AZIMUTH[view], -ABOVE if view == "below" else ELEVATION
     sides = [hidden_side(build[BUILD_KEY]["plane"]) for build in studio.collection.children]
     side = next((side for side in sides if side is not None), None)
     if side is None:
@@ -188,7 +221,8 @@ def _set_denoiser(studio: bpy.types.Scene) -> bool:
     return True
 
 
-def _add_light(studio: bpy.types.Scene, azimuth: float) -> None:
+def _add_light(studio: bpy.types.Scene, azimuth: float, elevation: float) -> None:
+    """Add a sky, and suns that shine from above, or from below onto undersides."""
     world = bpy.data.worlds.new("Legorize Sky")
     if world.node_tree is None:
         world.use_nodes = True
@@ -196,12 +230,12 @@ def _add_light(studio: bpy.types.Scene, azimuth: float) -> None:
     background.inputs["Color"].default_value = (*SKY, 1.0)
     background.inputs["Strength"].default_value = SKY_STRENGTH
     studio.world = world
-    for turn, elevation, strength, size in SUNS:
+    for turn, height, strength, size in SUNS:
         light = bpy.data.lights.new("Legorize Sun", "SUN")
         light.energy = strength
         light.angle = math.radians(size)
         sun = bpy.data.objects.new("Legorize Sun", light)
-        sun.rotation_euler = _look(azimuth + turn, elevation)
+        sun.rotation_euler = _look(azimuth + turn, math.copysign(height, elevation))
         studio.collection.objects.link(sun)
 
 
@@ -235,6 +269,22 @@ def _add_camera(studio: bpy.types.Scene, corners: Floats, azimuth: float, elevat
     away = place - target
     camera.location = target + away * (1 + MARGIN)
     lens.clip_start, lens.clip_end = away.length / 100, away.length * 10 * GROUND_REACH
+
+
+def _materials(studio: bpy.types.Scene) -> list[bpy.types.Material]:
+    """Return the materials of all bricks, and of their heat maps."""
+    variants = [variant for build in studio.collection.children for variant in build[BUILD_KEY]["parts"].all_objects]
+    found = {slot.material.name: slot.material for variant in variants for slot in variant.material_slots}
+    return [found[name] for name in sorted(found)]
+
+
+def _line_width(studio: bpy.types.Scene, corners: Floats) -> float:
+    """Return the width of outlines in world units: some pixels, less where bricks are small in the picture."""
+    camera, render = studio.camera, studio.render
+    away = float(np.linalg.norm(corners.mean(axis=0) - np.array(camera.location)))
+    pixel = away * camera.data.sensor_width / camera.data.lens / max(render.resolution_x, render.resolution_y)
+    plates = [float(build[BUILD_KEY]["root"].matrix_world.median_scale) for build in studio.collection.children]
+    return min(LINE_PIXELS * pixel, LINE_PLATES * PLATE * min(plates))
 
 
 def _look(azimuth: float, elevation: float) -> Euler:

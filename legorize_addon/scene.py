@@ -18,15 +18,17 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .brick_points import box_corners, points_mesh, read_points, sizes
-from .check import check_of
+from .assembly import Columns, assembly_columns
+from .brick_points import MARGIN, NO_MARGIN, box_corners, points_mesh, read_points
+from .core.building.moves import Moves
 from .core.catalogue import Catalogue, load_catalogue
 from .core.errors import BuildError
 from .core.model import Bricks, Floats, Role
 from .core.settings import Settings
 from .core.stability import Stability
 from .core.units import PLATES_PER_BRICK, STUD
-from .nodes import add_bricks_modifier, brick_tree, colour_material
+from .figures import figures, n_layers
+from .nodes import add_bricks_modifier, brick_trees, colour_material
 from .part_meshes import Detail, parts_collection, parts_in_use
 from .section import Section, add_plane
 
@@ -49,6 +51,7 @@ def show_build(
     settings: Settings | None = None,
     notes: Sequence[str] = (),
     stability: Stability | None = None,
+    moves: Moves | None = None,
     detail: Detail = "high",
 ) -> bpy.types.Collection:
     """Put a brick model into a scene, in place of an earlier one of the same source objects.
@@ -58,7 +61,7 @@ def show_build(
     scene : bpy.types.Scene
         Scene that gets the collection.
     bricks : Bricks
-        The table of bricks.
+        The table of bricks, supports at its end.
     catalogue : Catalogue
         Parts and colours.
     origin : sequence of three float
@@ -77,7 +80,10 @@ def show_build(
     notes : sequence of str, optional
         Remarks to show beside the result.
     stability : Stability, optional
-        Whether these bricks stand, row by row, for the panel and the heat map.
+        Whether these bricks stand, row by row, for the panel and the heat map;
+        supports that are taken out again may be left out.
+    moves : Moves, optional
+        The order in which these bricks are built, for the panel and the steps.
     detail : {"low", "high"}, optional
         Detail of the part meshes.
 
@@ -102,8 +108,7 @@ def show_build(
     root = _add_root(build, np.asarray(origin, dtype=np.float64), 1.0 / (scale * mm_per_unit))
     plane = _own(build, add_plane(build.name, root))
     parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, name)
-    margin = None if stability is None else stability.margin
-    _add_layers(build, bricks, variant.reshape(-1), margin, catalogue, plane, parts)
+    _add_layers(build, bricks, variant.reshape(-1), _more(bricks, stability, moves, catalogue), catalogue, plane, parts)
     corners = box_corners(bricks, catalogue)
     build[BUILD_KEY] = {
         "origin": [float(value) for value in origin],
@@ -120,9 +125,8 @@ def show_build(
         "roles": {Role(role).name: True for role in np.unique(bricks.role).tolist()},
         "sources": {str(i): _hidden_state(source) for i, source in enumerate(sources)},
         "settings": {} if settings is None else asdict(settings),
-        "summary": summary(bricks, catalogue),
         "notes": list(notes),
-        "check": {} if stability is None else check_of(stability, bricks),
+        **figures(bricks, stability, moves, catalogue),
     }
     show_sources(build, visible=False)
     return build
@@ -181,7 +185,7 @@ def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
         [*own, *variants, *state["parts"].children_recursive, state["parts"], *layers_of(build), build]
     )
     _remove_unused([*meshes, *materials])
-    _remove_unused([brick_tree()])
+    _remove_unused(brick_trees())
 
 
 def builds(scene: bpy.types.Scene) -> list[bpy.types.Collection]:
@@ -217,26 +221,6 @@ def show_sources(build: bpy.types.Collection, *, visible: bool) -> None:
         source.hide_viewport = source.hide_render = not visible
 
 
-def n_layers(bricks: Bricks) -> int:
-    """Return the number of brick layers, empty ones included."""
-    return int(bricks.corner[:, 2].max()) // PLATES_PER_BRICK + 1
-
-
-def summary(bricks: Bricks, catalogue: Catalogue) -> dict[str, int | float]:
-    """Return the figures of the panel: bricks, parts, colours, size in studs, mass in grams."""
-    low = bricks.corner[:, :2]
-    studs = (low + sizes(bricks.part, bricks.turn, catalogue)).max(axis=0) - low.min(axis=0)
-    return {
-        "bricks": len(bricks),
-        "parts": len(np.unique(bricks.part)),
-        "colours": len(np.unique(bricks.colour)),
-        "studs_x": int(studs[0]),
-        "studs_y": int(studs[1]),
-        "layers": n_layers(bricks),
-        "mass": float(catalogue.mass[bricks.part].sum()),
-    }
-
-
 def _add_root(build: bpy.types.Collection, origin: Floats, unit_per_mm: float) -> bpy.types.Object:
     root = _own(build, bpy.data.objects.new(build.name, None))
     root.empty_display_size = STUD
@@ -255,7 +239,7 @@ def _add_layers(
     build: bpy.types.Collection,
     bricks: Bricks,
     variant: NDArray[np.integer],
-    margin: Floats | None,
+    more: Columns,
     catalogue: Catalogue,
     plane: bpy.types.Object,
     parts: bpy.types.Collection,
@@ -268,12 +252,22 @@ def _add_layers(
         own_parts = parts_in_use(parts, used, collection.name)
         for role, rows in groups:
             name = f"{collection.name} {role.name.lower().replace('_', ' ')}"
-            left = None if margin is None else margin[rows]
-            mesh = points_mesh(name, bricks.take(rows), catalogue, np.searchsorted(used, variant[rows]), rows, left)
+            own = {key: values[rows] for key, values in more.items()}
+            mesh = points_mesh(name, bricks.take(rows), catalogue, np.searchsorted(used, variant[rows]), rows, own)
             points = _own(collection, bpy.data.objects.new(name, mesh))
             points[ROLE_KEY] = int(role)
             points.parent = plane.parent
             add_bricks_modifier(points, own_parts, plane)
+
+
+def _more(bricks: Bricks, stability: Stability | None, moves: Moves | None, catalogue: Catalogue) -> Columns:
+    """Return what the points know beside the table of bricks."""
+    more = {} if moves is None else assembly_columns(bricks, moves, catalogue)
+    if stability is not None:
+        margin = np.full(len(bricks), NO_MARGIN)
+        margin[: len(stability.margin)] = stability.margin
+        more[MARGIN] = margin
+    return more
 
 
 def _rows_by_layer(bricks: Bricks) -> Iterator[tuple[int, list[tuple[Role, NDArray[np.intp]]]]]:

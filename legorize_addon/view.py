@@ -1,4 +1,4 @@
-"""What is shown of a build: its lower layers, its roles, its part before a cut, its source while it is read.
+"""What is shown of a build: layers, roles, its part before a cut, pieces apart, the first steps; sources being read.
 
 Nothing here touches the bricks' data.
 """
@@ -11,13 +11,15 @@ from dataclasses import asdict
 from typing import Final
 
 import bpy
+import numpy as np
 
-from .brick_points import middles
+from .brick_points import box_corners, middles
 from .core.catalogue import load_catalogue
 from .core.errors import BuildError
-from .core.model import Bricks, Role
+from .core.model import Bricks, Floats, Mask, Role
 from .scene import BUILD_KEY, LAYER_KEY, ROLE_KEY, bricks_of, layers_of, point_objects
 from .section import Section, beyond, place_plane
+from .steps import bricks_there, check_steps, do_steps, steps_done, ways
 
 HIDDEN_KEY: Final = "legorize_hidden"
 """Key, on objects of a hidden role, of how the user had hidden them: in the viewport, in renders."""
@@ -100,8 +102,35 @@ def section_of(build: bpy.types.Collection) -> Section:
     return Section(axis=state["axis"], at=state["at"], flip=bool(state["flip"]))
 
 
+def show_steps(build: bpy.types.Collection, steps: int) -> None:
+    """Show what is there after some building steps, in the viewport and in renders.
+
+    The supports that are taken out again are shown while they stand, whatever
+    was shown of them before, and are as before when all is shown again.
+
+    Parameters
+    ----------
+    build : bpy.types.Collection
+        The build.
+    steps : int
+        Steps that are done; 0 shows all bricks.
+
+    Raises
+    ------
+    BuildError
+        The build does not know its steps.
+    """
+    check_steps(build)
+    if bool(steps) != bool(steps_done(build)) and Role.SUPPORT_OUTSIDE in roles_shown(build):
+        state = build[BUILD_KEY]
+        if steps:
+            state["supports_shown"] = roles_shown(build)[Role.SUPPORT_OUTSIDE]
+        show_role(build, Role.SUPPORT_OUTSIDE, visible=bool(steps) or bool(state["supports_shown"]))
+    do_steps(build, steps)
+
+
 def shown_bricks(build: bpy.types.Collection) -> Bricks:
-    """Return the table of the bricks that renders show.
+    """Return the table of the bricks that renders show, where they are in the model.
 
     Parameters
     ----------
@@ -111,21 +140,46 @@ def shown_bricks(build: bpy.types.Collection) -> Bricks:
     Returns
     -------
     Bricks
-        Those whose layer and object are not hidden in renders, and that lie
-        before the cut.
+        Those whose layer and object are not hidden in renders, that lie before
+        the cut, and that are there after the steps shown.
 
     Raises
     ------
     BuildError
         No brick is left.
     """
-    hidden = {points for layer in layers_of(build) if layer.hide_render for points in layer.objects}
-    shown = [points for points in point_objects(build) if not points.hide_render and points not in hidden]
-    bricks = bricks_of(build, shown)
-    bricks = bricks.take(~beyond(build[BUILD_KEY]["plane"], middles(bricks, load_catalogue())))
-    if not len(bricks):
-        raise BuildError(f"The cut leaves 0 bricks of {build.name!r} to show: move the section.")
-    return bricks
+    bricks, shown, _ = _in_renders(build)
+    return bricks.take(shown)
+
+
+def shown_corners(build: bpy.types.Collection) -> Floats:
+    """Return the corners of the bricks that renders show, where they show them.
+
+    Parameters
+    ----------
+    build : bpy.types.Collection
+        The build.
+
+    Returns
+    -------
+    (8 n, 3) float64 array
+        In model mm.
+
+    Raises
+    ------
+    BuildError
+        No brick is left.
+    """
+    bricks, shown, found = _in_renders(build)
+    way = ways(build, found, steps_done(build))[shown]
+    return box_corners(bricks.take(shown), load_catalogue()) + np.repeat(way, 8, axis=0)
+
+
+def corners_while_building(build: bpy.types.Collection) -> Floats:
+    """Return the corners of all bricks where the whole build shows them, and where they stand before; (n, 3) in mm."""
+    found = point_objects(build)
+    corners = box_corners(bricks_of(build, found), load_catalogue())
+    return np.concatenate([corners + np.repeat(ways(build, found, steps), 8, axis=0) for steps in (0, 1)])
 
 
 @contextmanager
@@ -151,3 +205,14 @@ def _layer_collections(entry: bpy.types.LayerCollection) -> Iterator[bpy.types.L
     yield entry
     for child in entry.children:
         yield from _layer_collections(child)
+
+
+def _in_renders(build: bpy.types.Collection) -> tuple[Bricks, Mask, list[bpy.types.Object]]:
+    """Return the bricks of the objects that renders show, which of them are seen, and the objects."""
+    hidden = {points for layer in layers_of(build) if layer.hide_render for points in layer.objects}
+    found = [points for points in point_objects(build) if not points.hide_render and points not in hidden]
+    bricks = bricks_of(build, found)
+    shown = ~beyond(build[BUILD_KEY]["plane"], middles(bricks, load_catalogue())) & bricks_there(build, found)
+    if not shown.any():
+        raise BuildError(f"The cut leaves 0 bricks of {build.name!r} to show: move the section.")
+    return bricks, shown, found

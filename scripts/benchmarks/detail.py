@@ -59,7 +59,8 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int], judge: Path | None,
         mesh = read_mesh(path)
         for width in widths:
             print(f"{path.stem}, {width} studs", file=sys.stderr, flush=True)
-            builds = {way: legorize(mesh, Settings(width=width, plates=way)) for way in WAYS}
+            # posts that stay would be judged as shape
+            builds = {way: legorize(mesh, Settings(width=width, plates=way, supports="none")) for way in WAYS}
             said = _judged(builds, judge, path, width, out / "detail") if judge else _compared(builds)
             start: Row = {"model": path.stem, "studs": width}
             found = {way: said[way] | _price(build) for way, build in builds.items()}

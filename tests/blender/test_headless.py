@@ -22,14 +22,21 @@ from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.ldraw import read_ldr
 from legorize_addon.core.settings import Settings
+from legorize_addon.heat_map import heat_map_shown
 from legorize_addon.scene import builds as scene_builds
-from legorize_addon.view import shown_bricks
+from legorize_addon.scene import read_bricks
+from legorize_addon.steps import exploded, steps_done
+from legorize_addon.view import shown_bricks, shown_corners
 from tests.blender.builders import add_image, add_object, image_material
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts" / "legorize.py"
-FILES = {"bricklink.xml", "model.ldr", "model.mpd", "parts.csv", "pick-a-brick.csv", "rebrickable.csv", "report.json"}
+FILES = {
+    *("model.ldr", "model.mpd", "build_order.csv", "report.json", "parts.csv", "support-parts.csv"),
+    *("bricklink.xml", "rebrickable.csv", "pick-a-brick.csv", "support-bricklink.xml"),
+}
 BOX = (0.4, 0.2, 0.36)
+ARM = ("--width", "12", "--hanging", "0")
 RED, WHITE = 4, 15
 # red but for the last texel of the topmost row
 TEXELS = np.full((3, 4, 3), (201, 26, 9), dtype=np.uint8)
@@ -184,8 +191,10 @@ def test_section_in_the_picture(axis: str, script: ModuleType, tmp_path: Path, m
     """The picture is taken of the lower half of the bricks, from the section's side; the saved scene is whole."""
     seen = []
 
-    def look(scene: bpy.types.Scene, path: Path, *, view: str) -> None:
+    def look(scene: bpy.types.Scene, path: Path, *, view: str, outlines: bool) -> None:
         [build] = scene_builds(scene)
+        assert not outlines
+        assert not heat_map_shown(build)
         seen.append((shown_bricks(build).corner[:, "xyz".index(axis)], view))
 
     monkeypatch.setattr(script, "render_still", look)
@@ -201,6 +210,112 @@ def test_section_in_the_picture(axis: str, script: ModuleType, tmp_path: Path, m
     assert 0 < len(low) < len(whole)
     along = whole.corner[:, "xyz".index(axis)]
     assert low.max() <= (along.min() + along.max() + 3) / 2
+
+
+@pytest.mark.parametrize(
+    ("flags", "view"), [([], "front_right"), (["--view", "below"], "below"), (["--section", "z=0.5"], "section"),
+                        (["--section", "z=0.5", "--view", "below"], "below")],
+)  # fmt: skip
+def test_view_of_the_picture(
+    flags: list[str], view: str, script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The picture is taken from where it is asked for, else from the front right or the section's side."""
+    seen = []
+
+    def look(scene: bpy.types.Scene, path: Path, *, view: str, outlines: bool) -> None:
+        seen.append(view)
+
+    monkeypatch.setattr(script, "render_still", look)
+    add_box(BOX)
+    arguments = [str(save(tmp_path / "box.glb")), "--out", str(tmp_path / "out"), "--width", "4", "--render"]
+    assert script.main([*arguments, *flags]) == 0
+    assert seen == [view]
+
+
+def test_outlines_and_heat_map_in_the_picture(
+    script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Both are there while the picture is taken; the saved scene shows the bricks in their own colours."""
+    seen = []
+
+    def look(scene: bpy.types.Scene, path: Path, *, view: str, outlines: bool) -> None:
+        seen.append((view, outlines, [heat_map_shown(build) for build in scene_builds(scene)]))
+
+    monkeypatch.setattr(script, "render_still", look)
+    add_box(BOX)
+    flags = ["--outlines", "--heat-map", "--render", "--save-blend", "--width", "4"]
+    assert script.main([str(save(tmp_path / "box.glb")), "--out", str(tmp_path / "out"), *flags]) == 0
+    assert seen == [("front_right", True, [True])]
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "build.blend"))
+    assert not any(map(heat_map_shown, scene_builds(bpy.context.scene)))
+
+
+def add_arm() -> None:
+    """Add an arm on a post, 12 x 4 studs and 8 bricks high: a support has to carry it where nothing may hang."""
+    add_box((5, 4, 6 * 1.2), centre=(-3.5, 0, 3 * 1.2))
+    add_box((12, 4, 2 * 1.2), centre=(0, 0, 7 * 1.2))
+
+
+@pytest.mark.parametrize("flags", [[], ["--show-supports"], ["--no-show-supports"]])
+def test_supports_in_the_picture(
+    flags: list[str], script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The picture shows the finished model, with the flag its supports too; the saved scene has them at hand."""
+    seen = []
+
+    def look(scene: bpy.types.Scene, path: Path, **_: object) -> None:
+        seen.extend(len(shown_bricks(build)) for build in scene_builds(scene))
+
+    monkeypatch.setattr(script, "render_still", look)
+    add_arm()
+    arguments = [str(save(tmp_path / "arm.blend")), "--out", str(tmp_path / "out"), *ARM, "--render"]
+    assert script.main([*arguments, "--save-blend", *flags]) == 0
+    counts = report(tmp_path / "out")["counts"]
+    assert counts["support_outside"] > 0
+    supports = counts["support_outside"] if flags == ["--show-supports"] else 0
+    assert seen == [counts["bricks"] + supports]
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "build.blend"))
+    [build] = scene_builds(bpy.context.scene)
+    assert len(shown_bricks(build)) == counts["bricks"]
+    assert len(read_bricks(build)) == counts["bricks"] + counts["support_outside"]
+
+
+def test_pieces_apart_in_the_picture(script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A model that is split is taken apart for the picture alone."""
+    seen = []
+
+    def look(scene: bpy.types.Scene, path: Path, **_: object) -> None:
+        [build] = scene_builds(scene)
+        seen.append((exploded(build), np.ptp(shown_corners(build)[:, 2])))
+
+    monkeypatch.setattr(script, "render_still", look)
+    add_arm()
+    add_box((4, 4, 4 * 1.2), centre=(-4, 0, 10 * 1.2))
+    source = save(tmp_path / "arm.blend")
+    flags = [*ARM, "--split", "2", "--render", "--save-blend"]
+    assert script.main([str(source), "--out", str(tmp_path / "out"), *flags, "--explode", "0.5"]) == 0
+    assert report(tmp_path / "out")["building"]["pieces"] == 2
+    height = 12 * 9.6
+    assert seen == [(0.5, pytest.approx(1.5 * height))]
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "build.blend"))
+    [build] = scene_builds(bpy.context.scene)
+    assert exploded(build) == 0.0
+    assert np.ptp(shown_corners(build)[:, 2]) == pytest.approx(height)
+
+
+def test_contact_sheet(script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The flag alone writes the sheet of as many pictures; the saved scene is that of the finished model."""
+    few = partial(script.render_contact_sheet, samples=1, resolution=(32, 24))
+    monkeypatch.setattr(script, "render_contact_sheet", few)
+    add_arm()
+    flags = [*ARM, "--contact-sheet", "3", "--outlines", "--save-blend"]
+    assert script.main([str(save(tmp_path / "arm.blend")), "--out", str(tmp_path / "out"), *flags]) == 0
+    assert {path.name for path in (tmp_path / "out").iterdir()} == FILES | {"contact-sheet.png", "build.blend"}
+    sheet = bpy.data.images.load(str(tmp_path / "out" / "contact-sheet.png"))
+    assert sheet.size[0] == 2 * 32 + 4
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "build.blend"))
+    [build] = scene_builds(bpy.context.scene)
+    assert steps_done(build) == 0
 
 
 def test_saved_scene_can_be_legorized_again(script: ModuleType, tmp_path: Path) -> None:
@@ -219,11 +334,11 @@ def test_failed_check_is_a_two(script: ModuleType, tmp_path: Path, capsys: pytes
     add_box((1, 1, 1))
     add_box((1, 1, 1), centre=(0, 0, 3))
     source = save(tmp_path / "two.blend")
-    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "4"]) == 2
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "4", "--supports", "none"]) == 2
     facts = report(tmp_path / "out")
     assert facts["connection"]["floating"] > 0
-    # two pieces, bricks in the air, and so no stability
-    assert len(facts["failed_checks"]) == 3
+    # two pieces, bricks in the air, also while it is built, and so no stability
+    assert len(facts["failed_checks"]) == 4
     assert capsys.readouterr().err.splitlines() == facts["failed_checks"]
 
 
@@ -262,7 +377,17 @@ def test_every_setting_is_a_flag(script: ModuleType) -> None:
         (["--width", "3", "--height", "4"], "not allowed with"),
         (["--widht", "3"], "--widht"),
         (["--palette", "99999"], "99999"),
-        (["--section", "x=0.5"], "add --render"),
+        (["--section", "x=0.5"], "--section is only to be seen in the picture: add --render"),
+        (["--view", "below"], "--view is only to be seen in the picture: add --render"),
+        (["--view", "above", "--render"], "--view: invalid choice: 'above'"),
+        (["--outlines"], "--outlines is only to be seen in the picture: add --render"),
+        (["--heat-map"], "--heat-map is only to be seen in the picture: add --render"),
+        (["--show-supports"], "--show-supports is only to be seen in the picture: add --render"),
+        (["--explode", "0.5"], "--explode is only to be seen in the picture: add --render"),
+        (["--explode", "1.5", "--render"], "'1.5' is no number from 0 to 1"),
+        (["--explode", "nan", "--render"], "'nan' is no number from 0 to 1"),
+        (["--contact-sheet", "0"], "'0' is no whole number from 1 to 400"),
+        (["--contact-sheet", "2.5"], "'2.5' is no whole number from 1 to 400"),
         (["--section", "w=0.5", "--render"], "'w=0.5' is no section"),
         (["--section", "x", "--render"], "'x' is no section"),
         (["--section", "x=half", "--render"], "'x=half' is no section"),

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import legorize_addon
-from legorize_addon.brick_points import positions
+from legorize_addon.brick_points import NO_MARGIN, positions
 from legorize_addon.check import UNCHECKED, check_lines
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.connection import connect
@@ -24,6 +24,7 @@ from legorize_addon.core.stability import UNSUPPORTED, Stability, Verdict, stabi
 from legorize_addon.heat_map import (
     FAILING,
     HANGING,
+    NOT_CHECKED,
     RAMP,
     STEPS,
     has_margins,
@@ -91,15 +92,16 @@ def seen() -> list[tuple[str, str, tuple[float, ...]]]:
 def test_colours_go_by_the_margin() -> None:
     """Hanging, failing, nothing, half and all have the colours that the legend names; more left is never redder."""
     colours = heat_colours()
-    assert len(colours) == STEPS + 2
-    found = colours[heat_of(np.array([UNSUPPORTED, -1e-9, -7.0, 0.0, 1.0]))]
-    np.testing.assert_array_equal(found, [HANGING, FAILING, FAILING, RAMP[0], RAMP[-1]])
+    assert len(colours) == STEPS + 3
+    found = colours[heat_of(np.array([UNSUPPORTED, -1e-9, -7.0, 0.0, 1.0, NO_MARGIN]))]
+    np.testing.assert_array_equal(found, [HANGING, FAILING, FAILING, RAMP[0], RAMP[-1], NOT_CHECKED])
     half = colours[heat_of(np.array([0.499, 0.501]))].astype(int)
     assert np.abs(half - RAMP[1]).max() < 50
     steps = heat_of(np.linspace(0, 1, 1000))
     assert (np.diff(steps) >= 0).all()
     assert set(steps) == set(range(2, STEPS + 2))
-    assert (np.diff(colours[2:, 0].astype(int) - colours[2:, 1]) < 0).all()
+    ramp = colours[2:-1].astype(int)
+    assert (np.diff(ramp[:, 0] - ramp[:, 1]) < 0).all()
 
 
 def test_each_brick_has_the_colour_of_its_margin() -> None:
@@ -253,14 +255,14 @@ def test_panel_says_what_is_proven() -> None:
     standing = lines(TOWER, proof(TOWER, np.array([1.0, 0.38, 0.9, 0.7])))
     assert standing == [
         "Stands: proven, no brick needs more than 62 % of its friction",
-        "Weakest: brick 1 in layer 2, at least 38 % of its friction left",
+        "Weakest: Red Brick 1 x 1 in layer 2, at least 38 % of its friction left",
     ]
     arm = table([(ONE, 0, 0, 0, 0, 4), (BEAM, 0, 0, 3, 0, 4)])
     assert lines(arm, proof(arm))[0] == "Collapses: proven, it tips over"
     verdict, hanging, weakest = lines(LOOSE, proof(LOOSE))
     assert verdict.startswith("Collapses: bricks hang in the air; the others stand: proven")
     assert hanging == "Bricks that hang in the air: 1"
-    assert weakest.startswith("Weakest: brick 0 in layer 1")
+    assert weakest.startswith("Weakest: Red Brick 1 x 1 in layer 1")
     undecided = replace(proof(TOWER), standing=Verdict.UNDECIDED)
     assert lines(TOWER, undecided)[0].startswith("Not decided")
 
@@ -269,8 +271,8 @@ def test_failing_contacts_are_named() -> None:
     """A model that tears apart names the brick that goes first, and how much is missing at the weakest."""
     found = replace(proof(TOWER, np.array([-0.3, 1, 1, 1])), standing=Verdict.COLLAPSES, torn=np.array([[0, 1]]))
     assert lines(TOWER, found) == [
-        "Collapses: proven, first at brick 1",
-        "Weakest: brick 0 in layer 1, short of 30 % of its friction",
+        "Collapses: proven, first at the Red Brick 1 x 1 in layer 2",
+        "Weakest: Red Brick 1 x 1 in layer 1, short of 30 % of its friction",
     ]
 
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import legorize_addon
-from legorize_addon import job, operators
+from legorize_addon import job, operators, panels
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.ldraw import read_ldr
-from legorize_addon.core.model import Bricks
+from legorize_addon.core.model import Bricks, Role
 from legorize_addon.core.progress import Progress
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.units import STUD
@@ -23,6 +23,8 @@ from legorize_addon.scene import BUILD_KEY, builds, read_bricks
 
 from .bricks import assert_same, content, instances
 
+WHITE = 15
+
 
 @pytest.fixture(scope="module", autouse=True)
 def addon() -> Iterator[None]:
@@ -30,6 +32,18 @@ def addon() -> Iterator[None]:
     legorize_addon.register()
     yield
     legorize_addon.unregister()
+
+
+@pytest.fixture
+def arm() -> bpy.types.Object:
+    """Return a selected arm on a post, to be built 12 studs long: a support has to carry its end."""
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(-5, 0, 3), scale=(2, 2, 6))
+    post = bpy.context.object
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 7), scale=(12, 2, 2))
+    post.select_set(True)
+    bpy.ops.object.join()
+    bpy.context.scene.legorize.settings.width = 12
+    return bpy.context.object
 
 
 @pytest.fixture
@@ -248,6 +262,59 @@ def test_export_reads_back(box, tmp_path) -> None:
     found = read_ldr(text, load_catalogue())
     assert rows(found) == rows(bricks)
     assert len(set(rows(bricks))) == len(bricks) > 1
+
+
+def test_supports_are_at_hand(arm) -> None:
+    """Supports come with the model, hidden at first; the figures of the panel are those of the model without them."""
+    bpy.ops.legorize.build()
+    build = current_build(bpy.context.scene)
+    bricks = read_bricks(build)
+    outside = bricks.role == Role.SUPPORT_OUTSIDE
+    assert outside.any()
+    assert set(bricks.colour[outside].tolist()) == {WHITE}
+    state = build[BUILD_KEY].to_dict()
+    assert state["summary"]["bricks"] == len(instances()) == len(bricks) - outside.sum()
+    assert state["building"]["removed"] == outside.sum()
+    view = bpy.context.scene.legorize
+    assert not view.roles.support_outside
+    view.roles.support_outside = True
+    assert len(instances()) == len(bricks)
+    lines = panels._building_figures(build[BUILD_KEY]["building"])
+    assert lines[0].startswith(f"Support bricks to take out: {outside.sum()}, ")
+    assert f"building steps: {state['building']['steps']}" in lines[2]
+    assert view.step == state["building"]["steps"] == bricks.step.max() + 2
+    assert panels._building_figures(None) == ()
+
+
+def test_heat_map_of_a_model_with_supports(arm) -> None:
+    """The map colours the model and leaves supports grey; it goes as it came."""
+    bpy.ops.legorize.build()
+    view = bpy.context.scene.legorize
+    before = content()
+    view.heat_map = view.roles.support_outside = True
+    assert {name.split()[0] for _, name, _ in instances()} == {"Heat"}
+    view.heat_map = False
+    assert content() == before
+
+
+def test_exports_of_a_model_with_supports(arm, tmp_path) -> None:
+    """The .ldr holds the finished model, the .mpd all of it, with supports by themselves; both also reopened."""
+    bpy.ops.legorize.build()
+    bricks = read_bricks(current_build(bpy.context.scene))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
+    assert bpy.ops.legorize.export_ldr(filepath=str(tmp_path / "model.ldr")) == {"FINISHED"}
+    assert bpy.ops.legorize.export_mpd(filepath=str(tmp_path / "model.mpd")) == {"FINISHED"}
+    finished, whole = (
+        read_ldr((tmp_path / name).read_bytes().decode(), load_catalogue()) for name in ("model.ldr", "model.mpd")
+    )
+    assert rows(finished) == rows(bricks.take(bricks.role != Role.SUPPORT_OUTSIDE))
+    assert rows(whole) == rows(bricks)
+    assert set(whole.role.tolist()) == set(bricks.role.tolist())
+    text = (tmp_path / "model.mpd").read_text()
+    assert [line for line in text.splitlines() if line.startswith("0 FILE")] == [
+        "0 FILE model.ldr", "0 FILE support-outside-0.ldr", "0 FILE piece-0.ldr"
+    ]  # fmt: skip
 
 
 def rows(bricks: Bricks) -> list[tuple[int, ...]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import fields
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -16,7 +17,7 @@ from legorize_addon.core.settings import Settings, choices
 from legorize_addon.properties import current_build, settings_of
 from legorize_addon.scene import BUILD_KEY, clear_build, layers_of
 
-from .bricks import content, instances, random_table, show, table
+from .bricks import content, instances, show, table
 
 BY_NAME = {entry.name: entry for entry in fields(Settings)}
 
@@ -143,7 +144,7 @@ def test_roles_follow(view) -> None:
     """There is a switch for each role; those of roles that the build does not have are off and do nothing."""
     show(table([(0, x, 0, 0, 0, 4, role) for x, role in enumerate((Role.SHELL, Role.PLATE, Role.PLATE))]))
     assert {role.name.lower() for role in Role} <= set(view.roles.bl_rna.properties.keys())
-    assert [getattr(view.roles, role.name.lower()) for role in Role] == [True, False, True, False, False, False]
+    assert [role for role in Role if getattr(view.roles, role.name.lower())] == [Role.SHELL, Role.PLATE]
     view.roles.plate = False
     assert len(instances()) == 1
     view.roles.offset = True
@@ -175,9 +176,43 @@ def test_properties_without_a_build_do_nothing(view) -> None:
     assert view.top_layer == 1
 
 
+class Layout:
+    """A layout that notes which properties are drawn."""
+
+    def __init__(self) -> None:
+        self.drawn: list[str] = []
+
+    def prop(self, group: bpy.types.PropertyGroup, name: str, **_: object) -> None:
+        """Note a property, which has to be there."""
+        getattr(group, name)
+        self.drawn.append(name)
+
+    def row(self, **_: object) -> Layout:
+        """Return the same layout."""
+        return self
+
+    column = row
+
+
+@pytest.mark.parametrize(("known", "pieces"), [(False, 1), (True, 1), (True, 2)])
+def test_layers_panel_offers_what_the_build_knows(known: bool, pieces: int) -> None:
+    """There is a slider of steps if they are known, and one to take pieces apart if there are several."""
+    bricks = table([(0, 0, 0, 3 * z, 0, 4, 0, z % pieces, z) for z in range(4)])
+    build = show(bricks)
+    if known:
+        build[BUILD_KEY]["building"] = {"steps": 4, "pieces": pieces}
+    panel = panels.LEGORIZE_PT_layers
+    drawing = SimpleNamespace(layout=Layout())
+    drawing._draw_building = lambda *arguments: panel._draw_building(drawing, *arguments)
+    panel.draw(drawing, bpy.context)
+    assert ("step" in drawing.layout.drawn) == ("by_steps" in drawing.layout.drawn) == known
+    assert ("exploded" in drawing.layout.drawn) == (pieces > 1)
+    assert {"top_layer", "section_axis", "shell", "detail"} <= set(drawing.layout.drawn)
+
+
 def test_figures_are_sentences_of_numbers() -> None:
     """The result panel's lines give the size in studs and in cm."""
-    build = show(random_table(10))
+    build = show(table([(0, x, 0, 0, 0, 4) for x in range(10)]))
     summary = dict(build[BUILD_KEY]["summary"]) | {"studs_x": 10, "studs_y": 5, "layers": 4, "mass": 12.4}
     assert panels._figures(summary)[2:] == ("10 x 5 studs, 4 layers", "8.0 x 4.0 x 3.8 cm")
     assert panels._figures(summary)[0] == "10 bricks, 12 g"

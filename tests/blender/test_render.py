@@ -9,13 +9,17 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import BuildError
+from legorize_addon.nodes import colour_material
+from legorize_addon.outlines import line_colour
 from legorize_addon.render import AZIMUTH, render_still
 from legorize_addon.section import Section
 from legorize_addon.view import cut_away, show_layers
 
 from .bricks import content, show, table
 
+CATALOGUE = load_catalogue()
 SIZE = (60, 40)
 RED, BLUE = 4, 1
 
@@ -114,6 +118,25 @@ def test_views_differ(tmp_path) -> None:
     assert min(red["front_left"], red["front_right"]) > 2 * max(red["back_left"], red["back_right"])
 
 
+def test_below_shows_the_undersides(tmp_path) -> None:
+    """From below the lowest layer covers those on it, with no ground before it and in full light."""
+    show(table([(0, x, y, z, 0, RED if z else BLUE) for x in range(8) for y in range(8) for z in (0, 3)]))
+    above, below = (picture(tmp_path / "still.png", view=view) for view in ("front_right", "below"))
+    assert share(below, BLUE) > 3 * share(below, RED)
+    assert share(above, RED) > 3 * share(above, BLUE)
+    assert below.max() > 0.8 * above.max()
+
+
+def test_below_is_not_mirrored(tmp_path) -> None:
+    """What stands at the right of the picture from the front stands there from below as well."""
+    show(table([(0, x, y, 0, 0, RED if x < 6 else BLUE) for x in range(12) for y in range(4)]))
+    for view in ("front_right", "below"):
+        pixels = picture(tmp_path / "still.png", view=view)
+        left, right = pixels[:, : SIZE[0] // 2], pixels[:, SIZE[0] // 2 :]
+        assert share(left, RED) > share(right, RED), view
+        assert share(right, BLUE) > share(left, BLUE), view
+
+
 def test_scene_is_as_before(tmp_path) -> None:
     """No data is left over, and engine, camera, world, path and selection are the user's."""
     scene = bpy.context.scene
@@ -155,3 +178,37 @@ def test_path_that_cannot_be_written_is_said(tmp_path) -> None:
             picture(path)
     assert content() == before
     assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "folder.png"]
+
+
+def test_outlines_tell_bricks_apart(tmp_path) -> None:
+    """Lines darken the edges of every brick and leave its faces; materials are as before, also after a failure."""
+    show(table([(11, 0, 0, z, 0, RED) for z in (0, 3)]), scale=0.01, mm_per_unit=1000.0)
+    before = content()
+    nodes = {material.name: len(material.node_tree.nodes) for material in bpy.data.materials}
+    plain, lined = (
+        picture(tmp_path / "still.png", outlines=on, resolution=(240, 160), samples=16) for on in (False, True)
+    )
+    darker = lined.max(axis=-1) < 0.8 * plain.max(axis=-1)
+    assert 0.02 < darker.mean() < 0.5 * share(plain, RED)
+    assert share(lined, RED) > 0.7 * share(plain, RED)
+    with pytest.raises(BuildError, match="cannot be written"):
+        picture(tmp_path / "no" / "still.png", outlines=True)
+    assert content() == before
+    assert {material.name: len(material.node_tree.nodes) for material in bpy.data.materials} == nodes
+
+
+def test_lines_are_seen_on_every_colour() -> None:
+    """A line is darker than its brick, but lighter where the brick is dark; both differ by far."""
+    for code in ("0", "4", "15", "72"):
+        colour = CATALOGUE.colours[CATALOGUE.colour_row(int(code))]
+        brick = np.array(colour_material(colour).diffuse_color[:3])
+        line = np.array(line_colour(brick))
+        assert abs(line - brick).max() > 0.07
+        assert (line.max() > brick.max()) == (code == "0")
+
+
+def test_outlines_stay_thin_on_small_bricks(tmp_path) -> None:
+    """Where a plate has few pixels, lines take no more than their share of it."""
+    show(table([(0, x, 0, 3 * z, 0, RED) for x in range(60) for z in range(2)]))
+    plain, lined = (picture(tmp_path / "still.png", outlines=on) for on in (False, True))
+    assert share(lined, RED) > 0.5 * share(plain, RED)

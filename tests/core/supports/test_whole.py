@@ -103,3 +103,19 @@ def test_clinging_bricks_are_named():
     assert found.clinging.tolist() == [3]
     wide = supported(table(*rows[:3], ("3622", 3, 0, 6), rows[4]), CATALOGUE, deepest=0)
     assert wide.clinging.tolist() == []
+
+
+def test_wide_chassis_is_interlocked():
+    """The layers of a chassis that spans wide are laid in parts of eight studs, and its supports come out again."""
+    bricks = legorize(overhanging(100.0)["box_car"], Settings(width=32, supports="none")).bricks
+    length, width = (
+        np.array([getattr(part, side) for part in CATALOGUE.parts])[bricks.part] for side in ("length", "width")
+    )
+    levels, cells = np.unique(bricks.corner[:, 2], return_inverse=True)
+    area = np.bincount(cells, length * width)
+    long = np.bincount(cells, length * width * (length == 8))
+    chassis = np.flatnonzero(area > 0.8 * area.max())[:2]
+    assert (long[chassis] >= 0.8 * area[chassis]).all()
+    found = supported(bricks, CATALOGUE, deepest=0)
+    assert len(found.walk.stuck) == 0
+    assert found.walk.buildable

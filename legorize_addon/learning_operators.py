@@ -1,0 +1,196 @@
+"""Learning from the user's own models: more samples for the machine of the quick layout, in the user's own folder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any, Final
+
+import bpy
+import numpy as np
+
+from . import job
+from .core.catalogue import load_catalogue
+from .core.errors import BuildError
+from .core.layout.learning import learned_more, samples_text, version_of
+from .core.layout.svm import read
+from .core.mesh import TriangleMesh
+from .core.model import Bricks, UnitGrid
+from .core.pipeline import legorize
+from .core.progress import Progress
+from .core.settings import Settings
+from .export_operators import write_whole
+from .operators import Reporting, Working, chosen_sources, order_of
+from .properties import settings_of
+from .scene import BUILD_KEY, OWN_KEY, builds_of, sources_of
+
+STEM: Final = "samples_v"
+"""Beginning of the names of the files; the version follows."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lesson:
+    """A model to learn from.
+
+    Attributes
+    ----------
+    name : str
+        What it was made of.
+    mesh : TriangleMesh
+        Its surface.
+    settings : Settings
+        How it is built; only its bricks are laid quickly and as if nothing had been learned.
+    """
+
+    name: str
+    mesh: TriangleMesh
+    settings: Settings
+
+    def laid(self, progress: Progress) -> tuple[UnitGrid, Bricks]:
+        """Return the hollowed model and its bricks."""
+        quick = replace(self.settings, layout="fast", learned=False, learned_from="", supports="none", split=1)
+        build = legorize(self.mesh, quick, progress)
+        return build.hollow, build.bricks
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lessons:
+    """What is learned at once.
+
+    Attributes
+    ----------
+    models : tuple of Lesson
+        Models to take samples from.
+    text : str
+        The samples so far.
+    version : int
+        Of the file to write.
+    seed : int
+        Draws the samples.
+    """
+
+    models: tuple[Lesson, ...]
+    text: str
+    version: int
+    seed: int
+
+    def work(self, progress: Progress) -> str:
+        """Return the text of the next version; no Blender in here."""
+        laid = [model.laid(progress) for model in self.models]
+        progress("learning", 0.0)
+        rng = np.random.default_rng(self.seed)
+        names = [model.name for model in self.models]
+        return learned_more(self.text, laid, load_catalogue(), rng, names=names, version=self.version)
+
+
+class LEGORIZE_OT_learn(Working, bpy.types.Operator):
+    """Teach the machine of the quick layout by the chosen models."""
+
+    bl_idname = "legorize.learn"
+    bl_label = "Learn from Models"
+    bl_description = (
+        "Find out in the selected brick models, or in what the selected objects would become, which exchanges of "
+        "bricks pay, and add this to what the quick layout has learned; what was learned before is kept as a file"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there is something to learn from, and why not."""
+        if job.running():
+            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+        elif context.mode != "OBJECT":
+            cls.poll_message_set("Leave the edit mode first.")
+        elif not chosen_sources(context):
+            cls.poll_message_set("Select brick models, or objects with a surface.")
+        else:
+            return True
+        return False
+
+    def _take_order(self, context: bpy.types.Context) -> Lessons:
+        settings = settings_of(context.scene.legorize.settings)
+        text = samples_text(settings.learned_from)
+        version = max(version_of(text), *own_versions()) + 1
+        return Lessons(tuple(_lessons(context, settings)), text, version, settings.seed)
+
+    def _show(self, context: bpy.types.Context, order: Lessons, text: str) -> set[str]:
+        path = own_folder() / f"{STEM}{order.version}.csv"
+        write_whole(path, text)
+        context.scene.legorize.settings.learned_from = str(path)
+        samples, facts = read(text)
+        told = f"Learned version {order.version} from {len(samples.pays)} samples, {len(order.models)} models more than"
+        self.report({"INFO"}, f"{told} before ({facts['cross-validation']}).")
+        return {"FINISHED"}
+
+
+class LEGORIZE_OT_forget(Reporting, bpy.types.Operator):
+    """Go back to the samples that are shipped."""
+
+    bl_idname = "legorize.forget"
+    bl_label = "Use What Is Shipped"
+    bl_description = "Let the quick layout use the shipped samples again; the files of what was learned stay"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether something else is used."""
+        return bool(context.scene.legorize.settings.learned_from)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Clear the name of the file."""
+        context.scene.legorize.settings.learned_from = ""
+        return {"FINISHED"}
+
+
+def own_folder() -> Path:
+    """Return the user's folder for what was learned, which an update of the extension leaves alone.
+
+    Raises
+    ------
+    BuildError
+        It cannot be made.
+    """
+    # the extension itself: this package lies in it
+    extension = ".".join(__package__.split(".")[:3])
+    try:
+        folder = bpy.utils.extension_path_user(extension, path="learned", create=True)
+    except ValueError:
+        # run from its sources, and not installed as an extension
+        folder = bpy.utils.user_resource("CONFIG", path="legorize", create=True)
+    except OSError as error:
+        raise BuildError(f"The user's folder cannot be made ({error.strerror}): check its rights.") from error
+    if not folder:
+        raise BuildError("There is no folder for the user's files: set one in the preferences of Blender.")
+    return Path(folder)
+
+
+def own_versions() -> list[int]:
+    """Return the versions that lie in the user's folder, ascending; 0 before them, so that there is one at least."""
+    names = [path.stem.removeprefix(STEM) for path in own_folder().glob(f"{STEM}*.csv")]
+    return [0, *sorted(int(name) for name in names if name.isdecimal())]
+
+
+def _lessons(context: bpy.types.Context, settings: Settings) -> Iterator[Lesson]:
+    """Yield a lesson for each brick model that is selected, and one for all other objects together."""
+    models = builds_of(context.scene, [thing for thing in context.selected_objects if OWN_KEY in thing])
+    for model in models:
+        yield _lesson(context, sources_of(model), _known(model[BUILD_KEY]["settings"].to_dict()))
+    of_models = {source for model in models for source in sources_of(model)}
+    others = [source for source in chosen_sources(context) if source not in of_models]
+    if others:
+        yield _lesson(context, others, settings)
+
+
+def _known(stored: dict[str, Any]) -> Settings:
+    """Return the settings of a build; those that its version did not know are as they are by default."""
+    return Settings(**{entry.name: stored[entry.name] for entry in fields(Settings) if entry.name in stored})
+
+
+def _lesson(context: bpy.types.Context, sources: Sequence[bpy.types.Object], settings: Settings) -> Lesson:
+    order = order_of(context, sources, settings)
+    return Lesson(" + ".join(order.sources), order.mesh, settings)
+
+
+classes = (LEGORIZE_OT_learn, LEGORIZE_OT_forget)
+register, unregister = bpy.utils.register_classes_factory(classes)
