@@ -27,7 +27,7 @@
 ``remarks``             what does not hold or stand, and what a builder has to know, in sentences
 ``segmentation``        pieces that are built on the table and joined, where that saves supports
 ``supports``            what stands below bricks while the model is built; what stays of it
-``building``            the order in which every brick finds hold, and its check
+``building``            the order in which every brick finds hold, and its check (``building_remarks``)
 ``ldraw``               bricks <-> LDraw text (``ldraw_document``: pieces and supports as sub-models)
 ``shopping``            parts lists and the shops' files
 ``report``              what was built, in numbers

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from .backing import with_backing
 from .build import Build, Cut
 from .building.proof import prove_steps
+from .building_remarks import remarks_on_building, remarks_on_proof
 from .catalogue import Catalogue, load_catalogue
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .connection import NOBODY, Connection, connect
@@ -30,7 +31,7 @@ from .mesh import Repairs, TriangleMesh, repair, scaled
 from .model import Bricks, Mask, Role, UnitGrid
 from .offset_bricks import with_offset_bricks
 from .progress import Progress, silent
-from .remarks import remarks, remarks_on_building, remarks_on_proof
+from .remarks import remarks
 from .segmentation import Joint, segmented
 from .settings import Settings
 from .size import check_any, check_size, model_scale

@@ -256,6 +256,7 @@ def _supports(supports: Supports, catalogue: Catalogue) -> dict[str, Any]:
         "kept_inside": int((stays.role == Role.SUPPORT_INSIDE).sum()),
         "bricks_in_need": sum(len(piece.need.bricks) for piece in supports.pieces),
         "contacts": sum(len(piece.plan.contacts.cells) for piece in supports.pieces),
+        "hanging_deeper": sum(len(piece.need.left) for piece in supports.pieces),
         "clinging": len(supports.clinging),
         "stuck": len(supports.walk.stuck),
         "bear": all(piece.plan.bears for piece in supports.pieces),

@@ -9,9 +9,9 @@ from typing import Any, Final
 
 import numpy as np
 
+from legorize_addon.core.build import Build
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.ldraw import write_ldr
-from legorize_addon.core.build import Build
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 

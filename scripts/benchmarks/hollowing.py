@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from legorize_addon.core.build import Build
 from legorize_addon.core.catalogue import Catalogue, load_catalogue
 from legorize_addon.core.holding import held_together
 from legorize_addon.core.hollowing import hollow
 from legorize_addon.core.layout import FILLER, lay
 from legorize_addon.core.model import COLOUR_EMPTY, Bricks, Cover, UnitGrid
-from legorize_addon.core.build import Build
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.report import report
 from legorize_addon.core.settings import Settings

@@ -10,10 +10,10 @@ from typing import Final
 import numpy as np
 from scipy import ndimage
 
+from legorize_addon.core.build import Build
 from legorize_addon.core.catalogue import Catalogue, load_catalogue
 from legorize_addon.core.mesh import TriangleMesh
 from legorize_addon.core.model import Cover
-from legorize_addon.core.build import Build
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.report import report
 from legorize_addon.core.settings import Settings

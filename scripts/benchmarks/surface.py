@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from legorize_addon.core.build import Build
 from legorize_addon.core.catalogue import Catalogue
 from legorize_addon.core.colour_difference import ciede2000, lab_from_srgb
 from legorize_addon.core.exposure import reached_by_air
 from legorize_addon.core.mesh import TriangleMesh
 from legorize_addon.core.model import CELL_SIZE, COLOUR_ANY
-from legorize_addon.core.build import Build
 from legorize_addon.core.samples import SurfaceSamples, face_normals
 from legorize_addon.core.texels import texel_at
 from legorize_addon.core.unit_bricks import outer_air

@@ -10,8 +10,8 @@ import pytest
 from legorize_addon.core.building.links import links
 from legorize_addon.core.building.order import ordered
 from legorize_addon.core.building.proof import prove_steps
+from legorize_addon.core.building_remarks import remarks_on_proof
 from legorize_addon.core.errors import Cancelled
-from legorize_addon.core.remarks import remarks_on_proof
 from legorize_addon.core.supports import supported
 from tests.core.standing import CATALOGUE, table
 

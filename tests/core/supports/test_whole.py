@@ -108,12 +108,10 @@ def test_clinging_bricks_are_named():
 def test_wide_chassis_is_interlocked():
     """The layers of a chassis that spans wide are laid in parts of eight studs, and its supports come out again."""
     bricks = legorize(overhanging(100.0)["box_car"], Settings(width=32, supports="none")).bricks
-    length, width = (
-        np.array([getattr(part, side) for part in CATALOGUE.parts])[bricks.part] for side in ("length", "width")
-    )
-    levels, cells = np.unique(bricks.corner[:, 2], return_inverse=True)
-    area = np.bincount(cells, length * width)
-    long = np.bincount(cells, length * width * (length == 8))
+    length = np.array([part.length for part in CATALOGUE.parts])[bricks.part]
+    studs = length * np.array([part.width for part in CATALOGUE.parts])[bricks.part]
+    layer = np.unique(bricks.corner[:, 2], return_inverse=True)[1]
+    area, long = np.bincount(layer, studs), np.bincount(layer, studs * (length == 8))
     chassis = np.flatnonzero(area > 0.8 * area.max())[:2]
     assert (long[chassis] >= 0.8 * area[chassis]).all()
     found = supported(bricks, CATALOGUE, deepest=0)

@@ -1,0 +1,56 @@
+"""What a builder is told of supports and steps."""
+
+from __future__ import annotations
+
+from legorize_addon.core.building_remarks import remarks_on_building
+from legorize_addon.core.connection import connect
+from legorize_addon.core.supports import supported, with_floating_carried
+from tests.core.standing import CATALOGUE, table
+
+
+def told(*rows, posts=False, **options):
+    """Return what is told of bricks."""
+    bricks = table(*rows)
+    if posts:
+        bricks, _ = with_floating_carried(bricks, CATALOGUE, connect(bricks, CATALOGUE))
+    return remarks_on_building(supported(bricks, CATALOGUE, **options), CATALOGUE)
+
+
+def test_nothing_to_tell():
+    """A tower, and a gate whose support comes out again, need no words."""
+    assert told(("3003", 0, 0, 0), ("3003", 0, 0, 3)) == ()
+    gate = (
+        ("3003", 0, 0, 0),
+        ("3003", 6, 0, 0),
+        ("3003", 0, 0, 3),
+        ("3003", 6, 0, 3),
+        ("3005", 4, 0, 3),
+        ("3007", 0, 0, 6),
+    )
+    assert told(*gate, deepest=0) == ()
+
+
+def test_post_that_stays_is_told():
+    """A part that touches nothing else has one of one brick."""
+    [sentence] = told(("3003", 0, 0, 0), ("3003", 0, 0, 6), posts=True)
+    assert sentence == "1 support brick stays in the model, under parts of it that touch nothing else."
+
+
+def test_brick_in_the_air_is_named():
+    """Without supports, a brick that floats is named by colour, part and layer."""
+    [sentence] = told(("3003", 0, 0, 0), ("3001", 0, 0, 6), wish="none")
+    assert "1 brick without hold" in sentence
+    assert "Brick 2 x 4 in layer 3" in sentence
+
+
+def test_tower_to_hold_is_told_with_its_step():
+    """A stair that falls over as its second beam comes, with nothing put under it."""
+    [sentence] = told(("3005", 0, 0, 0), ("3008", 0, 0, 3), wish="none")
+    assert sentence == "1 tower has to be held by hand on the way, the first in step 2."
+
+
+def test_deep_hanging_is_told():
+    """Bricks that hang over the model too deep for the limit, where no support can stand."""
+    floor = [("3007", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 6), ("3003", 0, 0, 9)]
+    sentences = told(*floor, ("3007", 0, 0, 12), ("3003", 6, 0, 9), ("3003", 6, 0, 6), deepest=0)
+    assert any("2 bricks hang deeper than the limit" in sentence for sentence in sentences)
