@@ -47,6 +47,7 @@ try:
     from legorize_addon.core.pipeline import legorize
     from legorize_addon.core.report import report
     from legorize_addon.core.settings import Settings, choices, setting_type
+    from legorize_addon.core.tables import paper_tables
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.heat_map import show_heat_map
     from legorize_addon.read_mesh import read_objects
@@ -226,6 +227,7 @@ def run(source: Path, out: Path, settings: Settings, wanted: Wanted) -> int:
         facts["failed_checks"] = failed_checks(facts)
         with writing(out):
             for name, text in texts(build, catalogue, facts, source.stem).items():
+                (folder / name).parent.mkdir(exist_ok=True)
                 (folder / name).write_text(text, encoding="utf-8", newline="")
         show(build, folder, wanted, name=source.stem, sources=objects)
     print(f"{out}: {facts['counts']['bricks']} bricks in {facts['grid']['layers']} layers.")
@@ -303,6 +305,7 @@ def texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str)
         "pick-a-brick.csv": shopping.pick_a_brick_csv(parts, catalogue)[0],
         "support-parts.csv": shopping.parts_csv(supports, catalogue),
         "support-bricklink.xml": shopping.bricklink_xml(supports, catalogue),
+        **{f"tables/{name}": table for name, table in paper_tables(build, catalogue, name=title).items()},
     }
 
 
@@ -395,12 +398,13 @@ def publish(folder: Path, out: Path) -> None:
         out.parent.mkdir(parents=True, exist_ok=True)
         folder.rename(out)
         return
-    files = sorted(folder.iterdir())
-    for taken in (out / file.name for file in files):
+    files = sorted(file.relative_to(folder) for file in folder.rglob("*") if file.is_file())
+    for taken in (out / file for file in files):
         if taken.is_dir():
             raise BuildError(f"{taken} is a folder: move it away, or choose another folder for the results.")
     for file in files:
-        os.replace(file, out / file.name)
+        (out / file).parent.mkdir(exist_ok=True)
+        os.replace(folder / file, out / file)
 
 
 @contextmanager

@@ -31,6 +31,7 @@
 ``ldraw``               bricks <-> LDraw text (``ldraw_document``: pieces and supports as sub-models)
 ``shopping``            parts lists and the shops' files
 ``report``              what was built, in numbers
+``tables``              the paper's four tables of one model
 ``size``                the scale, and what is too large or too small
 ``build``               the result of every stage
 ``pipeline``            the stages in order: :func:`legorize_addon.core.pipeline.legorize`

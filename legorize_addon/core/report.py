@@ -72,7 +72,7 @@ def report(build: Build, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         "hollowing": _hollowing(build, levels),
         "counts": _counts(build, catalogue, parts),
         "mass_g": round(float(masses(parts, catalogue).sum()), 2),
-        "hollow_ratio": round(1 - _filled(build) / int(build.grid.solid.sum()), 4),
+        "hollow_ratio": round(hollow_ratio(build), 4),
         "layout": _layout(build, catalogue),
         "bodies": free_bodies(build.hollow),
         "connection": _connection(build.connection),
@@ -85,6 +85,11 @@ def report(build: Build, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         "timings_s": {stage: round(seconds, 4) for stage, seconds in build.timings.items()},
         "notes": list(build.notes),
     }
+
+
+def hollow_ratio(build: Build) -> float:
+    """Return the share of a model's cells that no brick fills, supports excluded."""
+    return 1 - _filled(build) / int(build.grid.solid.sum())
 
 
 def _input(build: Build) -> dict[str, Any]:
