@@ -177,7 +177,7 @@ def test_pipeline_command(box: Path, tmp_path: Path) -> None:
             row[name]
             for name in (
                 *("mesh", "colours", "slicing", "trajectories", "unit bricks"),
-                *("overhangs", "hollowing", "layout", "stability"),
+                *("overhangs", "hollowing", "layout", "stability", "supports"),
             )
         ]
         assert sum(stages) == pytest.approx(row["total_s"])
