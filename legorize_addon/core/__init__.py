@@ -21,6 +21,7 @@
                         plates under roofs of one layer, plates in walls, single plates in the
                         neighbour's colour (``bodies``, ``reinforcement``, ``joints``, ``colour_joints``)
 ``layout``              which bricks cover the cells
+``seen_filler``         bricks of no colour that are seen take that of what they hold
 ``connection``          what holds to what
 ``stability``           whether it stands: forces in balance, or a collapse, as proof (``statics``,
                         ``equilibrium``, ``collapse``, ``tipping``); walls made thicker where it tears (``thickening``)

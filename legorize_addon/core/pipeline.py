@@ -32,6 +32,7 @@ from .model import Bricks, Mask, Role, UnitGrid
 from .offset_bricks import with_offset_bricks
 from .progress import Progress, silent
 from .remarks import remarks
+from .seen_filler import with_seen_coloured
 from .segmentation import Joint, segmented
 from .settings import Settings
 from .size import check_any, check_size, model_scale
@@ -249,6 +250,7 @@ def _standing(
         with stage("layout"):
             bricks = relay(shell)
             connection = connect(bricks, catalogue)
+            bricks = with_seen_coloured(bricks, shell, connection, catalogue)
             if settings.supports != "none":
                 bricks, connection = with_floating_carried(bricks, catalogue, connection)
         with stage("stability"):
