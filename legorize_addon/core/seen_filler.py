@@ -50,20 +50,30 @@ def with_seen_coloured(bricks: Bricks, grid: UnitGrid, connection: Connection, c
     air = outer_air(connection.owner != NOBODY)
     # what lies on the ground is not seen from below
     seen = ndimage.binary_dilation(air, border_value=0) & (connection.owner != NOBODY)
-    wanted = np.zeros(len(bricks) + 1, dtype=bool)
+    wanted = np.zeros(len(bricks), dtype=bool)
     wanted[connection.owner[seen]] = True
-    wanted[:-1] &= free
-    wanted[NOBODY] = False
-    if not wanted.any():
-        return bricks
-    brick, colour, faces = _beside(bricks, connection, wanted, free)
+    wanted &= free
+    # what has taken a colour hands it on
+    while (more := _coloured(bricks, connection, wanted, free, catalogue)) is not None:
+        bricks, taken = more
+        wanted[taken] = free[taken] = False
+    return bricks
+
+
+def _coloured(
+    bricks: Bricks, connection: Connection, wanted: Mask, free: Mask, catalogue: Catalogue
+) -> tuple[Bricks, Ints] | None:
+    """Colour the wanted bricks that have a coloured one beside them; return which, or None if there are none."""
+    brick, colour, faces = _beside(bricks, connection, np.append(wanted, False), free)
     made = catalogue.exists_in(bricks.part[brick], colour)
     brick, colour, faces = brick[made], colour[made], faces[made]
+    if not len(brick):
+        return None
     order = np.lexsort((colour, -faces, brick))
     first = order[np.unique(brick[order], return_index=True)[1]]
     coloured = bricks.colour.copy()
     coloured[brick[first]] = colour[first]
-    return replace(bricks, colour=coloured)
+    return replace(bricks, colour=coloured), brick[first]
 
 
 def _free(bricks: Bricks, grid: UnitGrid, connection: Connection) -> Mask:

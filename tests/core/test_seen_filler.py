@@ -48,6 +48,12 @@ def test_without_anything_above_the_sides_count():
     assert coloured([("3005", 1, 1, 0), ("3005", 2, 1, 0)], [RED, 0], [False, True]) == [RED, RED]
 
 
+def test_colour_is_handed_on():
+    """Under a free plate that becomes red, another one becomes red as well."""
+    rows = [("3001", 1, 1, 2), ("3020", 1, 1, 1), ("3023", 2, 1, 0)]
+    assert coloured(rows, [RED, 0, 0], [False, True, True]) == [RED, RED, RED]
+
+
 def test_what_nobody_sees_stays():
     """A free brick with bricks on all sides keeps the filler's colour."""
     walls = [("3009", 1, 1, 0), ("3009", 1, 3, 0), ("3005", 1, 2, 0), ("3005", 6, 2, 0)]

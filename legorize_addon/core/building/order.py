@@ -58,17 +58,18 @@ class _Site:
 
     def __init__(self, bricks: Bricks, pairs: Rows, temporary: Mask) -> None:
         self.bricks, self.temporary = bricks, temporary
-        self.level = bricks.corner[:, 2].tolist()
-        self.piece = bricks.piece.tolist()
         self.key = [tuple(row) for row in np.column_stack([bricks.corner[:, ::-1], np.arange(len(bricks))]).tolist()]
         self.below: list[list[int]] = [[] for _ in range(len(bricks))]
         self.above: list[list[int]] = [[] for _ in range(len(bricks))]
         for lower, upper in pairs.tolist():
             self.below[upper].append(lower)
             self.above[lower].append(upper)
-        self.assembly = self.bricks.piece.astype(np.int64).tolist()
+        self.assembly = bricks.piece.astype(np.int64).tolist()
         self.placed = [False] * len(bricks)
         self.waiting = [True] * len(bricks)
+        # bricks still to come from which others still to come lead up, or down, to one in place
+        self.under_placed = [False] * len(bricks)
+        self.over_placed = [False] * len(bricks)
         self.rows: list[tuple[int, int, int, bool, int]] = []
         self.step = NOBODY
         self.kind: object = None
@@ -170,11 +171,14 @@ class _Site:
                 yield each
 
     def _squeezed_by(self, brick: int) -> Iterator[int]:
-        """Yield the bricks still to come that would lie between one and others in place."""
+        """Yield the bricks still to come that lead from one to others in place.
+
+        The last brick that closes such a gap, however high, would be squeezed in.
+        """
         assembly = self.assembly[brick]
-        for beside in (self.above, self.below):
+        for beside, closed in ((self.above, self.under_placed), (self.below, self.over_placed)):
             for one in beside[brick]:
-                if self.waiting[one] and self.assembly[one] == assembly and self._any(beside[one], assembly):
+                if self.waiting[one] and self.assembly[one] == assembly and closed[one]:
                     yield one
 
     def _any(self, bricks: list[int], assembly: int) -> bool:
@@ -190,13 +194,24 @@ class _Site:
         self._offer(brick, self.assembly[brick])
 
     def _offer(self, brick: int, assembly: int) -> None:
-        """Put the neighbours of a brick on the agendas."""
+        """Put the neighbours of a brick in place on the agendas, and mark what leads to it."""
         for other in self.above[brick]:
             if self.waiting[other] and self.assembly[other] == assembly:
                 heapq.heappush(self.on_top, (self.key[other], other))
         for other in self.below[brick]:
             if self.waiting[other] and self.assembly[other] == assembly:
                 heapq.heappush(self.from_below, (self.key[other], other))
+        self._mark(brick, assembly, self.below, self.under_placed)
+        self._mark(brick, assembly, self.above, self.over_placed)
+
+    def _mark(self, brick: int, assembly: int, beside: list[list[int]], marks: list[bool]) -> None:
+        """Mark the bricks still to come that lead to a brick in place, in one direction."""
+        agenda = [brick]
+        while agenda:
+            for other in beside[agenda.pop()]:
+                if self.waiting[other] and self.assembly[other] == assembly and not marks[other]:
+                    marks[other] = True
+                    agenda.append(other)
 
     def _note(self, action: Action, brick: int, piece: int, *, kind: object, pressed: bool = False) -> None:
         if kind != self.kind:
