@@ -26,7 +26,7 @@ from .tree import tree
 
 Way = Literal["tree", "columns", "beams", "none"]
 
-ROUNDS: Final = 12
+ROUNDS: Final = 6
 """Times that contacts are added or branches straightened."""
 
 BY_HAND: Final = 50.0

@@ -28,6 +28,9 @@ Wish = Literal["best", Way]
 WAYS: Final[tuple[Way, ...]] = ("tree", "columns", "beams")
 """Kinds of supports, the one that is mostly best first."""
 
+LOW: Final = 36
+"""Plates up to which supports count as low."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Piece:
@@ -153,6 +156,12 @@ def supported(
     return Supports(everything, temporary, contacts, tuple(pieces), moves, found)
 
 
+def _worth_trying(need: Need) -> tuple[Way, ...]:
+    """Return the kinds of supports that can be the lightest: beams only where they are low, as in the paper."""
+    low = len(need.cells) > 0 and float(np.median(need.cells[:, 2])) <= LOW
+    return WAYS if low else WAYS[:2]
+
+
 def _numbered(bricks: Bricks, number: int) -> Bricks:
     return replace(bricks, piece=np.full(len(bricks), number, dtype=np.int16))
 
@@ -169,5 +178,5 @@ def _piece(
     if len(need.enclosed):
         bricks, connection = with_inside_carried(bricks, catalogue, connection, need.enclosed)
         need = needed(bricks, catalogue, connection, deepest=deepest, room=room)
-    plan = planned(bricks, catalogue, need, ways=WAYS if wish == "best" else (wish,), hold=hold)
+    plan = planned(bricks, catalogue, need, ways=_worth_trying(need) if wish == "best" else (wish,), hold=hold)
     return Piece(rows, bricks.take(np.arange(len(rows), len(bricks))), need, plan)
