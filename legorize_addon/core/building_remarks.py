@@ -102,3 +102,6 @@ def _faults(supports: Supports, catalogue: Catalogue) -> Iterator[str]:
                 f"The building order has {counted(len(rows), 'brick', 'bricks')} {what}; the first is the "
                 f"{brick_name(supports.bricks, first, catalogue)} in layer {layer_of(supports.bricks, first)}."
             )
+    if loose := len(found.loose_pieces):
+        pieces = counted(loose, "piece that finds", "pieces that find")
+        yield f"The building order has {pieces} no hold or no way when joined: build the model in fewer pieces."

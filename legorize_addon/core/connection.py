@@ -8,6 +8,7 @@ component that stands on the lowest plate is grounded, every other one floats.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,8 +89,8 @@ def connect(bricks: Bricks, catalogue: Catalogue) -> Connection:
     tops = columns - low
     tops[:, 2] += heights[brick]
     pairs, studs = _contacts(brick, owner[tops[:, 2], tops[:, 1], tops[:, 0]], len(bricks))
-    component, grounded = _components(pairs, bricks.corner[:, 2])
-    return Connection(owner[:-1], low, collisions, pairs, studs, component, grounded)
+    component = components(pairs, len(bricks))
+    return Connection(owner[:-1], low, collisions, pairs, studs, component, _grounded(component, bricks.corner[:, 2]))
 
 
 def stud_columns(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, Rows]:
@@ -109,17 +110,68 @@ def stud_columns(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, Rows]:
     columns : (n_columns, 3) int32 array
         Stud square (x, y) and lowest plate z of the brick there.
     """
-    kind = bricks.part.astype(np.int64) * 4 + bricks.turn
-    rows, cells = [np.zeros(0, dtype=np.int64)], [np.zeros((0, 3), dtype=np.int32)]
-    for value in np.unique(kind):
-        covered = footprint(catalogue.parts[value // 4], int(value % 4))
-        members = np.flatnonzero(kind == value)
-        offsets = np.pad(covered, ((0, 0), (0, 1)))
-        rows.append(np.repeat(members, len(covered)))
-        cells.append((bricks.corner[members, None] + offsets).reshape(-1, 3))
-    brick = np.concatenate(rows)
-    order = np.argsort(brick, kind="stable")
-    return brick[order].astype(np.int32), np.concatenate(cells)[order].astype(np.int32)
+    squares, size = _squares(catalogue)
+    kind = bricks.part.astype(np.intp) * 4 + bricks.turn
+    count = size[kind]
+    brick = np.repeat(np.arange(len(bricks), dtype=np.int32), count)
+    nth = np.arange(len(brick)) - np.repeat(np.cumsum(count) - count, count)
+    columns = bricks.corner[brick]
+    columns[:, :2] += squares[kind[brick], nth]
+    return brick, columns
+
+
+@lru_cache
+def _squares(catalogue: Catalogue) -> tuple[Rows, NDArray[np.intp]]:
+    """Return the stud squares of every part at every turn, (4 n_parts, most, 2), and how many there are."""
+    covered = [footprint(part, turn) for part in catalogue.parts for turn in range(4)]
+    size = np.array([len(each) for each in covered])
+    squares = np.zeros((len(covered), size.max(), 2), dtype=np.int32)
+    for row, each in enumerate(covered):
+        squares[row, : len(each)] = each
+    return squares, size
+
+
+def stacked(pairs: Rows, n: int) -> tuple[list[list[int]], list[list[int]]]:
+    """List what lies right below and right above each brick.
+
+    Parameters
+    ----------
+    pairs : (n_pairs, 2) int32 array
+        Lower and upper brick of each contact.
+    n : int
+        Number of bricks.
+
+    Returns
+    -------
+    below, above : list of list of int
+        Rows of the neighbours of each brick, in the order of the pairs.
+    """
+    below: list[list[int]] = [[] for _ in range(n)]
+    above: list[list[int]] = [[] for _ in range(n)]
+    for lower, upper in pairs.tolist():
+        below[upper].append(lower)
+        above[lower].append(upper)
+    return below, above
+
+
+def components(pairs: Rows, n: int) -> Rows:
+    """Label what hangs together.
+
+    Parameters
+    ----------
+    pairs : (n_pairs, 2) int32 array
+        Bricks that touch.
+    n : int
+        Number of bricks.
+
+    Returns
+    -------
+    (n,) int32 array
+        Number of the component of each brick.
+    """
+    graph = coo_array((np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
+    component: Rows = connected_components(graph, directed=False)[1].astype(np.int32)
+    return component
 
 
 def _owners(brick: Rows, columns: Rows, heights: Rows) -> tuple[Rows, int]:
@@ -148,11 +200,9 @@ def _contacts(lower: Rows, upper: Rows, n: int) -> tuple[Rows, Rows]:
     return np.stack(np.divmod(pair, max(n, 1)), axis=1).astype(np.int32), studs.astype(np.int32)
 
 
-def _components(pairs: Rows, level: Rows) -> tuple[Rows, Mask]:
-    """Label the components and tell which of them stand on the lowest plate."""
-    n = len(level)
-    graph = coo_array((np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
-    _, component = connected_components(graph, directed=False)
-    standing = np.zeros(n, dtype=bool)
+def _grounded(component: Rows, level: Rows) -> Mask:
+    """Tell which bricks are in components that stand on the lowest plate."""
+    standing = np.zeros(len(level), dtype=bool)
     standing[component[level == level.min(initial=np.iinfo(np.int32).max)]] = True
-    return component.astype(np.int32), standing[component]
+    grounded: Mask = standing[component]
+    return grounded

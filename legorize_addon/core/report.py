@@ -236,6 +236,7 @@ def _building(build: Build) -> dict[str, Any]:
         "pressed_from_below": int(supports.moves.pressed.sum()),
         "in_air": len(found.in_air),
         "squeezed_in": len(found.squeezed),
+        "loose_pieces": len(found.loose_pieces),
         "held_by_hand": len(supports.unsteady),
         "ends_as_model": len(found.wrong_end) == 0,
         "pieces": len(supports.pieces),

@@ -18,11 +18,9 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from .catalogue import Catalogue
-from .connection import Connection, connect
+from .connection import Connection, Rows, components, connect
 from .model import Bricks, Ints, Mask
 from .supports.need import needed
 from .supports.tree import tree
@@ -51,7 +49,7 @@ class Joint:
     piece : int
         Number of the upper piece.
     studs : int
-        Studs that join it to the rest.
+        Studs of other pieces on which it sits.
     before, after : int
         Support bricks without and with the cut, as estimated when it was chosen.
     """
@@ -105,7 +103,9 @@ def segmented(
         piece = np.where(best.upper, np.int16(number), piece)
         price[best.of], price[number] = best.below, best.above
         joints.append(Joint(best.level, number, best.studs, before, sum(each.bricks for each in price.values())))
-    return replace(bricks, piece=piece), tuple(joints)
+    # a piece that is cut again leaves some of the studs below it to its upper part
+    final = (replace(joint, studs=_joint(connection, piece == joint.piece, piece != joint.piece)) for joint in joints)
+    return replace(bricks, piece=piece), tuple(final)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -117,6 +117,8 @@ class _Price:
     """Plates from the ground up to each contact."""
 
     floor: int
+    stands: Mask
+    """Which of the bricks stand on others, and do not hang."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -140,7 +142,7 @@ def _price(bricks: Bricks, catalogue: Catalogue, deepest: int) -> _Price:
     need = needed(bricks, catalogue, connection, deepest=deepest)
     boxes = tree(need.contacts, need.load, need.room, straight=np.zeros(len(need.contacts), dtype=bool))
     floor = int(bricks.corner[:, 2].min())
-    return _Price(len(boxes) + len(need.left), need.contacts[:, 2].astype(np.int64), floor)
+    return _Price(len(boxes) + len(need.left), need.contacts[:, 2].astype(np.int64), floor, need.depth == 0)
 
 
 def _options(
@@ -158,17 +160,20 @@ def _options(
     tried = 0
     for level in levels[np.argsort(_promise(price, levels), kind="stable")].tolist():
         upper = _upper(bricks, connection, mine, level)
-        studs = _joint(connection, upper, mine & ~upper)
         lower = mine & ~upper
+        studs = _joint(connection, upper, lower)
         if min(upper.sum(), lower.sum()) < LEAST * len(bricks) or studs < INTERFACE:
             continue
-        # the first piece goes on growing when others are joined to it; each of those is joined as a whole
-        if number and _n_components(connection, lower) > 1:
+        # the first piece goes on growing when others are joined to it; each of those is joined as a whole, by what
+        # is left of its own joint
+        if number and (_n_components(connection, lower) > 1 or _joint(connection, lower, ~mine) < INTERFACE):
             continue
         below = _price(bricks.take(lower), catalogue, deepest)
         above = _price(bricks.take(upper), catalogue, deepest)
         option = _Option(number, level, upper, studs, below, above)
-        if option.price < price.bricks and option.price <= (1 - SAVING) * price.bricks:
+        # what hangs from bricks above the cut is not in place yet when the upper part is joined
+        firm = _joint(connection, upper, np.isin(np.arange(len(bricks)), np.flatnonzero(lower)[below.stands]))
+        if firm >= INTERFACE and option.price < price.bricks and option.price <= (1 - SAVING) * price.bricks:
             yield option
         tried += 1
         if tried == TRIED:
@@ -190,12 +195,9 @@ def _upper(bricks: Bricks, connection: Connection, mine: Mask, level: int) -> Ma
     return upper
 
 
-def _components(connection: Connection, members: Mask) -> NDArray[np.int32]:
+def _components(connection: Connection, members: Mask) -> Rows:
     """Label what hangs together among some bricks, (n,)."""
-    pairs = connection.pairs[members[connection.pairs].all(axis=1)]
-    graph = coo_array((np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])), shape=(len(members),) * 2)
-    component: NDArray[np.int32] = connected_components(graph, directed=False)[1]
-    return component
+    return components(connection.pairs[members[connection.pairs].all(axis=1)], len(members))
 
 
 def _n_components(connection: Connection, members: Mask) -> int:

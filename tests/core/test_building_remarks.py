@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
+
 from legorize_addon.core.building_remarks import remarks_on_building
 from legorize_addon.core.connection import connect
 from legorize_addon.core.supports import supported, with_floating_carried
@@ -41,6 +45,13 @@ def test_brick_in_the_air_is_named():
     [sentence] = told(("3003", 0, 0, 0), ("3001", 0, 0, 6), wish="none")
     assert "1 brick without hold" in sentence
     assert "Brick 2 x 4 in layer 3" in sentence
+
+
+def test_piece_without_hold_is_told():
+    """A piece that touches nothing when it is joined is counted."""
+    bricks = replace(table(("3003", 0, 0, 0), ("3003", 6, 0, 3)), piece=np.array([0, 1], np.int16))
+    [sentence] = remarks_on_building(supported(bricks, CATALOGUE, wish="none"), CATALOGUE)
+    assert "1 piece that finds no hold" in sentence
 
 
 def test_tower_to_hold_is_told_with_its_step():

@@ -59,6 +59,24 @@ def test_split_model_can_be_built(cars):
     assert found.contacts.collisions == 0
 
 
+def test_a_piece_cut_again_keeps_its_own_joint():
+    """A plate that hangs under an arm holds on to the arm alone: it is no piece of its own, though that saves more."""
+    foot, post, arm = ("3001", 0, 0, 0), ("3001", 0, 0, 3), ("3007", 0, 0, 6)
+    bricks, joints = cut(table(foot, post, arm, ("3003", 6, 0, 3), ("3022", 6, 0, 2)), most=3)
+    assert [joint.studs for joint in joints] == [8]
+    assert bricks.piece.tolist() == [0, 1, 1, 1, 1]
+    assert supported(bricks, CATALOGUE, deepest=0).walk.buildable
+
+
+def test_no_piece_sits_on_what_is_not_there_yet():
+    """A tower on a brick that hangs from above the cut could not be joined before the brick that this one hangs on."""
+    post, arm, hanger = [("3003", 0, 0, z) for z in (0, 3, 6)], ("3007", 0, 0, 9), ("3001", 6, 0, 6, 1)
+    tower = [("3003", 6, 2, 9), ("3003", 6, 2, 12), ("3007", 6, 2, 15, 1), ("3003", 6, 8, 12), ("3003", 6, 8, 9)]
+    bricks, joints = cut(table(*post, arm, hanger, *tower), deepest=3)
+    assert all(joint.level != 9 for joint in joints)
+    assert supported(bricks, CATALOGUE, deepest=3).walk.buildable
+
+
 def test_no_cut_where_nothing_is_saved():
     """A tower needs no supports: it stays in one piece, whatever is allowed."""
     bricks, joints = cut(table(*(("3001", 0, 0, 3 * k) for k in range(9))), most=4)

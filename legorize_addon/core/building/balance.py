@@ -148,7 +148,7 @@ class _Towers:
             return False
         x, y = self._middle(tower).tolist()
         cells = self.feet[tower]
-        # most towers stand on a cell right below their middle
+        # over one of several cells a middle is inside, if perhaps nearer to the edge than steady towers have it
         if (int(np.floor(x)), int(np.floor(y))) in cells and len(cells) > 1:
             return False
         planes = self.hull[tower]

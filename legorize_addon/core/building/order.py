@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..connection import NOBODY, Rows
+from ..connection import NOBODY, Rows, stacked
 from ..model import Bricks, Mask
 from .moves import Action, Moves
 
@@ -59,11 +59,7 @@ class _Site:
     def __init__(self, bricks: Bricks, pairs: Rows, temporary: Mask) -> None:
         self.bricks, self.temporary = bricks, temporary
         self.key = [tuple(row) for row in np.column_stack([bricks.corner[:, ::-1], np.arange(len(bricks))]).tolist()]
-        self.below: list[list[int]] = [[] for _ in range(len(bricks))]
-        self.above: list[list[int]] = [[] for _ in range(len(bricks))]
-        for lower, upper in pairs.tolist():
-            self.below[upper].append(lower)
-            self.above[lower].append(upper)
+        self.below, self.above = stacked(pairs, len(bricks))
         self.assembly = bricks.piece.astype(np.int64).tolist()
         self.placed = [False] * len(bricks)
         self.waiting = [True] * len(bricks)

@@ -6,11 +6,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ..catalogue import Catalogue
-from ..connection import NOBODY, Rows, connect, stud_columns
+from ..connection import NOBODY, Rows, components, connect, stacked, stud_columns
 from ..model import Bricks, Ints, Mask
 from .links import Links
 from .moves import Action, Moves
@@ -98,11 +96,7 @@ class _Walked:
     def __init__(self, bricks: Bricks, catalogue: Catalogue, found: Links) -> None:
         n = len(bricks)
         self.bricks, self.catalogue, self.links = bricks, catalogue, found
-        self.below: list[list[int]] = [[] for _ in range(n)]
-        self.above: list[list[int]] = [[] for _ in range(n)]
-        for lower, upper in found.pairs.tolist():
-            self.below[upper].append(lower)
-            self.above[lower].append(upper)
+        self.below, self.above = stacked(found.pairs, n)
         level = bricks.corner[:, 2]
         table = {int(piece): int(level[bricks.piece == piece].min()) for piece in np.unique(bricks.piece)}
         self.on_table = [table[piece] == z for piece, z in zip(bricks.piece.tolist(), level.tolist(), strict=True)]
@@ -185,8 +179,7 @@ class _Walked:
         there = self.placed & (self.assembly == assembly)
         pairs = self.links.pairs
         pairs = pairs[there[pairs].all(axis=1)]
-        graph = coo_array((np.ones(len(pairs), dtype=bool), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
-        _, component = connected_components(graph, directed=False)
+        component = components(pairs, n)
         standing = there & np.array(self.on_table) & (self.bricks.piece == assembly)
         found = np.zeros(n, dtype=bool)
         found[component[standing]] = True

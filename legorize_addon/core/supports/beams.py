@@ -20,9 +20,9 @@ import numpy as np
 
 from ..model import Ints
 from ..units import PLATES_PER_BRICK
-from .boxes import TALL, Boxes, boxes_of
+from .boxes import TALL, Area, Boxes, boxes_of, cells_of
 from .columns import Cells, covered, with_room
-from .links import Area, links
+from .links import links
 from .room import Room
 
 LONGEST: Final = 6
@@ -155,10 +155,10 @@ def _standing(laid: list[Area], layer: int) -> Iterator[tuple[int, int, int, int
     pillars = [pillar for beam in laid for pillar in pillars_of(beam)]
     tied = links(laid, pillars)
     top = (layer - 1) * PLATES_PER_BRICK
-    taken = {cell for link in tied for cell in _cells(link)}
+    taken = {cell for link in tied for cell in cells_of(link)}
     yield from ((x, y, top, a, b, PLATES_PER_BRICK) for x, y, a, b in tied)
     for pillar in pillars:
-        if taken.isdisjoint(_cells(pillar)):
+        if taken.isdisjoint(cells_of(pillar)):
             yield from _stacked(pillar, layer)
             continue
         # the link is part of the pillar; what it leaves of its top layer is filled
@@ -205,8 +205,3 @@ def _beside(pillar: Area, taken: set[tuple[int, int]]) -> list[Area]:
     x, y, a, b = pillar
     left = np.array([[(x + i, y + j) not in taken for i in range(a)] for j in range(b)])
     return [(x + i, y + j, *size) for _, i, j, *size in covered(left[None], _PILLAR_SIZES).tolist()]
-
-
-def _cells(area: Area) -> list[tuple[int, int]]:
-    x, y, a, b = area
-    return [(x + i, y + j) for j in range(b) for i in range(a)]

@@ -18,6 +18,9 @@ from ..units import PLATES_PER_BRICK
 
 Boxes = NDArray[np.int32]
 
+Area = tuple[int, int, int, int]
+"""Columns of a brick: lowest x and y, and its lengths along x and y."""
+
 OUTSIDE_COLOUR: Final = 15
 """White, the paper's colour of supports that are taken out again."""
 
@@ -31,6 +34,12 @@ TALL: Final = 3 * PLATES_PER_BRICK
 def boxes_of(rows: Iterable[tuple[int, int, int, int, int, int]]) -> Boxes:
     """Return rows as an array, (n, 6) int32."""
     return np.array(list(rows), dtype=np.int32).reshape(-1, 6)
+
+
+def cells_of(area: Area) -> list[tuple[int, int]]:
+    """Return the columns (x, y) of an area, row by row."""
+    x, y, a, b = area
+    return [(x + i, y + j) for j in range(b) for i in range(a)]
 
 
 def sizes_in(catalogue: Catalogue, colour: int) -> dict[tuple[int, int, int], int]:

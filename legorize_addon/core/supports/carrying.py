@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..connection import Connection
+from ..connection import Connection, stacked
 
 NOT_HELD: Final = np.iinfo(np.int32).max
 """Depth of a brick that nothing holds."""
@@ -44,7 +44,7 @@ class Carrying:
         deepest : int
             Greatest depth in plates at which bricks hold.
         """
-        self._below, self._above = _neighbours(connection.pairs, len(height))
+        self._below, self._above = stacked(connection.pairs, len(height))
         self._height = height.tolist()
         self._deepest = deepest
         self._depth = [int(NOT_HELD)] * len(height)
@@ -94,13 +94,3 @@ class Carrying:
                     lifted += self._lift(below, hanging, reached)
             for entry in lifted:
                 heapq.heappush(agenda, entry)
-
-
-def _neighbours(pairs: NDArray[np.integer], n: int) -> tuple[list[list[int]], list[list[int]]]:
-    """Return the bricks below and above each brick."""
-    below: list[list[int]] = [[] for _ in range(n)]
-    above: list[list[int]] = [[] for _ in range(n)]
-    for lower, upper in pairs.tolist():
-        below[upper].append(lower)
-        above[lower].append(upper)
-    return below, above

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..model import Mask
 from ..units import PLATES_PER_BRICK
-from .boxes import TALL, Boxes, boxes_of
+from .boxes import TALL, Area, Boxes, boxes_of, cells_of
 from .room import Room
 
 Cells = NDArray[np.integer]
@@ -49,9 +49,8 @@ def columns(contacts: Sequence[tuple[int, int, int]], room: Room) -> Boxes:
         Columns side by side share a foot.
     """
     rows = pillars(contacts)
-    standing = rows[:, 5] == PLATES_PER_BRICK
-    low = standing & (rows[:, 2] == 0)
-    feet = _feet([(x, y) for x, y, *_ in rows[low].tolist()], _ground_for_feet(rows[~standing], room))
+    low = (rows[:, 5] == PLATES_PER_BRICK) & (rows[:, 2] == 0)
+    feet = _feet([(x, y) for x, y, *_ in rows[low].tolist()], room.layer(0).copy())
     return np.concatenate([boxes_of((x, y, 0, a, b, PLATES_PER_BRICK) for x, y, a, b in feet), rows[~low]])
 
 
@@ -166,30 +165,22 @@ def _boxes(found: NDArray[np.int64], step: int, height: int) -> Boxes:
     return np.stack([x, y, level * step, a, b, np.full_like(x, height)], axis=1).astype(np.int32)
 
 
-def _ground_for_feet(plates: Boxes, room: Room) -> Mask:
-    """Return the columns (n_y, n_x) in which a brick may stand on the ground beside low plates."""
-    ground = room.layer(0).copy()
-    low = plates[plates[:, 2] < PLATES_PER_BRICK]
-    ground[low[:, 1], low[:, 0]] = False
-    return ground
-
-
-def _feet(standing: Sequence[tuple[int, int]], ground: Mask) -> list[tuple[int, int, int, int]]:
+def _feet(standing: Sequence[tuple[int, int]], ground: Mask) -> list[Area]:
     """Return one foot (x, y, length along x, length along y) for each column, or for several side by side."""
     waiting = dict.fromkeys(standing)
     feet = []
     while waiting:
         x, y = next(iter(waiting))
-        box = max(_places(x, y, ground), key=lambda place: sum(cell in waiting for cell in _cells(place)))
+        box = max(_places(x, y, ground), key=lambda place: sum(cell in waiting for cell in cells_of(place)))
         # columns that stand on this foot need none of their own
-        for cell in _cells(box):
+        for cell in cells_of(box):
             waiting.pop(cell, None)
             ground[cell[1], cell[0]] = False
         feet.append(box)
     return feet
 
 
-def _places(x: int, y: int, ground: Mask) -> list[tuple[int, int, int, int]]:
+def _places(x: int, y: int, ground: Mask) -> list[Area]:
     """Return the free places of a foot of a column, or its own cell if there are none."""
     n_y, n_x = ground.shape
     wide = [
@@ -199,8 +190,3 @@ def _places(x: int, y: int, ground: Mask) -> list[tuple[int, int, int, int]]:
         if ground[at_y : at_y + _FOOT, at_x : at_x + _FOOT].all()
     ]
     return wide or [(x, y, 1, 1)]
-
-
-def _cells(box: tuple[int, int, int, int]) -> list[tuple[int, int]]:
-    x, y, a, b = box
-    return [(x + i, y + j) for j in range(b) for i in range(a)]

@@ -14,8 +14,7 @@ from typing import Final
 
 from scipy.cluster.hierarchy import DisjointSet
 
-Area = tuple[int, int, int, int]
-"""Columns of a brick: lowest x and y, and its lengths along x and y."""
+from .boxes import Area, cells_of
 
 LONG: Final = 4
 """Studs from which on a beam is never linked by a single one of its studs."""
@@ -42,8 +41,8 @@ def links(beams: Sequence[Area], pillars: Sequence[Area]) -> list[Area]:
     list of tuple of int
         Links that do not overlap, each within two beams.
     """
-    steady = {cell for pillar in pillars for cell in _cells(pillar)}
-    owner = {cell: row for row, beam in enumerate(beams) for cell in _cells(beam)}
+    steady = {cell for pillar in pillars for cell in cells_of(pillar)}
+    owner = {cell: row for row, beam in enumerate(beams) for cell in cells_of(beam)}
     pairs = _neighbours(beams, owner)
     n_pairs = Counter(row for pair in pairs for row in pair)
     linked, taken, found = DisjointSet(range(len(beams))), set[tuple[int, int]](), []
@@ -53,7 +52,7 @@ def links(beams: Sequence[Area], pillars: Sequence[Area]) -> list[Area]:
         # in a row of beams each one leaves room for the next link
         aside = max(n_pairs[one], n_pairs[other]) > 1
         for link in _places(beams[one], beams[other], aside=aside):
-            cells = set(_cells(link))
+            cells = set(cells_of(link))
             if taken.isdisjoint(cells) and not steady.isdisjoint(cells):
                 linked.merge(one, other)
                 taken |= cells
@@ -75,7 +74,7 @@ def _neighbours(beams: Sequence[Area], owner: dict[tuple[int, int], int]) -> lis
 
 def _places(one: Area, other: Area, *, aside: bool) -> Iterator[Area]:
     """Yield places of a link of two beams: recommended bricks first, then the nearest the centre, or the farthest."""
-    cells = [set(_cells(one)), set(_cells(other))]
+    cells = [set(cells_of(one)), set(cells_of(other))]
     least = [2 if max(beam[2:]) >= LONG else 1 for beam in (one, other)]
     centre = _barycentre(one, other)
     along_y = one[0] < other[0] + other[2] and other[0] < one[0] + one[2]
@@ -87,7 +86,7 @@ def _places(one: Area, other: Area, *, aside: bool) -> Iterator[Area]:
             a, b = (wide, long) if along_y else (long, wide)
             for x, y in cells[0] | cells[1]:
                 off = max(abs(x + a / 2 - centre[0]), abs(y + b / 2 - centre[1]))
-                held = [len(each.intersection(_cells((x, y, a, b)))) for each in cells]
+                held = [len(each.intersection(cells_of((x, y, a, b)))) for each in cells]
                 if off <= OFF and sum(held) == a * b and held[0] >= least[0] and held[1] >= least[1]:
                     near.append((-off if aside else off, -long, (x, y, a, b)))
         yield from (link for *_, link in sorted(near))
@@ -101,8 +100,3 @@ def _barycentre(one: Area, other: Area) -> tuple[float, float]:
         for axis in (0, 1)
     )
     return x, y
-
-
-def _cells(area: Area) -> list[tuple[int, int]]:
-    x, y, a, b = area
-    return [(x + i, y + j) for j in range(b) for i in range(a)]

@@ -88,6 +88,9 @@ def needed(
     deepest : int
         Plates that bricks may hang one under another while building; 0 if each
         brick must lie on another one.
+    room : Room, optional
+        Where supports may stand, of cells that include this piece; by default
+        that around the piece alone.
 
     Returns
     -------

@@ -12,7 +12,7 @@ from typing import Final, Literal
 
 import numpy as np
 
-from ..building.balance import STEADY, Tipping, corners, inside, tipping
+from ..building.balance import STEADY, Tipping, corners, inside, no_prop, tipping
 from ..building.order import ordered
 from ..catalogue import Catalogue
 from ..connection import Connection, Rows, connect
@@ -132,10 +132,11 @@ def _mass(bricks: Bricks, catalogue: Catalogue) -> float:
 
 def _settled(bricks: Bricks, catalogue: Catalogue, need: Need, contacts: Contacts, way: Way, hold: float) -> Plan:
     """Add contacts and straighten branches until all stands and bears, or nothing more helps."""
-    for _ in range(ROUNDS):
+    for left in reversed(range(ROUNDS)):
         nothing = np.zeros(len(contacts.cells), dtype=bool)
         supports = _laid(contacts, need, catalogue, way)
-        falling, props = _falling(bricks, supports, contacts, need, catalogue)
+        # what the last round finds is not laid any more
+        falling, props = _falling(bricks, supports, contacts, need, catalogue, add=left > 0)
         giving, bears = nothing, True
         if way != "columns" and len(contacts.cells):
             giving, bears = _giving(contacts, supports, need, catalogue, hold)
@@ -147,7 +148,7 @@ def _settled(bricks: Bricks, catalogue: Catalogue, need: Need, contacts: Contact
                 better = replace(contacts, straight=contacts.straight | crooked)
         if props:
             better = _with(better, need, props)
-        if better is contacts:
+        if better is contacts or not left:
             break
         contacts = better
     return Plan(way, supports, contacts, tuple(falling), bears)
@@ -163,9 +164,9 @@ def _bare(bricks: Bricks, need: Need, contacts: Contacts, catalogue: Catalogue) 
 
 
 def _falling(
-    bricks: Bricks, supports: Bricks, contacts: Contacts, need: Need, catalogue: Catalogue
+    bricks: Bricks, supports: Bricks, contacts: Contacts, need: Need, catalogue: Catalogue, *, add: bool
 ) -> tuple[list[Tipping], list[int]]:
-    """Return the towers that fall over while a piece is built, and undersides that hold those that do not."""
+    """Return the towers that fall over while a piece is built, and undersides, if some may be added, that save more."""
     everything = joined([bricks, supports])
     pairs = connect(everything, catalogue).pairs
     moves = ordered(everything, pairs, temporary=np.arange(len(everything)) >= len(bricks))
@@ -179,7 +180,7 @@ def _falling(
         x, y = (need.undersides[best] + need.room.low)[:2].tolist()
         return x, y
 
-    return tipping(moves, everything, catalogue, pairs, prop=prop), props
+    return tipping(moves, everything, catalogue, pairs, prop=prop if add else no_prop), props
 
 
 def _laid(contacts: Contacts, need: Need, catalogue: Catalogue, way: Way) -> Bricks:

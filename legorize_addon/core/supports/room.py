@@ -47,11 +47,6 @@ class Room:
         columns: Mask = self.open[top]
         return columns
 
-    @property
-    def n_layers(self) -> int:
-        """Layers of bricks up to the top of the model."""
-        return -(-len(self.open) // PLATES_PER_BRICK)
-
 
 def room_around(connection: Connection) -> Room:
     """Find the cells in which supports may stand.

@@ -24,11 +24,8 @@ from numpy.typing import NDArray
 from ..connection import Rows
 from ..model import Floats, Ints, Mask
 from ..units import PLATES_PER_BRICK
-from .boxes import Boxes, boxes_of
+from .boxes import Area, Boxes, boxes_of, cells_of
 from .room import Room
-
-Box = tuple[int, int, int, int]
-"""Columns of a brick: lowest x and y, and its lengths along x and y."""
 
 LONGEST_NODE: Final = 4
 """Studs that the brick of a node spans at most."""
@@ -60,7 +57,7 @@ _WELL_INSIDE: Final = 0.75
 class _Tip:
     """The lower end of a branch: its columns, the contacts it carries, their load in N, and the middle of that."""
 
-    box: Box
+    box: Area
     contacts: int
     load: float
     centre: tuple[float, float]
@@ -108,7 +105,7 @@ class _Layer:
         self.open = room.layer(number)
         self.number = number
         self.tips = tips
-        self.taken = {cell for tip in tips for cell in _cells(tip.box)}
+        self.taken = {cell for tip in tips for cell in cells_of(tip.box)}
         self.apart = _apart(np.array([tip.box for tip in tips], dtype=np.int64).reshape(-1, 4))
         self.gap = np.abs(self.apart).sum(axis=0)
         alone = np.array([tip.straight for tip in tips], dtype=bool)
@@ -116,7 +113,7 @@ class _Layer:
         self.load = np.array([tip.load for tip in tips])
         self.index = {id(tip): row for row, tip in enumerate(tips)}
 
-    def laid(self) -> tuple[list[Box], list[_Tip]]:
+    def laid(self) -> tuple[list[Area], list[_Tip]]:
         """Return the bricks of the layer, and the tips of the one below."""
         boxes, below, alone = [], [], []
         for group in self._groups():
@@ -124,12 +121,12 @@ class _Layer:
                 alone.append(group[0])
                 continue
             box, trunk = self._node(_around(tip.box for tip in group), group)
-            self.taken.update(_cells(box))
+            self.taken.update(cells_of(box))
             boxes.append(box)
             below.append(_Tip(trunk, *_together(group), straight=False))
         for tip in alone:
             box, place = self._step(tip)
-            self.taken.update(_cells(box))
+            self.taken.update(cells_of(box))
             boxes.append(box)
             below.append(_Tip(place, tip.contacts, tip.load, tip.centre, tip.straight))
         return boxes, below
@@ -146,25 +143,25 @@ class _Layer:
                 continue
             own = [_around(tip.box for tip in groups[each]) for each in (mine, others)]
             if self._fits(_around(own), own):
-                self.taken.update(_cells(_around(own)))
+                self.taken.update(cells_of(_around(own)))
                 groups[mine], groups[others] = groups[mine] + groups[others], []
                 number = [mine if each == others else each for each in number]
         return [group for group in groups if group]
 
-    def _fits(self, box: Box, own: Sequence[Box], *, longest: int = LONGEST_NODE) -> bool:
+    def _fits(self, box: Area, own: Sequence[Area], *, longest: int = LONGEST_NODE) -> bool:
         """Whether there is a part of the size of a box, and room for it beside what is not its own."""
         _, _, a, b = box
         if max(a, b) > longest or min(a, b) > 2:
             return False
-        mine = {cell for each in own for cell in _cells(each)}
-        return self._free(box) and not any(cell in self.taken and cell not in mine for cell in _cells(box))
+        mine = {cell for each in own for cell in cells_of(each)}
+        return self._free(box) and not any(cell in self.taken and cell not in mine for cell in cells_of(box))
 
-    def _free(self, box: Box) -> bool:
+    def _free(self, box: Area) -> bool:
         x, y, a, b = box
         n_y, n_x = self.open.shape
         return x >= 0 and y >= 0 and x + a <= n_x and y + b <= n_y and bool(self.open[y : y + b, x : x + a].all())
 
-    def _node(self, box: Box, group: Sequence[_Tip]) -> tuple[Box, Box]:
+    def _node(self, box: Area, group: Sequence[_Tip]) -> tuple[Area, Area]:
         """Return the brick of a node and where its trunk goes on: as near as can be to the middle of the loads."""
         contacts, _, centre = _together(group)
         best = None
@@ -181,7 +178,7 @@ class _Layer:
             return box, max((tip.box for tip in group), key=lambda each: each[2] * each[3])
         return best[1], best[2]
 
-    def _trunks(self, box: Box, contacts: int) -> Iterator[Box]:
+    def _trunks(self, box: Area, contacts: int) -> Iterator[Area]:
         """Yield the places for a trunk of the size that its contacts ask for, in a box or one stud beyond it."""
         long, short = next(size for least, size in _STURDY if contacts >= least)
         x, y, a, b = box
@@ -191,7 +188,7 @@ class _Layer:
                     if at_x < x + a and at_y < y + b and at_x + size_x > x and at_y + size_y > y:
                         yield at_x, at_y, size_x, size_y
 
-    def _step(self, tip: _Tip) -> tuple[Box, Box]:
+    def _step(self, tip: _Tip) -> tuple[Area, Area]:
         """Return the brick under a tip that meets no other one in this layer, and where it goes on."""
         if self.number == 0:
             foot = self._foot(tip)
@@ -202,7 +199,7 @@ class _Layer:
                 return brick, place
         return tip.box, tip.box
 
-    def _ways(self, tip: _Tip) -> Iterator[Box]:
+    def _ways(self, tip: _Tip) -> Iterator[Area]:
         """Yield the steps towards the nearest tip that can be met, the longer way first."""
         mine = self.index[id(tip)]
         gap = np.where(self.load >= tip.load, self.gap[mine], FAR)
@@ -217,7 +214,7 @@ class _Layer:
                 way = 1 if apart[axis] > 0 else -1
                 yield (x + way, y, a, b) if axis == 0 else (x, y + way, a, b)
 
-    def _foot(self, tip: _Tip) -> Box:
+    def _foot(self, tip: _Tip) -> Area:
         """Return the smallest foot round a trunk that its load lies well inside of, or as well as there is room."""
         x, y, a, b = tip.box
         best = (*_unsteady(tip.box, tip.centre), tip.box)
@@ -232,7 +229,7 @@ class _Layer:
         return best[2]
 
 
-def _unsteady(foot: Box, load: tuple[float, float]) -> tuple[float, int]:
+def _unsteady(foot: Area, load: tuple[float, float]) -> tuple[float, int]:
     """Return what a better foot has less of: how near to its edge a load lies, and how far it is from 2 x 2 studs."""
     edges = [min(load[axis] - foot[axis], foot[axis] + foot[axis + 2] - load[axis]) for axis in (0, 1)]
     return -min(*edges, _WELL_INSIDE), abs(foot[2] * foot[3] - _USUAL_FOOT)
@@ -245,17 +242,12 @@ def _together(group: Sequence[_Tip]) -> tuple[int, float, tuple[float, float]]:
     return sum(tip.contacts for tip in group), load, (x, y)
 
 
-def _cells(box: Box) -> Iterator[tuple[int, int]]:
-    x, y, a, b = box
-    return ((x + i, y + j) for j in range(b) for i in range(a))
-
-
-def _middle(box: Box) -> tuple[float, float]:
+def _middle(box: Area) -> tuple[float, float]:
     x, y, a, b = box
     return x + a / 2, y + b / 2
 
 
-def _around(boxes: Iterator[Box] | Sequence[Box]) -> Box:
+def _around(boxes: Iterator[Area] | Sequence[Area]) -> Area:
     """Return the box around boxes."""
     rows = list(boxes)
     x, y = min(row[0] for row in rows), min(row[1] for row in rows)

@@ -55,6 +55,16 @@ def test_nothing_is_squeezed_in():
     assert walk(moves, bricks, CATALOGUE, found, temporary=gone).buildable
 
 
+def test_a_gap_of_several_bricks_is_closed_from_one_end():
+    """A plate under a tall brick would close the column beside it from below: it comes after all of the column."""
+    post = [("3005", 0, 0, 3 * k) for k in range(4)]
+    column = [("3024", 3, 0, 11), ("3024", 3, 0, 10), ("3005", 3, 0, 7), ("3005", 3, 0, 4), ("3024", 3, 0, 3)]
+    bricks = table(*post, ("3010", 0, 0, 12), ("14716", 2, 0, 3), *column, ("3023", 2, 0, 2))
+    moves, found, gone = order(bricks)
+    assert moves.brick.tolist()[-5:] == [7, 8, 9, 10, 11]
+    assert walk(moves, bricks, CATALOGUE, found, temporary=gone).buildable
+
+
 def test_support_stands_before_its_brick_and_goes_last():
     """The support under the free end is placed before the beam and taken out at the end, lowest brick first."""
     bricks = table(("3004", 0, 0, 0), ("3009", 0, 0, 6), ("3004", 0, 0, 3), ("3005", 5, 0, 0), ("3005", 5, 0, 3))
@@ -116,4 +126,4 @@ def test_every_brick_once_and_only_loose_ones_in_the_air(bricks):
     told = walk(moves, bricks, CATALOGUE, found, temporary=gone)
     floating = np.flatnonzero(~connect(bricks, CATALOGUE).grounded)
     assert np.isin(told.in_air, floating).all()
-    assert len(told.wrong_end) == 0
+    assert len(told.squeezed) == len(told.wrong_end) == 0

@@ -33,6 +33,15 @@ def test_contacts_are_added_where_a_tower_falls(way):
     assert found.unsteady == ()
 
 
+@pytest.mark.parametrize("way", ["tree", "columns"])
+def test_last_round_promises_nothing(way, monkeypatch):
+    """Where rounds run out, contacts that were not laid do not count, and the tower is named."""
+    monkeypatch.setattr("legorize_addon.core.supports.plan.ROUNDS", 1)
+    found, _ = plan(*LEANING, ways=[way])
+    assert len(found.contacts.cells) == len(found.supports) == 0
+    assert len(found.unsteady) == 1
+
+
 def test_without_supports_the_tower_is_named():
     """If nothing shall be added, the stair has to be held by hand."""
     found, _ = plan(*LEANING, ways=())

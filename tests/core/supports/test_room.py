@@ -43,7 +43,6 @@ def test_low_leads_back_to_the_grid():
 def test_layers_are_counted_from_the_ground():
     """A layer has room where all three of its plates have, and the last may be cut by the top."""
     room = around(("3024", 0, 0, 0), ("3024", 4, 0, 0), ("3020", 0, 0, 1), ("3710", 1, 0, 2), ("3710", 1, 0, 3))
-    assert room.n_layers == 2
     x, y = -room.low[:2]
     assert not room.layer(0)[y, x : x + 4].any()
     assert room.layer(1)[y - 1, x]
