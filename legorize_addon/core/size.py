@@ -98,9 +98,15 @@ def check_any(grid: UnitGrid, mesh: TriangleMesh) -> None:
     SettingsError
         The grid has no solid cell.
     """
-    if not grid.solid.any():
-        size = np.ptp(mesh.vertices, axis=0)
+    if grid.solid.any():
+        return
+    size = np.ptp(mesh.vertices, axis=0)
+    model = f"The model would be {size[0]:.2g} x {size[1]:.2g} x {size[2]:.2g} mm"
+    if (size >= (STUD, STUD, BRICK)).all():
         raise SettingsError(
-            f"The model would be {size[0]:.2g} x {size[1]:.2g} x {size[2]:.2g} mm, too small for one brick of "
-            f"{STUD:g} x {STUD:g} x {BRICK:g} mm: choose a larger size."
+            f"{model}, but nowhere fills half of a cell of {STUD:g} x {STUD:g} mm: turn keep_thin on, or choose a "
+            "larger size."
         )
+    raise SettingsError(
+        f"{model}, too small for one brick of {STUD:g} x {STUD:g} x {BRICK:g} mm: choose a larger size."
+    )

@@ -31,3 +31,11 @@ def test_nothing_to_build():
     cover = nothing.copy()
     cover[0, 0, 0, 0] = Cover.MUST
     check_any(UnitGrid(empty.colour, cover, empty.role, empty.origin), box((0, 0, 0), (1, 2, 3)))
+
+
+def test_thin_walls_are_told_apart_from_a_small_model():
+    """A model of many studs without a cell that is half full asks for thin parts to be kept."""
+    cells = np.zeros((1, 3, 2, 2), np.uint8)
+    nothing = UnitGrid(np.full(cells.shape, COLOUR_EMPTY, np.int16), cells + Cover.EMPTY, cells, np.zeros(3))
+    with pytest.raises(SettingsError, match=r"40 x 40 x 41 mm, but nowhere fills half of a cell .*keep_thin"):
+        check_any(nothing, box((0, 0, 0), (40, 40, 41)))
