@@ -16,7 +16,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from .catalogue import Catalogue, footprint
-from .model import Bricks, Mask
+from .model import Bricks, Floats, Mask
 
 Rows = NDArray[np.int32]
 
@@ -118,6 +118,14 @@ def stud_columns(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, Rows]:
     columns = bricks.corner[brick]
     columns[:, :2] += squares[kind[brick], nth]
     return brick, columns
+
+
+def middles(bricks: Bricks, catalogue: Catalogue) -> Floats:
+    """Return the middle of the stud squares of each brick, x and y in studs, (n, 2) float64."""
+    brick, columns = stud_columns(bricks, catalogue)
+    n_columns = np.bincount(brick, minlength=len(bricks))
+    across = [np.bincount(brick, columns[:, axis] + 0.5, len(bricks)) / n_columns for axis in (0, 1)]
+    return np.stack(across, axis=1)
 
 
 @lru_cache

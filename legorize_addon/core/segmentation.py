@@ -134,6 +134,7 @@ class _Option:
 
     @property
     def price(self) -> int:
+        """Support bricks of both parts, and bricks that none can carry."""
         return self.below.bricks + self.above.bricks
 
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from .catalogue import Catalogue
-from .connection import NOBODY, Connection, Rows, stud_columns
+from .connection import NOBODY, Connection, Rows, middles, stud_columns
 from .model import Bricks, Floats, Ints, Mask
 from .units import PLATE, STUD
 
@@ -144,7 +144,7 @@ def statics(
         The equations. Bricks that float are not in them.
     """
     squares = stud_columns(bricks, catalogue)
-    middle, rows = _middles(bricks, catalogue, *squares), np.flatnonzero(connection.grounded)
+    middle, rows = _centres(bricks, catalogue), np.flatnonzero(connection.grounded)
     narrow = np.array([part.width < 2 for part in catalogue.parts])[bricks.part]
     standing = squares[1][:, 2] == squares[1][:, 2].min(initial=np.iinfo(np.int32).max)
     feet = squares[0][standing], squares[1][standing]
@@ -161,12 +161,10 @@ def statics(
     return Statics(_matrix(contacts, middle[rows]), weight[rows].reshape(-1), contacts, rows, middle[rows], hold)
 
 
-def _middles(bricks: Bricks, catalogue: Catalogue, brick: Rows, columns: Rows) -> Floats:
+def _centres(bricks: Bricks, catalogue: Catalogue) -> Floats:
     """Return the centre of mass of each brick in studs."""
-    n_columns = np.bincount(brick, minlength=len(bricks))
-    across = [np.bincount(brick, columns[:, axis] + 0.5, len(bricks)) / n_columns for axis in (0, 1)]
     height = np.array([part.height for part in catalogue.parts])[bricks.part]
-    return np.column_stack([*across, (bricks.corner[:, 2] + height / 2) * (PLATE / STUD)])
+    return np.column_stack([middles(bricks, catalogue), (bricks.corner[:, 2] + height / 2) * (PLATE / STUD)])
 
 
 def _grips(columns: Rows, narrow: Mask) -> tuple[Ints, Floats]:

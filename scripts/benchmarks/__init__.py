@@ -17,6 +17,7 @@
 ``goals``         every goal of the layout, a process a case
 ``layout_figures``  what is counted on a layout
 ``supports``      trees, columns and beams against full columns: Tables 2 and 4
+``full_columns``  what supports are compared with
 ``building``      building orders of every model, whole and in pieces
 ``followed``      an order followed from its file, apart from the product's check
 ``layouts``       the layouts of the field and ours: Tables 1 and 3, and a peer

@@ -22,12 +22,13 @@ from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.supports.beams import beams
 from legorize_addon.core.supports.boxes import OUTSIDE_COLOUR, Boxes, bricks_of_boxes, joined_upwards
-from legorize_addon.core.supports.columns import columns, full_columns, pillars
+from legorize_addon.core.supports.columns import columns, pillars
 from legorize_addon.core.supports.need import Need, needed
 from legorize_addon.core.supports.tree import tree
 from tests.core.overhanging import overhanging
 
 from .clock import least_seconds
+from .full_columns import full_columns
 from .meshes import read_mesh
 from .tables import Row, Table
 

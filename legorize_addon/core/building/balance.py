@@ -14,7 +14,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from ..catalogue import Catalogue
-from ..connection import Rows, stud_columns
+from ..connection import Rows, middles, stud_columns
 from ..model import Bricks, Floats, Ints
 from .moves import Action, Moves
 
@@ -97,10 +97,8 @@ class _Towers:
         n = len(bricks)
         brick, columns = stud_columns(bricks, catalogue)
         mass = catalogue.mass[bricks.part]
-        n_columns = np.bincount(brick, minlength=n)
-        centre = np.stack([np.bincount(brick, columns[:, axis] + 0.5, n) / n_columns for axis in (0, 1)], axis=1)
         self.mass = mass.tolist()
-        self.moment = (centre * mass[:, None]).tolist()
+        self.moment = (middles(bricks, catalogue) * mass[:, None]).tolist()
         standing = columns[:, 2] == bricks.corner[:, 2].min()
         self.feet: list[list[tuple[int, int]]] = [[] for _ in range(n)]
         for row, x, y in zip(brick[standing].tolist(), *columns[standing, :2].T.tolist(), strict=True):
@@ -117,6 +115,7 @@ class _Towers:
             self.near[upper].append(lower)
 
     def root(self, row: int) -> int:
+        """Return the brick that stands for the tower of one."""
         while self.parent[row] != row:
             self.parent[row] = self.parent[self.parent[row]]
             row = self.parent[row]

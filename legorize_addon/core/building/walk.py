@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import groupby
 
 import numpy as np
 
@@ -26,8 +27,8 @@ class Walk:
     squeezed : int64 array
         Rows of bricks that had studs of others below and above when they were placed.
     stuck : int64 array
-        Rows of supports that could not be taken out by a stud's height downwards
-        and from there to the outer air.
+        Rows of supports that could not be taken straight down, as bricks were
+        left below them.
     loose_pieces : int64 array
         Pieces that touched nothing when they were joined, or had bricks in their way.
     wrong_end : int64 array
@@ -72,21 +73,16 @@ def walk(moves: Moves, bricks: Bricks, catalogue: Catalogue, found: Links, *, te
     Walk
     """
     site = _Walked(bricks, catalogue, found)
-    row = 0
-    actions = moves.action.tolist()
-    while row < len(moves):
-        end = row
-        while end < len(moves) and actions[end] == Action.REMOVE and actions[row] == Action.REMOVE:
-            end += 1
-        if end > row:
-            site.remove(moves.brick[row:end], moves.step[row:end])
-            row = end
-            continue
-        if actions[row] == Action.PLACE:
-            site.place(int(moves.brick[row]), int(moves.step[row]))
+    for action, run in groupby(range(len(moves)), key=moves.action.tolist().__getitem__):
+        rows = list(run)
+        if action == Action.REMOVE:
+            site.remove(moves.brick[rows], moves.step[rows])
+        elif action == Action.PLACE:
+            for row in rows:
+                site.place(int(moves.brick[row]), int(moves.step[row]))
         else:
-            site.join(int(moves.piece[row]), int(moves.step[row]))
-        row += 1
+            for row in rows:
+                site.join(int(moves.piece[row]), int(moves.step[row]))
     return site.result(moves, temporary)
 
 
@@ -109,6 +105,7 @@ class _Walked:
         self.bad: list[int] = []
 
     def place(self, brick: int, step: int) -> None:
+        """Put a brick in place; blame it if it finds no hold, or no room for its studs."""
         below, above = self._touches(self.below[brick], brick), self._touches(self.above[brick], brick)
         standing = self.on_table[brick] and self.assembly[brick] == self.bricks.piece[brick]
         if not (below or above or standing):
@@ -118,6 +115,7 @@ class _Walked:
         self.placed[brick] = True
 
     def join(self, piece: int, step: int) -> None:
+        """Put a piece onto the first one; blame it if they do not touch, or if something is in the way."""
         mine = np.flatnonzero((self.assembly == piece) & self.placed)
         if not self._contacts(mine) or self._in_the_way(mine):
             self._blame(self.loose, [piece], [step])
@@ -137,6 +135,7 @@ class _Walked:
         self._blame(self.stuck, rows[stuck], steps[stuck])
 
     def result(self, moves: Moves, temporary: Mask) -> Walk:
+        """Return what was found."""
         return Walk(
             in_air=np.array(self.in_air, dtype=np.int64),
             squeezed=np.array(self.squeezed, dtype=np.int64),

@@ -7,7 +7,7 @@
 ``posts``           what stays: under what floats, and in closed hollows
 ``boxes``           supports before they are bricks
 ``tree``            trees: branches that meet on their way down
-``columns``         straight columns; full ones, to compare with
+``columns``         straight columns
 ``beams``           the paper's beams on pillars
 ``links``           the bricks that join beams side by side
 ``plan``            supports of one kind under one piece, until all stands and bears

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..catalogue import Catalogue
-from ..connection import Connection, Rows, stud_columns
+from ..connection import Connection, Rows, middles, stud_columns
 from ..model import Bricks, Floats, Ints
 from ..statics import GRAVITY
 from .carrying import NOT_HELD, Carrying
@@ -105,7 +105,7 @@ def needed(
     brick, cells, enclosed = _undersides(bricks, catalogue, room)
     chosen, load = _chosen(carrying, bricks, catalogue, connection, np.intersect1d(wanting, brick))
     # a stud in the middle tips a brick least
-    middle = _middles(bricks, catalogue, room)
+    middle = middles(bricks, catalogue) - room.low[:2]
     off = np.abs(cells[:, :2] + 0.5 - middle[brick]).sum(axis=1)
     order = np.lexsort((off, brick))
     first = order[np.searchsorted(brick[order], chosen)]
@@ -151,11 +151,3 @@ def _undersides(bricks: Bricks, catalogue: Catalogue, room: Room) -> tuple[Ints,
     below = cells[:, 2] - 1, cells[:, 1], cells[:, 0]
     enclosed = np.setdiff1d(brick[~room.filled[below] & ~room.free[below]], brick[room.free[below]])
     return brick[room.open[below]], cells[room.open[below]], enclosed
-
-
-def _middles(bricks: Bricks, catalogue: Catalogue, room: Room) -> Floats:
-    """Return the middle (x, y) of each brick in the room's studs, (n, 2)."""
-    brick, columns = stud_columns(bricks, catalogue)
-    n_columns = np.bincount(brick, minlength=len(bricks))
-    sums = [np.bincount(brick, columns[:, axis] - room.low[axis] + 0.5, len(bricks)) for axis in (0, 1)]
-    return np.stack(sums, axis=1) / n_columns[:, None]

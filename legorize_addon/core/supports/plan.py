@@ -133,11 +133,10 @@ def _mass(bricks: Bricks, catalogue: Catalogue) -> float:
 def _settled(bricks: Bricks, catalogue: Catalogue, need: Need, contacts: Contacts, way: Way, hold: float) -> Plan:
     """Add contacts and straighten branches until all stands and bears, or nothing more helps."""
     for left in reversed(range(ROUNDS)):
-        nothing = np.zeros(len(contacts.cells), dtype=bool)
         supports = _laid(contacts, need, catalogue, way)
         # what the last round finds is not laid any more
         falling, props = _falling(bricks, supports, contacts, need, catalogue, add=left > 0)
-        giving, bears = nothing, True
+        giving, bears = np.zeros(len(contacts.cells), dtype=bool), True
         if way != "columns" and len(contacts.cells):
             giving, bears = _giving(contacts, supports, need, catalogue, hold)
         better = contacts
@@ -158,9 +157,8 @@ def _bare(bricks: Bricks, need: Need, contacts: Contacts, catalogue: Catalogue) 
     """Return the plan that puts nothing under a piece."""
     nothing = bricks.take(np.zeros(0, dtype=np.int64))
     none = Contacts(contacts.cells[:0], contacts.carried[:0], contacts.load[:0], contacts.straight[:0])
-    everything = connect(bricks, catalogue).pairs
-    moves = ordered(bricks, everything, temporary=np.zeros(len(bricks), dtype=bool))
-    return Plan("none", nothing, none, tuple(tipping(moves, bricks, catalogue, everything)), True)
+    falling, _ = _falling(bricks, nothing, none, need, catalogue, add=False)
+    return Plan("none", nothing, none, tuple(falling), True)
 
 
 def _falling(
@@ -173,6 +171,7 @@ def _falling(
     props: list[int] = []
 
     def prop(tower: Tipping) -> tuple[int, int] | None:
+        """Note the underside that saves a tower."""
         best = _steadying(tower, contacts, need, props)
         if best is None:
             return None

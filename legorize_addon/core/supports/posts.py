@@ -12,7 +12,7 @@ import numpy as np
 
 from ..building.balance import STEADY, corners, inside
 from ..catalogue import Catalogue
-from ..connection import NOBODY, Connection, connect, stud_columns
+from ..connection import NOBODY, Connection, connect, middles, stud_columns
 from ..model import Bricks, Floats, Ints, Mask, Role, joined
 from ..units import PLATES_PER_BRICK
 from .boxes import INSIDE_COLOUR, OUTSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, joined_upwards, sizes_in
@@ -103,7 +103,8 @@ def _under(bricks: Bricks, catalogue: Catalogue, connection: Connection, mine: M
     chosen = [first]
     if not on_brick[first]:
         squares = np.column_stack([x, y])
-        middle = _middle(bricks.take(mine), catalogue) - connection.low[:2]
+        mass = catalogue.mass[bricks.part[mine]]
+        middle = mass @ middles(bricks.take(mine), catalogue) / mass.sum() - connection.low[:2]
         standing = np.flatnonzero(~on_brick)
         steady = [(_inside(squares[[*chosen, each]], middle), each) for each in standing.tolist()]
         while _inside(squares[chosen], middle) < STEADY and max(steady)[0] > _inside(squares[chosen], middle):
@@ -130,14 +131,6 @@ def _places(
             found.append((row, x, y, z - foot, len(below) > 0))
     row, x, y, length, on_brick = np.array(found, dtype=np.int64).reshape(-1, 5).T
     return row, x, y, length, on_brick.astype(bool)
-
-
-def _middle(bricks: Bricks, catalogue: Catalogue) -> Floats:
-    """Return the middle of the weight of bricks in studs, x and y."""
-    brick, columns = stud_columns(bricks, catalogue)
-    share = (catalogue.mass[bricks.part] / np.bincount(brick, minlength=len(bricks)))[brick]
-    middle: Floats = (columns[:, :2] + 0.5).T @ share / share.sum()
-    return middle
 
 
 def _inside(squares: Ints, middle: Floats) -> float:

@@ -14,7 +14,7 @@ from ..building.order import ordered
 from ..building.walk import Walk, walk
 from ..catalogue import Catalogue
 from ..connection import connect
-from ..model import Bricks, Ints, Mask, joined
+from ..model import Bricks, Ints, Mask, Role, joined
 from ..progress import Progress, silent
 from ..statics import HOLD
 from .need import Need, needed
@@ -23,7 +23,6 @@ from .posts import with_inside_carried
 from .room import Room, room_around
 
 Wish = Literal["best", Way]
-
 
 WAYS: Final[tuple[Way, ...]] = ("tree", "columns", "beams")
 """Kinds of supports, the one that is mostly best first."""
@@ -61,8 +60,6 @@ class Supports:
     ----------
     bricks : Bricks
         The model with all that stays in it, then the supports that are taken out.
-    temporary : (n,) bool array
-        Which are taken out again.
     contacts : Links
         What touches what while it is built.
     pieces : tuple of Piece
@@ -74,11 +71,16 @@ class Supports:
     """
 
     bricks: Bricks
-    temporary: Mask
     contacts: Links
     pieces: tuple[Piece, ...]
     moves: Moves
     walk: Walk
+
+    @property
+    def temporary(self) -> Mask:
+        """Which bricks are taken out again, (n,) bool."""
+        taken: Mask = self.bricks.role == Role.SUPPORT_OUTSIDE
+        return taken
 
     @property
     def stays(self) -> Bricks:
@@ -99,9 +101,10 @@ class Supports:
         lower, upper = self.contacts.pairs.T
         studs = self.contacts.studs
         n = len(self.bricks)
-        support = np.bincount(upper, studs * self.temporary[lower], n)
-        model = np.bincount(upper, studs * ~self.temporary[lower], n) + np.bincount(lower, studs, n)
-        return np.flatnonzero((support > 0) & (model <= support) & ~self.temporary)
+        temporary = self.temporary
+        support = np.bincount(upper, studs * temporary[lower], n)
+        model = np.bincount(upper, studs * ~temporary[lower], n) + np.bincount(lower, studs, n)
+        return np.flatnonzero((support > 0) & (model <= support) & ~temporary)
 
     @property
     def unsteady(self) -> tuple[Tipping, ...]:
@@ -127,7 +130,8 @@ def supported(
     catalogue : Catalogue
     wish : {"best", "tree", "columns", "beams", "none"}
         Kind of the supports that are taken out again; "best" is for each piece
-        the lightest of those that fail least, "none" adds nothing at all.
+        the lightest of those that fail least, beams only where they are low;
+        "none" adds nothing at all.
     deepest : int
         Plates that bricks may hang one under another while building.
     hold : float
@@ -143,17 +147,17 @@ def supported(
     for turn, number in enumerate(numbers):
         progress("supports", turn / len(numbers))
         # supports of the first piece are still there when the others are joined to it
-        room = room_around(connect(bricks, catalogue)) if number == 0 else None
+        room = room_around(connect(bricks, catalogue)) if number == 0 and len(numbers) > 1 else None
         pieces.append(_piece(bricks, np.flatnonzero(bricks.piece == number), catalogue, room, wish, deepest, hold))
     posts = [_numbered(piece.posts, number) for piece, number in zip(pieces, numbers, strict=True)]
     added = [_numbered(piece.plan.supports, number) for piece, number in zip(pieces, numbers, strict=True)]
     everything = joined([bricks, *posts, *added])
-    temporary = np.arange(len(everything)) >= len(everything) - sum(len(each) for each in added)
+    temporary = everything.role == Role.SUPPORT_OUTSIDE
     contacts = links(everything, catalogue, temporary=temporary)
     moves = ordered(everything, contacts.pairs, temporary=temporary)
     everything = replace(everything, step=moves.step_of(len(everything)))
     found = walk(moves, everything, catalogue, contacts, temporary=temporary)
-    return Supports(everything, temporary, contacts, tuple(pieces), moves, found)
+    return Supports(everything, contacts, tuple(pieces), moves, found)
 
 
 def _worth_trying(need: Need) -> tuple[Way, ...]:

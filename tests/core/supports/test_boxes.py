@@ -9,7 +9,8 @@ from hypothesis import given
 from legorize_addon.core.connection import NOBODY, connect
 from legorize_addon.core.model import Role
 from legorize_addon.core.supports.boxes import boxes_of, bricks_of_boxes, joined_upwards, sizes_in
-from legorize_addon.core.supports.columns import full_columns, pillars
+from legorize_addon.core.supports.columns import pillars
+from scripts.benchmarks.full_columns import full_columns
 from tests.core.supports.places import CATALOGUE, WHITE, ceilings, owners, triples
 
 

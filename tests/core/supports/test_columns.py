@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 
 from legorize_addon.core.connection import NOBODY
-from legorize_addon.core.supports.columns import FLAT, TALL_SIZES, columns, covered, full_columns, pillars, with_room
+from legorize_addon.core.supports.columns import columns, covered, pillars, with_room
+from scripts.benchmarks.full_columns import FLAT, TALL_SIZES, full_columns
 from tests.core.supports.places import assert_sound, ceiling, ceilings, room_under, triples
 
 OPEN = np.full((6, 6), 20)
