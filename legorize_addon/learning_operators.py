@@ -10,7 +10,6 @@ from typing import Any, Final
 import bpy
 import numpy as np
 
-from . import job
 from .core.catalogue import load_catalogue
 from .core.errors import BuildError
 from .core.layout.learning import learned_more, samples_text, version_of
@@ -95,18 +94,7 @@ class LEGORIZE_OT_learn(Working, bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Tell whether there is something to learn from, and why not."""
-        if job.running():
-            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
-        elif context.mode != "OBJECT":
-            cls.poll_message_set("Leave the edit mode first.")
-        elif not chosen_sources(context):
-            cls.poll_message_set("Select brick models, or objects with a surface.")
-        else:
-            return True
-        return False
+    nothing_chosen = "Select brick models, or objects with a surface."
 
     def _take_order(self, context: bpy.types.Context) -> Lessons:
         settings = settings_of(context.scene.legorize.settings)

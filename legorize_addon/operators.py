@@ -94,10 +94,24 @@ class Reporting:
 class Working(Reporting):
     """What takes long: done in a worker thread where there is a window, and straight through where there is none.
 
-    A class that has this one among its bases is an operator with two methods:
+    A class that has this one among its bases is an operator with the sentence
+    ``nothing_chosen``, to be shown where nothing is selected, and two methods:
     ``_take_order(context)`` returns what ``work(progress)`` can be called of, and
     ``_show(context, order, result)`` shows what came of it.
     """
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there is something to work on, and why not."""
+        if job.running():
+            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+        elif context.mode != "OBJECT":
+            cls.poll_message_set("Leave the edit mode first.")
+        elif not chosen_sources(context):
+            cls.poll_message_set(cls.nothing_chosen)
+        else:
+            return True
+        return False
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Work in a worker thread, so that Blender stays alive."""
@@ -169,18 +183,7 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Tell whether there is something to build, and why not."""
-        if job.running():
-            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
-        elif context.mode != "OBJECT":
-            cls.poll_message_set("Leave the edit mode first.")
-        elif not chosen_sources(context):
-            cls.poll_message_set("Select an object with a surface.")
-        else:
-            return True
-        return False
+    nothing_chosen = "Select an object with a surface."
 
     def _take_order(self, context: bpy.types.Context) -> Order:
         return order_of(context, chosen_sources(context), settings_of(context.scene.legorize.settings))

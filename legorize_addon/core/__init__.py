@@ -39,6 +39,6 @@
 ======================  ====================================================================
 
 ``units``, ``errors``, ``progress``, ``settings``, ``catalogue``, ``model``,
-``pieces`` and ``ranges`` hold what the stages share. Nothing in this folder
+``outline``, ``pieces`` and ``ranges`` hold what the stages share. Nothing in this folder
 imports ``bpy``.
 """

@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from .coverage import covered_area
 from .mesh import TriangleMesh
 from .model import Floats, Mask
+from .outline import corners, inside
 from .slicing import slice_mesh
 from .trajectories import linked
 from .units import BRICK, CELL_AREA, PLATE, PLATES_PER_BRICK, STUD
@@ -124,9 +124,7 @@ def _margin(cells: Mask, point: Floats) -> float:
     y, x = np.nonzero(cells)
     if len(x) == 0:
         return -np.inf
-    corners = np.concatenate([np.column_stack([x + dx, y + dy]) for dx in (0, 1) for dy in (0, 1)])
-    planes = ConvexHull(corners).equations
-    return float(-(planes[:, :2] @ point + planes[:, 2]).max())
+    return inside(corners(list(zip(x.tolist(), y.tolist(), strict=True))), point)
 
 
 def _centre_of_mass(mesh: TriangleMesh) -> Floats:

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from .connection import NOBODY, Connection
 from .model import Floats, Ints
+from .outline import beyond, hull, inside
 from .statics import EQUATIONS, Statics
 from .units import STUD
 
@@ -34,12 +34,11 @@ def tipping(equations: Statics, connection: Connection) -> Floats:
         Distance to the outline of the feet in mm, less than 0 outside of it; not
         a number for what hangs in the air, minus infinity for what is lifted.
     """
-    inside = np.full(connection.n_components, np.nan)
+    found = np.full(connection.n_components, np.nan)
     for number, members, feet in _bodies(equations, connection):
         place = _resultant(equations, members, feet[0, 2])
-        edges = ConvexHull(feet[:, :2]).equations
-        inside[number] = -np.inf if place is None else -(edges[:, :2] @ place + edges[:, 2]).max() * STUD
-    return inside
+        found[number] = -np.inf if place is None else inside(feet[:, :2], place) * STUD
+    return found
 
 
 def toppling(equations: Statics, connection: Connection) -> Floats:
@@ -64,10 +63,10 @@ def toppling(equations: Statics, connection: Connection) -> Floats:
         place = _resultant(equations, members, feet[0, 2])
         if place is None:
             continue
-        edges = ConvexHull(feet[:, :2]).equations
-        beyond = edges[:, :2] @ place + edges[:, 2]
-        if beyond.max() > 0:
-            motion[members] = _turning(equations.middle[members], edges[beyond.argmax()], feet[0, 2])
+        edges = hull(feet[:, :2])
+        over = beyond(edges, place)
+        if over.max() > 0:
+            motion[members] = _turning(equations.middle[members], edges[over.argmax()], feet[0, 2])
     return motion.reshape(-1)
 
 
@@ -98,6 +97,6 @@ def _turning(middle: Floats, edge: Floats, ground: float) -> Floats:
     """Return the motion of bricks that turn outwards about an edge, given its outer normal and offset, (n, 5)."""
     x, y, offset = edge
     above = middle[:, 2] - ground
-    beyond = middle[:, :2] @ edge[:2] + offset
+    out = middle[:, :2] @ edge[:2] + offset
     still = np.ones(len(middle))
-    return np.column_stack([x * above, y * above, -beyond, -y * still, x * still])
+    return np.column_stack([x * above, y * above, -out, -y * still, x * still])

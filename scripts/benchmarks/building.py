@@ -5,9 +5,8 @@ from __future__ import annotations
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Final
 
 from legorize_addon.core.building.order_file import build_order_csv
 from legorize_addon.core.catalogue import Catalogue, load_catalogue
@@ -16,14 +15,10 @@ from legorize_addon.core.mesh import TriangleMesh
 from legorize_addon.core.model import Bricks
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from tests.core.overhanging import overhanging
 
 from .followed import follow
-from .meshes import read_mesh
+from .supports import with_fixtures
 from .tables import Row, Table
-
-FIXTURE_SIZE: Final = 400.0
-"""Of the four fixtures in mm; they are scaled to the width anyway."""
 
 
 def measure(paths: Sequence[Path], *, widths: Sequence[int], split: int) -> list[Table]:
@@ -47,16 +42,10 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int], split: int) -> list
     rows = [
         _row(name, mesh, width, most)
         for width in widths
-        for name, mesh in _meshes(paths)
+        for name, mesh in with_fixtures(paths)
         for most in dict.fromkeys((1, split))
     ]
     return [Table("building", title, tuple(rows))]
-
-
-def _meshes(paths: Sequence[Path]) -> Iterator[tuple[str, TriangleMesh]]:
-    for path in paths:
-        yield path.stem, read_mesh(path)
-    yield from overhanging(FIXTURE_SIZE).items()
 
 
 def _row(name: str, mesh: TriangleMesh, width: int, most: int) -> Row:

@@ -85,7 +85,7 @@ def measure(paths: Sequence[Path], *, width: int, repeats: int) -> list[Table]:
     """
     catalogue = load_catalogue()
     found = []
-    for name, mesh in _meshes(paths):
+    for name, mesh in with_fixtures(paths):
         print(f"{name}, {width} studs", file=sys.stderr, flush=True)
         found.append(supported(name, mesh, width=width, repeats=repeats, catalogue=catalogue))
     facts = [_facts(each, catalogue) for each in found]
@@ -125,7 +125,8 @@ def supported(name: str, mesh: TriangleMesh, *, width: int, repeats: int, catalo
     return Supported(name, need, made | {BUILT: (build.supports.removed, build.timings["supports"])})
 
 
-def _meshes(paths: Sequence[Path]) -> Iterator[tuple[str, TriangleMesh]]:
+def with_fixtures(paths: Sequence[Path]) -> Iterator[tuple[str, TriangleMesh]]:
+    """Yield every model with its name, and the four fixtures with overhangs."""
     for path in paths:
         yield path.stem, read_mesh(path)
     yield from overhanging(FIXTURE_SIZE).items()

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from ..catalogue import Catalogue
 from ..connection import Rows, middles, stud_columns
 from ..model import Bricks, Floats, Ints
+from ..outline import beyond, corners, hull
 from .moves import Action, Moves
 
 STEADY: Final = 0.1
@@ -153,7 +153,7 @@ class _Towers:
         planes = self.hull[tower]
         if planes is None:
             planes = self.hull[tower] = hull(corners(cells))
-        return _within(planes, np.array([x, y])) < STEADY
+        return bool(-beyond(planes, np.array([x, y])).max() < STEADY)
 
     def _middle(self, tower: int) -> Floats:
         """Return the middle of a tower's weight in studs, x and y."""
@@ -173,24 +173,3 @@ class _Towers:
             self.hull[one] = None
         self.members[one] += self.members[other]
         self.fallen[one] = self.fallen[one] or self.fallen[other]
-
-
-def corners(cells: list[tuple[int, int]]) -> Floats:
-    """Return the corners of stud squares, (4 n, 2) float64."""
-    low = np.array(cells, dtype=np.float64)
-    return np.concatenate([low + shift for shift in ((0, 0), (1, 0), (0, 1), (1, 1))])
-
-
-def inside(points: Floats, place: Floats) -> float:
-    """Return the distance to the nearest edge of the convex hull of points, less than 0 outside."""
-    return _within(hull(points), place)
-
-
-def hull(points: Floats) -> Floats:
-    """Return the half-planes of the convex hull of points, (k, 3): outward normal and offset."""
-    planes: Floats = ConvexHull(points).equations
-    return planes
-
-
-def _within(planes: Floats, place: Floats) -> float:
-    return float(-(planes[:, :2] @ place + planes[:, 2]).max())

@@ -12,11 +12,12 @@ from typing import Final, Literal
 
 import numpy as np
 
-from ..building.balance import STEADY, Tipping, corners, inside, no_prop, tipping
+from ..building.balance import STEADY, Tipping, no_prop, tipping
 from ..building.order import ordered
 from ..catalogue import Catalogue
 from ..connection import Connection, Rows, connect
 from ..model import Bricks, Floats, Ints, Mask, Role, joined
+from ..outline import corners, inside
 from ..stability import Verdict, stability
 from .beams import beams
 from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, joined_upwards

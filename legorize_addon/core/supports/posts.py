@@ -10,10 +10,11 @@ from typing import Final
 
 import numpy as np
 
-from ..building.balance import STEADY, corners, inside
+from ..building.balance import STEADY
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, connect, middles, stud_columns
 from ..model import Bricks, Floats, Ints, Mask, Role, joined
+from ..outline import corners, inside
 from ..units import PLATES_PER_BRICK
 from .boxes import INSIDE_COLOUR, OUTSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, joined_upwards, sizes_in
 

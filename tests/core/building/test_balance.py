@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.building.balance import corners, inside, tipping
+from legorize_addon.core.building.balance import tipping
 from legorize_addon.core.building.order import ordered
 from legorize_addon.core.connection import connect
 from legorize_addon.core.stability import stability
@@ -60,10 +60,3 @@ def test_verdict_agrees_with_the_force_test():
         fell = bool(falling(bricks))
         tip = stability(bricks, CATALOGUE, connect(bricks, CATALOGUE)).tipping.min() < 0.8
         assert fell == tip, length
-
-
-def test_distance_inside_a_hull():
-    """The middle of a square is half a side inside; a point beside it as far outside as it is away."""
-    square = corners([(0, 0)])
-    assert inside(square, np.array([0.5, 0.5])) == pytest.approx(0.5)
-    assert inside(square, np.array([2.0, 0.5])) == pytest.approx(-1.0)
