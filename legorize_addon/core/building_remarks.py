@@ -68,7 +68,7 @@ def _staying(supports: Supports) -> Iterator[str]:
     outside = int(np.count_nonzero(supports.stays.role == Role.SUPPORT_KEPT))
     inside = sum(len(piece.posts) for piece in supports.pieces)
     for number, where in (
-        (outside, "in the model, under parts of it that touch nothing else"),
+        (outside, "in the model, under parts of it that would fall without them"),
         (inside, "inside, under closed ceilings"),
     ):
         if number:

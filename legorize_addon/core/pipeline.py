@@ -38,7 +38,7 @@ from .settings import Settings
 from .size import check_any, check_size, model_scale
 from .slicing import adaptive_heights, slice_mesh
 from .stability import Stability, Verdict, stability
-from .supports import Supports, supported, with_floating_carried
+from .supports import Supports, supported, with_falling_propped, with_floating_carried
 from .thickening import thickened
 from .trajectories import Trajectories, link_loops
 from .unit_bricks import unit_bricks
@@ -97,6 +97,10 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
         shell = held_together(_hollowed(grid, settings), plates=_in_plates(settings))
     shell, bricks, connection, found = _standing(grid, shell, settings, palette, catalogue, rng, stage, progress)
     with stage("supports"):
+        if settings.supports != "none":
+            bricks, connection, found = with_falling_propped(
+                bricks, catalogue, connection, found, hold=settings.hold, progress=progress
+            )
         supports, joints = _supported(bricks, connection, settings, catalogue, progress)
     if len(supports.stays) > len(bricks):
         with stage("stability"):

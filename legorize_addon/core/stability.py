@@ -66,9 +66,10 @@ class Stability:
     forces : (k,) float64 array
         Forces of ``statics`` in N: in balance, and borne by every contact if the
         model is stable.
-    motion : (n, 5) float64 array
-        Velocity along x, y, z and turning about x, y of each brick as the model
-        collapses, the greatest being 1; 0 unless that is proven.
+    yielding : (n, 5) float64 array
+        Velocity along x, y, z and turning about x, y of each brick in the motion
+        that the contacts stop least, the greatest being 1: the proof of a
+        collapse, or where the search left it undecided; 0 of what is stable.
     torn : (m, 2) int64 array
         Lower and upper brick of each contact that the collapse tears open, widest
         first: where to strengthen. ``NOBODY`` is a baseplate. Empty if nothing
@@ -90,7 +91,7 @@ class Stability:
     standing: Verdict
     unsupported: Ints
     forces: Floats
-    motion: Floats
+    yielding: Floats
     torn: Ints
     residual: float
     iterations: int
@@ -106,6 +107,11 @@ class Stability:
     def stable(self) -> bool:
         """Whether the model is proven to stand."""
         return self.verdict is Verdict.STABLE
+
+    @property
+    def motion(self) -> Floats:
+        """Motion of the bricks as the model collapses, (n, 5), as in ``yielding``; 0 unless that is proven."""
+        return self.yielding if self.standing is Verdict.COLLAPSES else np.zeros_like(self.yielding)
 
     @property
     def enough_hold(self) -> float:
@@ -173,17 +179,17 @@ def stability(
     if programme and not found.found and not found.collapse:
         progress("stability", 1.0)
         found = _programmed(equations, found, programme)
-    motion = np.zeros((len(bricks), EQUATIONS))
-    if found.collapse:
-        motion[equations.rows] = found.motion.reshape(-1, EQUATIONS) / np.abs(found.motion).max()
+    yielding = np.zeros((len(bricks), EQUATIONS))
+    if found.motion.any():
+        yielding[equations.rows] = found.motion.reshape(-1, EQUATIONS) / np.abs(found.motion).max()
     return Stability(
         component=connection.component.astype(np.int64),
         margin=_margins(equations, found.forces, len(bricks)),
         standing=_verdict(equations, found),
         unsupported=np.flatnonzero(~connection.grounded),
         forces=found.forces,
-        motion=motion,
-        torn=_torn(equations, motion),
+        yielding=yielding,
+        torn=torn_by(equations, yielding if found.collapse else np.zeros_like(yielding)),
         residual=float(np.abs(residual(equations, found.forces)).max(initial=0)),
         iterations=found.turns,
         tipping=tipping(equations, connection),
@@ -242,8 +248,21 @@ def _margins(equations: Statics, forces: Floats, n_bricks: int) -> Floats:
     return all_margins
 
 
-def _torn(equations: Statics, motion: Floats) -> Ints:
-    """List the pairs of bricks that a motion tears apart, widest gap first."""
+def torn_by(equations: Statics, motion: Floats) -> Ints:
+    """List the pairs of bricks that a motion tears apart.
+
+    Parameters
+    ----------
+    equations : Statics
+        The balance of the bricks that stand.
+    motion : (n, 5) float64 array
+        Of all bricks.
+
+    Returns
+    -------
+    (m, 2) int64 array
+        Lower and upper brick, ``NOBODY`` for a baseplate; the widest gap first.
+    """
     contacts = equations.contacts
     opening = equations.matrix.T @ motion[equations.rows].reshape(-1)
     opening[~np.isfinite(contacts.least) | (contacts.least == 0)] = 0

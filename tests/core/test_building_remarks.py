@@ -37,7 +37,7 @@ def test_nothing_to_tell():
 def test_post_that_stays_is_told():
     """A part that touches nothing else has one of one brick."""
     [sentence] = told(("3003", 0, 0, 0), ("3003", 0, 0, 6), posts=True)
-    assert sentence == "1 support brick stays in the model, under parts of it that touch nothing else."
+    assert sentence == "1 support brick stays in the model, under parts of it that would fall without them."
 
 
 def test_brick_in_the_air_is_named():

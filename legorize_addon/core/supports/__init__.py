@@ -5,6 +5,7 @@
 ``need``            which bricks need a support, and where it touches them
 ``room``            where supports may stand, and can be pulled out of again
 ``posts``           what stays: under what floats, and in closed hollows
+``props``           what stays under parts that would tear off or tip over in the finished model
 ``boxes``           supports before they are bricks
 ``tree``            trees: branches that meet on their way down
 ``columns``         straight columns
@@ -18,6 +19,7 @@
 from __future__ import annotations
 
 from .posts import with_floating_carried
+from .props import with_falling_propped
 from .whole import Supports, supported
 
-__all__ = ["Supports", "supported", "with_floating_carried"]
+__all__ = ["Supports", "supported", "with_falling_propped", "with_floating_carried"]

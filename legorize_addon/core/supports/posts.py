@@ -6,6 +6,7 @@ else would fall without one.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -20,6 +21,38 @@ from .boxes import INSIDE_COLOUR, OUTSIDE_COLOUR, Boxes, boxes_of, bricks_of_box
 
 GROUND: Final = 30
 """Plates that a post to a brick may be longer than one to the ground."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Places:
+    """Where posts can stand under some bricks: stud squares with free cells below, down to a brick or the ground.
+
+    Attributes
+    ----------
+    brick : (k,) int64 array
+        Row of the brick right above.
+    x, y, top : (k,) int64 arrays
+        Stud square and the plate at which the post ends, in cells of the connection.
+    length : (k,) int64 array
+        In plates.
+    on_brick : (k,) bool array
+        Whether the post stands on another brick, or on the ground.
+    """
+
+    brick: Ints
+    x: Ints
+    y: Ints
+    top: Ints
+    length: Ints
+    on_brick: Mask
+
+    def __len__(self) -> int:
+        """Return the number of places."""
+        return len(self.brick)
+
+    def take(self, rows: Ints) -> Places:
+        """Return some of the places."""
+        return Places(*(getattr(self, name)[rows] for name in self.__slots__))
 
 
 def with_floating_carried(bricks: Bricks, catalogue: Catalogue, connection: Connection) -> tuple[Bricks, Connection]:
@@ -98,28 +131,39 @@ def _under(bricks: Bricks, catalogue: Catalogue, connection: Connection, mine: M
     One post joins them to a brick below. On the ground they stand by themselves:
     posts are added there until the middle of their weight lies over the feet.
     """
-    row, x, y, length, on_brick = _places(bricks, catalogue, connection, mine)
+    under = places_below(bricks, catalogue, connection, mine)
     # a post on the ground leaves its part beside the model, one on a brick joins the two
-    first = int(np.lexsort((y, x, length + GROUND * ~on_brick))[0])
+    first = int(np.lexsort((under.y, under.x, under.length + GROUND * ~under.on_brick))[0])
     chosen = [first]
-    if not on_brick[first]:
-        squares = np.column_stack([x, y])
+    if not under.on_brick[first]:
+        squares = np.column_stack([under.x, under.y])
         mass = catalogue.mass[bricks.part[mine]]
         middle = mass @ middles(bricks.take(mine), catalogue) / mass.sum() - connection.low[:2]
-        standing = np.flatnonzero(~on_brick)
+        standing = np.flatnonzero(~under.on_brick)
         steady = [(_inside(squares[[*chosen, each]], middle), each) for each in standing.tolist()]
         while _inside(squares[chosen], middle) < STEADY and max(steady)[0] > _inside(squares[chosen], middle):
             chosen.append(max(steady)[1])
             steady = [(_inside(squares[[*chosen, each]], middle), each) for each in standing.tolist()]
-    tops = bricks.corner[row, 2] - connection.low[2]
-    boxes = np.concatenate([_post(int(x[k]), int(y[k]), int(tops[k]), int(length[k])) for k in chosen])
-    return boxes + np.array([*connection.low, 0, 0, 0], dtype=np.int32), int(row[first])
+    return np.concatenate([_post(connection, under, each) for each in chosen]), int(under.brick[first])
 
 
-def _places(
-    bricks: Bricks, catalogue: Catalogue, connection: Connection, mine: Mask
-) -> tuple[Ints, Ints, Ints, Ints, Mask]:
-    """List where posts can stand: the brick above, x, y, the length in plates, and whether a brick is below."""
+def places_below(bricks: Bricks, catalogue: Catalogue, connection: Connection, mine: Mask) -> Places:
+    """List where posts can stand under some bricks, but not on them.
+
+    Parameters
+    ----------
+    bricks : Bricks
+    catalogue : Catalogue
+    connection : Connection
+        Of these bricks.
+    mine : (n,) bool array
+        Which of them.
+
+    Returns
+    -------
+    Places
+        By brick.
+    """
     brick, columns = stud_columns(bricks, catalogue)
     own = mine[brick]
     brick, cells = brick[own], columns[own] - connection.low
@@ -129,9 +173,15 @@ def _places(
         below = np.flatnonzero(owner[:z, y, x] != NOBODY)
         foot = int(below[-1]) + 1 if len(below) else ground
         if foot < z and not (len(below) and mine[owner[foot - 1, y, x]]):
-            found.append((row, x, y, z - foot, len(below) > 0))
-    row, x, y, length, on_brick = np.array(found, dtype=np.int64).reshape(-1, 5).T
-    return row, x, y, length, on_brick.astype(bool)
+            found.append((row, x, y, z, z - foot, len(below) > 0))
+    row, x, y, top, length, on_brick = np.array(found, dtype=np.int64).reshape(-1, 6).T
+    return Places(row, x, y, top, length, on_brick.astype(bool))
+
+
+def kept_post(bricks: Bricks, connection: Connection, catalogue: Catalogue, places: Places, number: int) -> Bricks:
+    """Return the post at one place, in the colour of the brick on it if posts are made in it, ``SUPPORT_KEPT``."""
+    colour = _colour(int(bricks.colour[places.brick[number]]), catalogue)
+    return _bricks(_post(connection, places, number), catalogue, colour, Role.SUPPORT_KEPT)
 
 
 def _inside(squares: Ints, middle: Floats) -> float:
@@ -139,8 +189,10 @@ def _inside(squares: Ints, middle: Floats) -> float:
     return inside(corners([(int(x), int(y)) for x, y in squares]), middle)
 
 
-def _post(x: int, y: int, top: int, length: int) -> Boxes:
+def _post(connection: Connection, places: Places, number: int) -> Boxes:
     """Return a column of bricks with plates on top, whatever its length in plates."""
+    x, y, top, length = (int(each[number]) for each in (places.x, places.y, places.top, places.length))
     heights = [PLATES_PER_BRICK] * (length // PLATES_PER_BRICK) + [1] * (length % PLATES_PER_BRICK)
     floors = top - length + np.concatenate([[0], np.cumsum(heights)])
-    return boxes_of((x, y, int(floor), 1, 1, height) for floor, height in zip(floors, heights, strict=False))
+    boxes = boxes_of((x, y, int(floor), 1, 1, height) for floor, height in zip(floors, heights, strict=False))
+    return boxes + np.array([*connection.low, 0, 0, 0], dtype=np.int32)

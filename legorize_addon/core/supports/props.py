@@ -1,0 +1,172 @@
+"""Posts that stay where a whole model would fall: under what tips over, and under what tears off.
+
+What falls moves in a way that no forces stop; what may fall yields most in the
+motion with which the search for forces ended. A post below a place that sinks
+in that motion stops it, so each round adds one under every part that moves by
+itself, until forces in balance are found: the cutting plane method (Kelley 1960)
+with posts for cuts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+
+from ..catalogue import Catalogue
+from ..connection import NOBODY, Connection, components, connect, stud_columns
+from ..model import Bricks, Floats, Ints, Mask, joined
+from ..outline import corners, inside
+from ..progress import Progress, silent
+from ..stability import Stability, Verdict, stability, torn_by
+from ..statics import Statics
+from .posts import Places, kept_post, places_below
+
+ROUNDS: Final = 8
+"""Times that posts are added before a model is given up."""
+
+MOVING: Final = 1e-3
+"""Share of the fastest motion from which on a brick counts as moving."""
+
+FAST: Final = 0.2
+"""Share of the fastest sinking place from which on a part gets its post at once; others may not need any."""
+
+SOONER: Final = 2.0
+"""By what that share falls from round to round, so that all comes to rest soon."""
+
+SINKING: Final = 0.5
+"""Share of the fastest sinking place of a part from which on a shorter post is as good."""
+
+STEADY: Final = 1.0
+"""Studs that the weight of what tips over shall come to lie inside of its feet."""
+
+
+def with_falling_propped(
+    bricks: Bricks,
+    catalogue: Catalogue,
+    connection: Connection,
+    found: Stability,
+    *,
+    hold: float,
+    progress: Progress = silent,
+) -> tuple[Bricks, Connection, Stability]:
+    """Put posts under what falls, if it is proven to stand with them.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        A model in which nothing floats.
+    catalogue : Catalogue
+    connection : Connection
+        Of these bricks.
+    found : Stability
+        How they stand.
+    hold : float
+        Pull in N that one contact point bears.
+    progress : Progress
+        Told how far the search is.
+
+    Returns
+    -------
+    bricks : Bricks
+        All that came in, in their order, and then the posts, ``SUPPORT_KEPT``;
+        as they came where no posts are found with which the model stands.
+    connection : Connection
+        Of those.
+    found : Stability
+        How they stand.
+    """
+    propped = bricks, connection, found
+    for turn in range(ROUNDS):
+        if propped[2].standing is Verdict.STABLE:
+            break
+        places = _chosen(*propped, catalogue, fast=FAST / SOONER**turn)
+        if not len(places):
+            break
+        posts = [kept_post(propped[0], propped[1], catalogue, places, number) for number in range(len(places))]
+        more = joined([propped[0], *posts])
+        touching = connect(more, catalogue)
+        propped = more, touching, stability(more, catalogue, touching, hold=hold, programme=0, progress=progress)
+    return propped if propped[2].stable else (bricks, connection, found)
+
+
+def _chosen(bricks: Bricks, connection: Connection, found: Stability, catalogue: Catalogue, *, fast: float) -> Places:
+    """Return where posts go next: under each piece that tips over, or else under each part that sinks."""
+    tipping = np.flatnonzero(found.tipping < 0).tolist()
+    under = places_below(bricks, catalogue, connection, np.abs(found.yielding).max(axis=1) > MOVING)
+    if tipping:
+        chosen = [place for body in tipping for place in _steadying(bricks, connection, found, catalogue, body, under)]
+        return under.take(np.array(chosen, dtype=np.int64))
+    sinking = _sinking(bricks, connection, found.statics, found.yielding, under)
+    part = _parts(connection, found)[under.brick]
+    fastest: list[int] = []
+    for number in np.unique(part[sinking > fast * sinking.max(initial=MOVING)]):
+        rows = np.flatnonzero(part == number)
+        rows = rows[sinking[rows] >= SINKING * sinking[rows].max()]
+        fastest.append(int(rows[np.lexsort((-sinking[rows], under.length[rows]))[0]]))
+    return under.take(_apart(under, np.array(fastest, dtype=np.int64)))
+
+
+def _steadying(
+    bricks: Bricks, connection: Connection, found: Stability, catalogue: Catalogue, body: int, under: Places
+) -> Iterator[int]:
+    """Yield places at which posts to the ground keep a piece that tips over upright, one after the other."""
+    mine = connection.component == body
+    brick, columns = stud_columns(bricks, catalogue)
+    feet = columns[mine[brick] & (columns[:, 2] == bricks.corner[:, 2].min()), :2] - connection.low[:2]
+    squares = [(int(x), int(y)) for x, y in feet]
+    middle = _weight(found.statics, mine) - connection.low[:2]
+    left = np.flatnonzero(mine[under.brick] & ~under.on_brick)
+    steady = inside(corners(squares), middle)
+    while steady < STEADY and len(left):
+        after = np.array(
+            [inside(corners([*squares, (int(under.x[each]), int(under.y[each]))]), middle) for each in left]
+        )
+        best = int(np.lexsort((under.length[left], -np.minimum(after, STEADY)))[0])
+        if after[best] <= steady:
+            return
+        yield int(left[best])
+        squares.append((int(under.x[left[best]]), int(under.y[left[best]])))
+        steady = float(after[best])
+
+
+def _weight(equations: Statics, mine: Mask) -> Floats:
+    """Return the middle of the weight of some bricks, x and y in studs."""
+    own = mine[equations.rows]
+    weight = equations.loads.reshape(len(equations.rows), -1)[own, 2]
+    middle: Floats = weight @ equations.middle[own, :2] / weight.sum()
+    return middle
+
+
+def _parts(connection: Connection, found: Stability) -> Ints:
+    """Return what each brick stays together with as the model yields: contacts hold that do not tear, (n,)."""
+    n = len(found.yielding)
+    torn = torn_by(found.statics, found.yielding) @ (n, 1)
+    moving = (np.abs(found.yielding) > MOVING).any(axis=1)[connection.pairs].all(axis=1)
+    kept = moving & ~np.isin(connection.pairs.astype(np.int64) @ (n, 1), torn)
+    return components(connection.pairs[kept], n).astype(np.int64)
+
+
+def _sinking(bricks: Bricks, connection: Connection, equations: Statics, motion: Floats, under: Places) -> Floats:
+    """Return how fast the gap that a post would fill closes, (k,)."""
+    foot = under.top - under.length - 1
+    below = connection.owner[foot, under.y, under.x].astype(np.int64)
+    closing = -_rising(equations, motion, connection, under.brick, under)
+    return np.where(under.on_brick, closing + _rising(equations, motion, connection, below, under), closing)
+
+
+def _rising(equations: Statics, motion: Floats, connection: Connection, brick: Ints, under: Places) -> Floats:
+    """Return the upward velocity of bricks over the middles of stud squares, (k,); 0 where there is no brick."""
+    middle = np.zeros((len(motion), 3))
+    middle[equations.rows] = equations.middle
+    x, y = under.x + connection.low[0] + 0.5, under.y + connection.low[1] + 0.5
+    _, _, upward, about_x, about_y = motion[brick].T
+    rising: Floats = upward + about_x * (y - middle[brick, 1]) - about_y * (x - middle[brick, 0])
+    return np.where(brick == NOBODY, 0.0, rising)
+
+
+def _apart(under: Places, chosen: Ints) -> Ints:
+    """Return places in columns of their own, the first of each column."""
+    _, first = np.unique(np.stack([under.x[chosen], under.y[chosen]]), axis=1, return_index=True)
+    return chosen[np.sort(first)]
