@@ -103,13 +103,18 @@ def read_mesh(path: Path) -> TriangleMesh:
     n_faces = [len(body.faces) for body in bodies]
     first = np.cumsum([0, *(len(body.vertices) for body in bodies[:-1])])
     points = np.concatenate([body.vertices for body in bodies]) * MM_PER_METRE
+    images = [_image(body, linear_factor=path.suffix.lower() in _GLTF) for body in bodies]
+    # bodies share images, and as in Blender each enters once
+    album = {(image.shape, image.tobytes()): image for image in images}
+    rows = {key: row for row, key in enumerate(album)}
+    of_body = np.array([rows[image.shape, image.tobytes()] for image in images], dtype=np.int32)
     return TriangleMesh(
         vertices=points[:, [0, 2, 1]] * [1.0, -1.0, 1.0] if path.suffix.lower() in _Y_UP else points,
         faces=np.concatenate([body.faces + start for body, start in zip(bodies, first, strict=True)]).astype(np.int32),
         uvs=np.concatenate([_uvs(body) for body in bodies]),
-        face_image=np.repeat(np.arange(len(bodies), dtype=np.int32), n_faces),
-        images=tuple(_image(body, linear_factor=path.suffix.lower() in _GLTF) for body in bodies),
-        image_clamp=np.zeros(len(bodies), dtype=bool),
+        face_image=np.repeat(of_body, n_faces),
+        images=tuple(album.values()),
+        image_clamp=np.zeros(len(album), dtype=bool),
     )
 
 
