@@ -4,6 +4,7 @@
 ``sheets``          what is laid together: the cells of one height at one level
 ``shapes``          the parts in all their orientations, and their colours
 ``placements``      everything that may lie on a sheet
+``planes``          where a shape fits on a sheet
 ``problem``         the task of laying a sheet: placements and what each costs
 ``live``            the placements that can still be laid
 ``greedy``          the fast tier: the placement with the most expensive cells first

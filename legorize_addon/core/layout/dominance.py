@@ -34,10 +34,11 @@ def dominated(found: Placements, among: Shapes, must: Mask, cost: Floats) -> Mas
     """
     needed = found.totals(must)
     superfluous = np.zeros(len(found), dtype=bool)
+    partial = np.flatnonzero(needed < found.size)
     for inner, x, y in among.within:
         # the shape inside must have room for the must cells
         room = np.where(inner >= 0, among.size[inner], -1)
-        rows = np.flatnonzero((needed < found.size) & (needed <= room[found.shape]))
+        rows = partial[needed[partial] <= room[found.shape[partial]]]
         shape = found.shape[rows]
         corner = found.corner[rows]
         corner[:, 0] += x[shape]

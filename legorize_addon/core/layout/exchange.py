@@ -52,7 +52,7 @@ def fewer_small(problem: Problem, chosen: Index, rng: np.random.Generator) -> In
         single[problem.placements.cells[problem.placements.start[chosen[size[chosen] == 1]]]] = True
         offered = problem.placements.through(single)
         offered = offered[size[offered] > 1]
-        better = exchange(problem, chosen, offered, rng)
+        better = exchange(problem, chosen, offered, rng) if len(offered) else chosen
         if better is chosen:
             break
         chosen = better

@@ -7,22 +7,19 @@ colour it gets.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import reduce
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import COLOUR_ANY, COLOUR_EMPTY, Mask
+from ..model import COLOUR_ANY, Mask
+from .planes import Planes
 from .shapes import Index, Plane, Rows, Shapes, Whole
 from .sheets import Sheets
 
-Merge = Callable[[Plane, Plane], Plane]
-
-_FREE: Final = np.iinfo(np.int16).max
-"""Stands for a free colour where the smallest colour under a shape is looked for."""
+_ENTRIES: Final = 1 << 16
+"""Entries of padded sheets that are looked at together: they stay near the processor."""
 
 _SHEET_BITS: Final = 40
 """Bits below the number of the sheet in the keys: 8 of the shape, 16 each of y and x."""
@@ -63,7 +60,7 @@ class Placements:
     @property
     def size(self) -> Index:
         """Number of cells of each placement, shape (n,)."""
-        return np.diff(self.start)
+        return self.start[1:] - self.start[:-1]
 
     def entries(self, rows: Index) -> Index:
         """Return where in ``cells`` the cells of the given placements stand, one after the other."""
@@ -107,14 +104,21 @@ class Placements:
         Placements
             As if listed for these sheets alone.
         """
-        number = np.full(len(n_cells), -1, dtype=np.int64)
-        number[which] = np.arange(len(which))
-        part = self.take(np.flatnonzero(number[self.corner[:, 2]] >= 0))
-        sheet = part.corner[:, 2]
-        gone = np.cumsum(np.where(number < 0, n_cells, 0))[sheet]
-        corner = np.column_stack([part.corner[:, :2], number[sheet]]).astype(np.int32)
-        key = part.key + ((number[sheet] - sheet) << _SHEET_BITS)
-        return Placements(part.shape, corner, part.colour, part.cells - np.repeat(gone, part.size), part.start, key)
+        first, end = np.searchsorted(self.key, np.stack([which, which + 1]) << _SHEET_BITS)
+        of_sheets = [slice(*each) for each in zip(first, end, strict=True)]
+        shape, corner, colour, size, key = (
+            np.concatenate([array[part] for part in of_sheets])
+            for array in (self.shape, self.corner, self.colour, self.size, self.key)
+        )
+        fewer = np.arange(len(which)) - which
+        corner[:, 2] += np.repeat(fewer, end - first).astype(np.int32)
+        # the cells of the sheets left out no longer count
+        kept, before = n_cells[which], np.cumsum(n_cells) - n_cells
+        gone = before[which] - (np.cumsum(kept) - kept)
+        entries = zip(self.start[first], self.start[end], gone, strict=True)
+        cells = np.concatenate([self.cells[low:high] - less for low, high, less in entries])
+        key += np.repeat(fewer.astype(np.int64) << _SHEET_BITS, end - first)
+        return Placements(shape, corner, colour, cells, np.append(0, np.cumsum(size)), key)
 
     def find(self, shape: Whole, corner: Whole) -> Index:
         """Look placements up.
@@ -138,21 +142,23 @@ class Placements:
 
 
 def segment_sums(values: Whole | Mask, end: Index) -> NDArray[np.int64]:
-    """Sum whole numbers over segments that follow one another; twice as fast as ``np.add.reduceat``.
+    """Sum whole numbers over segments that follow one another; faster than ``np.add.reduceat``.
 
     Parameters
     ----------
     values : (n,) integer or bool array
         What to sum.
     end : (n_segments,) intp array
-        Where each segment ends; the first one starts at 0.
+        Where each segment ends; the first one starts at 0, and none is empty.
 
     Returns
     -------
     (n_segments,) int64 array
         The sums.
     """
-    return np.diff(np.append(0, np.cumsum(values, dtype=np.int64))[end], prepend=0)
+    sums: NDArray[np.int64] = np.cumsum(values, dtype=np.int64)[end - 1]
+    sums[1:] -= sums[:-1].copy()
+    return sums
 
 
 def _key(shape: Whole, corner: Whole) -> NDArray[np.int64]:
@@ -164,10 +170,6 @@ def _key(shape: Whole, corner: Whole) -> NDArray[np.int64]:
 
 def placements(sheets: Sheets, among: Shapes) -> Placements:
     """Enumerate everything that may be laid on some sheets.
-
-    The smallest and the greatest colour under a shape are found for all places
-    at once, by merging shifted copies of the sheets; where they agree, with the
-    free colour above and forbidden cells below all others, the shape fits.
 
     Parameters
     ----------
@@ -181,88 +183,30 @@ def placements(sheets: Sheets, among: Shapes) -> Placements:
     Placements
         On all of the sheets.
     """
-    planes = _Planes.of(sheets, among)
-    found = [planes.fitting(shape, among.made[row]) for row, shape in enumerate(among.cells)]
+    at_once = max(_ENTRIES // max(sheets.colour[0].size, 1), 1)
+    firsts = range(0, len(sheets), at_once)
+    before = np.append(0, np.cumsum(sheets.n_cells))
+    parts = [_listed(sheets.take(slice(first, first + at_once)), among, first, before[first]) for first in firsts]
+    shape, corner, code, cells = (np.concatenate(each) for each in zip(*parts, strict=True))
+    return Placements(shape, corner, code, cells, np.append(0, np.cumsum(among.size[shape])), _key(shape, corner))
+
+
+def _listed(
+    sheets: Sheets, among: Shapes, first_sheet: int, first_cell: int
+) -> tuple[NDArray[np.uint8], Rows, Plane, Index]:
+    """Return shape, corner, colour and cells of the placements on some sheets, given how many lie before them."""
+    planes = Planes.of(sheets, among)
+    found = planes.fitting(among)
     shape = np.repeat(np.arange(len(found), dtype=np.uint8), [len(places) for places, _ in found])
     place = np.concatenate([places for places, _ in found])
-    colour = np.concatenate([colours for _, colours in found])
+    column = np.concatenate([columns for _, columns in found])
     # sixteen bits: numpy then sorts by radix, in linear time
     order = np.argsort((place // planes.extent).astype(np.uint16), kind="stable")
-    shape, place, colour = shape[order], place[order], colour[order]
-    code = np.where(colour < 0, among.hidden[shape], np.append(among.codes, np.int16(COLOUR_ANY))[colour])
-    cells, start = planes.covered(shape, place, among)
+    shape, place, column = shape[order], place[order], column[order]
+    code = np.where(column < 0, among.hidden[shape], np.append(among.codes, np.int16(COLOUR_ANY))[column])
     # the padding lies on the far sides, so places count from the corner of the sheet
     sheet, within = np.divmod(place, planes.extent)
     y, x = np.divmod(within, planes.stride)
-    corner = np.stack([x, y, sheet], axis=1).astype(np.int32)
-    return Placements(shape, corner, code, cells, start, _key(shape, corner))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Planes:
-    """Sheets as flat, padded planes one after the other, so that a shift is a slice.
-
-    Attributes
-    ----------
-    stride, extent : int
-        Entries of a row and of a sheet; the padding is as wide as the longest shape.
-    least, most : (n,) int16 arrays
-        Column of the colour in ``Shapes.made``; free colours count as the
-        greatest in `least` and as -1 in `most`, forbidden cells the other way.
-    must : (n,) int16 array
-        1 where the cell has to be covered.
-    number : (n,) intp array
-        Number of the cell, of no meaning where it is forbidden.
-    """
-
-    stride: int
-    extent: int
-    least: Plane
-    most: Plane
-    must: Plane
-    number: Index
-
-    @classmethod
-    def of(cls, sheets: Sheets, among: Shapes) -> _Planes:
-        """Pad the sheets on the far sides."""
-        reach = int(among.extent.max()) - 1
-        padding = ((0, 0), (0, reach + 1), (0, reach))
-        colour = np.pad(sheets.colour, padding, constant_values=COLOUR_EMPTY)
-        must = np.pad(sheets.must, padding).astype(np.int16)
-        empty, free = colour == COLOUR_EMPTY, colour == COLOUR_ANY
-        column = np.searchsorted(among.codes, colour).astype(np.int16)
-        return cls(
-            stride=colour.shape[2],
-            extent=colour[0].size,
-            least=np.where(empty, np.int16(-1), np.where(free, np.int16(_FREE), column)).reshape(-1),
-            most=np.where(empty, np.int16(_FREE), np.where(free, np.int16(-1), column)).reshape(-1),
-            must=must.reshape(-1),
-            number=np.cumsum(~empty, dtype=np.intp) - 1,
-        )
-
-    def offsets(self, covered: Rows) -> Index:
-        """Return the cells of a shape as offsets in the flat planes, shape (k,)."""
-        return covered[:, 0] + covered[:, 1] * np.intp(self.stride)
-
-    def fitting(self, covered: Rows, made: Mask) -> tuple[Index, Plane]:
-        """Return where a shape fits, and the column of the colour it takes there."""
-        offsets = self.offsets(covered)
-        length = len(self.least) - int(offsets.max())
-        least, most, must = (
-            reduce(merge, (plane[offset : offset + length] for offset in offsets))
-            for plane, merge in ((self.least, np.minimum), (self.most, np.maximum), (self.must, np.maximum))
-        )
-        places = np.flatnonzero((least >= most) & (must > 0))
-        # all colours under the shape agree: this is the one, or -1, the last column
-        colours = most[places]
-        exists = made[colours]
-        return places[exists], colours[exists]
-
-    def covered(self, shape: NDArray[np.uint8], place: Index, among: Shapes) -> tuple[Index, Index]:
-        """List the numbers of the cells of each placement, and where each one's list starts."""
-        size = among.size
-        start = np.append(0, np.cumsum(size[shape]))
-        offsets = self.offsets(np.concatenate(among.cells))
-        first = np.cumsum(size) - size
-        entry = np.arange(start[-1]) + np.repeat(first[shape] - start[:-1], size[shape])
-        return self.number[np.repeat(place, size[shape]) + offsets[entry]], start
+    low_x, low_y = planes.low
+    corner = np.stack([x + low_x, y + low_y, sheet + first_sheet], axis=1).astype(np.int32)
+    return shape, corner, code, planes.covered(shape, place, among) + first_cell

@@ -15,15 +15,15 @@ from typing import Final
 
 import numpy as np
 from scipy.ndimage import maximum_filter
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ..catalogue import Catalogue
-from ..connection import NOBODY, Connection, connect
-from ..model import COLOUR_ANY, COLOUR_EMPTY, Bricks, Cover, Floats, Mask, UnitGrid
+from ..connection import NOBODY, Connection, components, connect, stud_columns
+from ..joints import agree
+from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Mask, UnitGrid
 from ..progress import Progress
 from .exchange import exchange
 from .placements import Placements, placements
+from .planes import spread
 from .problem import GROUND, owners, pose, with_margins
 from .shapes import Index, Plane, Rows, Shapes
 from .sheets import Sheets
@@ -87,99 +87,120 @@ def connect_loose(
     links = connect(bricks, catalogue)
     if links.n_components <= 1:
         return bricks
-    must, island = with_margins(grid.cover == Cover.MUST, False), _islands(with_margins(grid.colour, COLOUR_EMPTY))
-    cells, way = _Cells.of(links, must, island), 0
+    must = with_margins(grid.cover == Cover.MUST, False)
+    islands = _Islands.of(with_margins(grid.colour, COLOUR_EMPTY), owners(links, must.shape), links.component)
+    loose = _loose(bricks, links, islands, catalogue)
+    cells, way = _Cells.of(bricks, links, must, loose, catalogue), 0
     for number in range(_ROUNDS):
         if not cells.n_loose or way == len(_WAYS):
             break
         progress("connection", number / _ROUNDS)
         patch, parity = _WAYS[way]
-        tried = gathered(
-            [
-                _joined(bricks.take(np.isin(bricks.part, among.part)), sheets, among, cells, patch, parity, rng)
-                for sheets, among in work
-            ]
-        )
+        parts = [bricks.take(np.isin(bricks.part, among.part)) for _, among in work]
+        relaid = [
+            _joined(part, sheets, among, cells, patch, parity, rng)
+            for part, (sheets, among) in zip(parts, work, strict=True)
+        ]
+        if all(new is part for new, part in zip(relaid, parts, strict=True)):
+            way += 1
+            continue
+        tried = gathered(relaid)
         tried_links = connect(tried, catalogue)
-        tried_cells = _Cells.of(tried_links, must, island)
-        before, after = cells.n_loose, tried_cells.n_loose
+        loose = _loose(tried, tried_links, islands, catalogue)
+        before, after = cells.n_loose, int(np.count_nonzero(loose))
         if after < before and tried_links.n_floating <= links.n_floating:
-            bricks, links, cells = tried, tried_links, tried_cells
+            bricks, links = tried, tried_links
+            cells = _Cells.of(bricks, links, must, loose, catalogue)
         way = 0 if after < _PROGRESS * before else way + 1
     return bricks
 
 
-def _islands(colour: Plane) -> Rows:
-    """Find the sets of cells that bricks could hold together, by stacking and by lying across one colour.
+@dataclass(frozen=True, slots=True, eq=False)
+class _Islands:
+    """The sets of cells that bricks could hold together, by stacking and by lying across one colour.
 
-    Parameters
+    Attributes
     ----------
-    colour : (n_z, n_y, n_x) int16 array
-        LDraw code, ``COLOUR_ANY`` or ``COLOUR_EMPTY``.
-
-    Returns
-    -------
-    (n_z, n_y, n_x) int32 array
-        The island of each cell, of no meaning in empty ones.
+    node : (n_z, n_y, n_x) int32 array
+        What each cell belongs to: a component of bricks, itself, or ``NOBODY``.
+    of_node : (n_nodes,) int32 array
+        The island of each node.
     """
-    filled = colour != COLOUR_EMPTY
-    number = np.cumsum(filled).reshape(colour.shape) - 1
-    pairs = []
-    for axis in range(3):
-        near, far = (np.moveaxis(colour, axis, 0)[part] for part in (slice(None, -1), slice(1, None)))
-        one, other = (np.moveaxis(number, axis, 0)[part] for part in (slice(None, -1), slice(1, None)))
-        agree = (near != COLOUR_EMPTY) & (far != COLOUR_EMPTY)
-        if axis > 0:
-            agree &= (near == far) | (near == COLOUR_ANY) | (far == COLOUR_ANY)
-        pairs.append(np.stack([one[agree], other[agree]]))
-    one, other = np.concatenate(pairs, axis=1)
-    n_cells = int(np.count_nonzero(filled))
-    graph = coo_array((np.ones(len(one), dtype=bool), (one, other)), shape=(n_cells, n_cells))
-    island = np.zeros(colour.shape, dtype=np.int32)
-    island[filled] = connected_components(graph, directed=False)[1]
-    return island
+
+    node: Rows
+    of_node: Rows
+
+    @classmethod
+    def of(cls, colour: Plane, owner: Rows, component: Rows) -> _Islands:
+        """Find the islands of cells, given their colours, the brick in each, and the component of each brick."""
+        node = np.append(component, np.int32(NOBODY))[owner]
+        free = np.flatnonzero((owner == NOBODY) & (colour != COLOUR_EMPTY))
+        n_known = int(component.max(initial=NOBODY)) + 1
+        # what the bricks of a component cover is held together already
+        node.reshape(-1)[free] = np.arange(n_known, n_known + len(free))
+        pairs = np.concatenate([_meeting(node.reshape(-1), colour, axis) for axis in range(3)])
+        return cls(node, components(pairs, n_known + len(free)))
+
+
+def _meeting(node: Rows, colour: Plane, axis: int) -> Rows:
+    """Return pairs of different nodes, (n, 2), whose cells follow each other along an axis and can be held together."""
+    length, step = colour.shape[axis], int(np.prod(colour.shape[axis + 1 :]))
+    cell = np.flatnonzero(node[:-step] != node[step:])
+    cell = cell[(node[cell] != NOBODY) & (node[cell + step] != NOBODY) & (cell // step % length != length - 1)]
+    if axis > 0:
+        cell = cell[agree(colour.reshape(-1)[cell], colour.reshape(-1)[cell + step])]
+    return np.stack([node[cell], node[cell + step]], axis=1)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Cells:
-    """All cells of a model, shape (n_plates + 2, n_y, n_x): one empty plane below and one above.
+    """The cells of a model and what is loose in it.
 
     Attributes
     ----------
-    owner : int32 array
-        Row of the brick, ``NOBODY`` or ``GROUND``.
-    label : int32 array
-        0 in the main component of each island, a number for each loose
-        component, -1 where there is no brick.
-    must : bool array
+    owner : (n_plates + 2, n_y, n_x) int32 array
+        Row of the brick, ``NOBODY`` or ``GROUND``, with one empty plane below and one above.
+    must : (n_plates + 2, n_y, n_x) bool array
         Cells that have to be covered.
+    label : (n + 2,) int32 array
+        For each brick 0 in the main component of its island, a number for each
+        loose component; then -1 for the ground and for nobody.
+    reached : (n_plates + 2,) bool array
+        Planes in which a loose brick is.
     n_loose : int
         Bricks in loose components.
     """
 
     owner: Rows
-    label: Rows
     must: Mask
+    label: Rows
+    reached: Mask
     n_loose: int
 
     @classmethod
-    def of(cls, links: Connection, must: Mask, island: Rows) -> _Cells:
-        """Label the cells of a model, given the islands that it consists of."""
+    def of(cls, bricks: Bricks, links: Connection, must: Mask, loose: Mask, catalogue: Catalogue) -> _Cells:
+        """Label the bricks of a model, given those that are loose."""
         owner = owners(links, must.shape)
-        built = owner != NOBODY
-        home = np.zeros(len(links.component), dtype=np.int32)
-        home[owner[built]] = island[built]
-        loose = _loose(links, home)
-        label = np.append(np.where(loose, links.component + 1, 0), -1).astype(np.int32)[owner]
-        owner[: built.any(axis=(1, 2)).argmax()] = GROUND
-        return cls(owner, label, must, int(np.count_nonzero(loose)))
+        owner[: must.any(axis=(1, 2)).argmax()] = GROUND
+        label = np.append(np.where(loose, links.component + 1, 0), [-1, -1]).astype(np.int32)
+        height = np.array([part.height for part in catalogue.parts])[bricks.part[loose]]
+        lowest = bricks.corner[loose, 2] + 1
+        ends = (np.bincount(plane, minlength=len(owner)) for plane in (lowest, lowest + height))
+        return cls(owner, must, label, np.cumsum(np.subtract(*ends)) > 0, int(np.count_nonzero(loose)))
+
+    def labels(self, sheets: Sheets) -> Rows:
+        """Return the labels below, above and in the cells of sheets, (3, n_sheets, n_y, n_x)."""
+        return self.label[self.owner[[sheets.level, sheets.level + sheets.height + 1, sheets.level + 1]]]
 
 
-def _loose(links: Connection, island: Rows) -> Mask:
+def _loose(bricks: Bricks, links: Connection, islands: _Islands, catalogue: Catalogue) -> Mask:
     """Tell which bricks are not in the main component of their island: the largest one, on the ground if any is."""
+    brick, column = stud_columns(bricks, catalogue)
     component, first, size = np.unique(links.component, return_index=True, return_counts=True)
-    order = np.lexsort((size, links.grounded[first], island[first]))
-    main = np.append(np.diff(island[first][order]) > 0, True)
+    x, y, z = column[np.searchsorted(brick, first)].T
+    island = islands.of_node[islands.node[z + 1, y, x]]
+    order = np.lexsort((size, links.grounded[first], island))
+    main = np.append(np.diff(island[order]) > 0, True)
     return ~np.isin(links.component, component[order[main]])
 
 
@@ -193,17 +214,18 @@ def _joined(
     rng: np.random.Generator,
 ) -> Bricks:
     """Offer joining bricks once, in the sheets of one height that a loose component reaches."""
-    labels = np.stack([cells.label[sheets.level + plate] for plate in (0, sheets.height + 1, 1)])
-    loose = (labels > 0).any(axis=0) & (sheets.colour != COLOUR_EMPTY)
-    reached = loose.any(axis=(1, 2))
+    reached = cells.reached[sheets.level[:, None] + [0, 1, sheets.height + 1]].any(axis=1)
     if parity is not None:
         reached &= sheets.level // sheets.height % 2 == parity
+    sheets = sheets.take(reached)
+    labels = cells.labels(sheets)
+    loose = (labels > 0).any(axis=0) & (sheets.colour != COLOUR_EMPTY)
+    reached = loose.any(axis=(1, 2))
     if not reached.any():
         return bricks
     sheets, labels, loose = sheets.take(reached), labels[:, reached], loose[reached]
-    near = maximum_filter(loose, size=(1, 2 * _REACH + 1, 2 * _REACH + 1))
     worthwhile = sheets.must | (cells.owner[sheets.level + 1] > NOBODY) | loose
-    found = placements(replace(sheets, must=near & worthwhile), among)
+    found = placements(replace(sheets, must=_near(loose) & worthwhile), among)
     problem = pose(sheets, among, found, cells.owner, cells.must)
     at = labels.reshape(3, -1)[:, sheets.cells]
     # what touches nothing above or below would be loose itself
@@ -215,8 +237,21 @@ def _joined(
     # bricks out of reach are not found and stay as they are
     row = found.find(among.rows_of(bricks.part[here], bricks.turn[here]), corner)
     offered, reward = _offers(found, at, max(_OFFERS[0], _OFFERS[1] * len(bricks)), rng)
-    chosen = exchange(problem, row[row >= 0], offered, rng, reward=reward, patch=patch)
+    lying = row[row >= 0]
+    chosen = exchange(problem, lying, offered, rng, reward=reward, patch=patch)
+    if chosen is lying:
+        return bricks
     return gathered([bricks.take(np.delete(np.arange(len(bricks)), here[row >= 0])), bricks_of(problem, chosen)])
+
+
+def _near(loose: Mask) -> Mask:
+    """Tell which cells are near those that are loose, (n_sheets, n_y, n_x)."""
+    near = np.zeros_like(loose)
+    for sheet, marked in zip(near, loose, strict=True):
+        # loose cells are few: only the part of a sheet around them is looked at
+        box = spread(marked.any(axis=1), _REACH), spread(marked.any(axis=0), _REACH)
+        sheet[box] = maximum_filter(marked[box], size=2 * _REACH + 1)
+    return near
 
 
 def _offers(found: Placements, labels: Rows, most: int, rng: np.random.Generator) -> tuple[Index, Floats]:

@@ -6,7 +6,8 @@ and so do the 12 plates.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -49,6 +50,9 @@ class Shapes:
     within : (n_most, 3, n_shapes) intp array
         The largest other shapes inside each shape: row, and where the corner
         lies, x and y; rows of -1 where a shape has fewer than others.
+    pieces : tuple of (k, 3) intp arrays
+        For each shape a few of these that cover it together: row, x and y.
+        Empty where there are none.
     codes : (n_codes,) int16 array
         LDraw codes of the grid, ascending.
     made : (n_shapes, n_codes + 1) bool array
@@ -66,6 +70,7 @@ class Shapes:
     inner: Mask
     pattern: NDArray[np.uint64]
     within: Index
+    pieces: tuple[Index, ...]
     codes: Plane
     made: Mask
     hidden: Plane
@@ -96,30 +101,42 @@ def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shap
     Shapes
         In the order of the catalogue, then by quarter turn.
     """
+    forms = _forms(catalogue, height)
+    codes = np.unique(codes)
+    # argmax finds the first colour in which a part is made
+    anywhere = catalogue.exists[forms.part]
+    in_filler = catalogue.exists_in(forms.part, filler)
+    return replace(
+        forms,
+        codes=codes,
+        made=np.column_stack([catalogue.exists_in(forms.part[:, None], codes), anywhere.any(axis=1)]),
+        hidden=np.where(in_filler, np.int16(filler), catalogue.codes[anywhere.argmax(axis=1)]),
+    )
+
+
+@lru_cache
+def _forms(catalogue: Catalogue, height: int) -> Shapes:
+    """Return the parts of one height in all their orientations, without any colour."""
     oriented = [
         (row, turn) for row, part in enumerate(catalogue.parts) if part.height == height for turn in range(part.turns)
     ]
     cells = tuple(footprint(catalogue.parts[row], turn) for row, turn in oriented)
-    part = np.array([row for row, _ in oriented], dtype=np.int16)
-    codes = np.unique(codes)
-    made = catalogue.exists_in(part[:, None], codes)
-    # argmax finds the first colour in which a part is made
-    anywhere = catalogue.exists[part]
-    in_filler = catalogue.exists_in(part, filler)
     extent = np.array([covered.max(axis=0) + 1 for covered in cells], dtype=np.intp)
     pattern = np.array([pattern_bits(*covered.T).sum(dtype=np.uint64) for covered in cells])
+    within = _parts_within(extent, pattern)
     return Shapes(
-        part=part,
+        part=np.array([row for row, _ in oriented], dtype=np.int16),
         turn=np.array([turn for _, turn in oriented], dtype=np.uint8),
         cells=cells,
         size=np.array([len(covered) for covered in cells], dtype=np.intp),
         extent=extent,
         inner=np.concatenate([_inner_edges(covered) for covered in cells], axis=1),
         pattern=pattern,
-        within=_parts_within(extent, pattern),
-        codes=codes,
-        made=np.column_stack([made, anywhere.any(axis=1)]),
-        hidden=np.where(in_filler, np.int16(filler), catalogue.codes[anywhere.argmax(axis=1)]),
+        within=within,
+        pieces=tuple(_pieces(within[:, :, row], pattern, whole) for row, whole in enumerate(pattern)),
+        codes=np.zeros(0, dtype=np.int16),
+        made=np.zeros((len(cells), 1), dtype=bool),
+        hidden=np.zeros(len(cells), dtype=np.int16),
     )
 
 
@@ -167,3 +184,14 @@ def _largest(patterns: NDArray[np.uint64], outer: np.uint64) -> Index:
     covered = ((inner[:, None] & ~inner) == 0) & (inner[:, None] != inner)
     largest: Index = within[~covered.any(axis=1)]
     return largest
+
+
+def _pieces(inner: Index, pattern: NDArray[np.uint64], whole: np.uint64) -> Index:
+    """Return rows of `inner` that cover a shape together, none if all of them do not."""
+    taken, covered = [], np.uint64(0)
+    for row, x, y in inner[inner[:, 0] >= 0]:
+        moved = pattern[row] << np.uint64(x + _PATTERN_SIDE * y)
+        if moved & ~covered:
+            taken.append((row, x, y))
+            covered |= moved
+    return np.array(taken if covered == whole else [], dtype=np.intp).reshape(-1, 3)

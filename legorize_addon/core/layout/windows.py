@@ -10,21 +10,22 @@ cut off by a constraint each, as subtours are in the travelling salesman problem
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from ..catalogue import Catalogue
-from ..connection import NOBODY, Connection, connect
+from ..connection import NOBODY, Connection, components, connect
 from ..joints import Touching, agree, brick_columns, every_plate
 from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Ints, Mask, UnitGrid
 from ..progress import Progress
+from ..units import PLATES_PER_BRICK
 from .placements import Placements, placements
 from .problem import GROUND, Problem, owners, pose, with_margins
+from .programme import WHOLE
 from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
 from .table import bricks_of, gathered
@@ -41,8 +42,11 @@ _CUTS: Final = 12
 _CONTACTS: Final = 6
 """Most places tried for one loose component."""
 
-_TRIES: Final = (60, 150_000)
+_TRIES: Final = (100, 600_000)
 """Most windows in all, and most bricks looked at in all of them together."""
+
+_FAR: Final = (2 * PLATES_PER_BRICK, 22, 22)
+"""Plates and studs (z, y, x) beyond which a window laid anew does not change another one."""
 
 
 def join_by_windows(
@@ -71,98 +75,117 @@ def join_by_windows(
     Bricks
         Covers the same must cells, in fewer components where windows could join them.
     """
-    must = with_margins(grid.cover == Cover.MUST, False)
-    touching = Touching.of(grid.solid)
-    tried: set[tuple[int, ...]] = set()
     links = connect(bricks, catalogue)
+    if links.n_components <= 1:
+        return bricks
+    must, beside = with_margins(grid.cover == Cover.MUST, False), _beside(grid)
+    model = _Model.of(bricks, links, must)
+    places, tried = _contacts(model, beside), set[tuple[int, ...]]()
     tries = min(_TRIES[0], _TRIES[1] // len(bricks))
     for number in range(tries):
-        if links.n_components <= 1:
-            break
-        place = next((each for each in _contacts(links, grid, touching) if each not in tried), None)
+        place = next((each for each in places if each not in tried), None)
         if place is None:
             break
         progress("connection", number / tries)
         tried.add(place)
-        for sheets, among in work:
-            relaid = _relaid(bricks, links, sheets, among, place, must, catalogue)
-            found = connect(relaid, catalogue)
-            if (found.n_floating, found.n_components) < (links.n_floating, links.n_components):
-                bricks, links = relaid, found
-                tried.clear()
-                break
-    return bricks
+        relaid = (_relaid(model, sheets, among, place, must) for sheets, among in work)
+        better = next((each for each in relaid if each is not None), None)
+        if better is not None:
+            model = _Model.of(better, connect(better, catalogue), must)
+            places = _contacts(model, beside)
+            tried = {each for each in tried if (np.abs(np.subtract(each, place)) > _FAR).any()}
+    return model.bricks
 
 
-def _contacts(links: Connection, grid: UnitGrid, touching: Touching) -> Iterator[tuple[int, ...]]:
-    """Yield cells (plate, y, x) of loose components beside others that one part could cover, smaller ones first."""
-    n_z, n_y, n_x = links.owner.shape
-    owner = np.full((len(grid.colour) * grid.colour.shape[1], *grid.colour.shape[2:]), NOBODY)
-    owner[:n_z, :n_y, :n_x] = links.owner
-    component = np.append(links.component, NOBODY)[owner.reshape(-1)[touching.cell]]
+@dataclass(frozen=True, slots=True, eq=False)
+class _Model:
+    """A model between two windows.
+
+    Attributes
+    ----------
+    bricks : Bricks
+    links : Connection
+        The bricks as a graph.
+    owner : (n_plates + 2, n_y, n_x) int32 array
+        Brick in each cell, ``NOBODY`` or ``GROUND``, with the planes of :func:`with_margins`.
+    """
+
+    bricks: Bricks
+    links: Connection
+    owner: Rows
+
+    @classmethod
+    def of(cls, bricks: Bricks, links: Connection, must: Mask) -> _Model:
+        """Look up which cells bricks lie in, given those that have to be covered."""
+        owner = owners(links, must.shape)
+        owner[: must.any(axis=(1, 2)).argmax()] = GROUND
+        return cls(bricks, links, owner)
+
+    def without(self, out: Ints) -> Rows:
+        """Return the component of each brick, (n,), when some are left out, each of which has a number of its own."""
+        there = np.ones(len(self.bricks), dtype=bool)
+        there[out] = False
+        return components(self.links.pairs[there[self.links.pairs].all(axis=1)], len(there))
+
+
+def _beside(grid: UnitGrid) -> Ints:
+    """Return the pairs of cells side by side that one part could cover, (2, n), as flat indices among all plates."""
+    touching = Touching.of(grid.solid)
     whole = every_plate(brick_columns(grid)[0]).reshape(-1)[touching.cell]
     colour = touching.laid(grid.colour.reshape(-1)[touching.cell], whole)
     a, b = touching.sideways
-    meet = (
-        agree(colour[a], colour[b])
-        & (whole[a] == whole[b])
-        & (component[a] != component[b])
-        & (component[[a, b]] != NOBODY).all(axis=0)
-    )
-    a, b = a[meet], b[meet]
-    size = np.bincount(links.component)
+    meet = agree(colour[a], colour[b]) & (whole[a] == whole[b])
+    return touching.cell[touching.sideways[:, meet]]
+
+
+def _contacts(model: _Model, beside: Ints) -> Iterator[tuple[int, ...]]:
+    """Yield cells (plate, y, x) of loose components beside others that one part could cover, smaller ones first."""
+    planes = model.owner[1:-1]
+    # neither nobody nor the ground has a component
+    component = np.append(model.links.component, [NOBODY, NOBODY])[planes.reshape(-1)[beside]]
+    meet = (component[0] != component[1]) & (component != NOBODY).all(axis=0)
+    (a, b), (of_a, of_b) = beside[:, meet], component[:, meet]
+    size = np.bincount(model.links.component)
     order = np.argsort(size, kind="stable")
     for loose in order[:-1]:
-        cells = np.concatenate([a[component[a] == loose], b[component[b] == loose]])
+        cells = np.concatenate([a[of_a == loose], b[of_b == loose]])
         spread = cells[np.unique(np.linspace(0, len(cells) - 1, _CONTACTS).astype(int))] if len(cells) else cells
-        for cell in touching.cell[spread]:
-            yield tuple(int(each) for each in np.unravel_index(cell, owner.shape))
+        for cell in spread:
+            yield tuple(int(each) for each in np.unravel_index(cell, planes.shape))
 
 
-def _relaid(
-    bricks: Bricks,
-    links: Connection,
-    sheets: Sheets,
-    among: Shapes,
-    place: tuple[int, ...],
-    must: Mask,
-    catalogue: Catalogue,
-) -> Bricks:
-    """Lay the bricks of one sheet around a place anew."""
+def _relaid(model: _Model, sheets: Sheets, among: Shapes, place: tuple[int, ...], must: Mask) -> Bricks | None:
+    """Lay the bricks of one sheet around a place anew; None if the model is not better for it."""
     level, y, x = place
     rows = np.flatnonzero((sheets.level <= level) & (level < sheets.level + sheets.height))
     if len(rows) == 0 or sheets.colour[rows[0], y, x] == COLOUR_EMPTY:
-        return bricks
+        return None
     sheet = sheets.take(slice(rows[0], rows[0] + 1))
     base = int(sheet.level[0])
     box = (slice(max(y - _REACH, 0), y + _REACH + 1), slice(max(x - _REACH, 0), x + _REACH + 1))
-    plane = links.owner[base] if base < len(links.owner) else np.zeros((0, 0), dtype=np.int32)
+    plane = model.owner[base + 1]
     out = np.unique(plane[box])
-    out = out[(out != NOBODY) & np.isin(bricks.part[out], among.part)]
-    kept = bricks.take(np.delete(np.arange(len(bricks)), out))
-    left = connect(kept, catalogue)
+    out = out[(out > NOBODY) & np.isin(model.bricks.part[out], among.part)]
     window = _window(sheet, plane, out, box)
-    owner = owners(left, must.shape)
-    owner[: must.any(axis=(1, 2)).argmax()] = GROUND
-    problem = pose(window, among, placements(window, among), owner, must)
-    labels = np.append(left.component, [-1, -1])[owner[[base, base + sheet.height + 1]]].reshape(2, -1)[:, window.cells]
-    touches, known = _touches(problem.placements, labels)
+    problem = pose(window, among, placements(window, among), model.owner, must)
+    component = model.without(out)
+    # what lies below and above is in other sheets, so none of it was taken out
+    around = model.owner[[base, base + sheet.height + 1]].reshape(2, -1)[:, window.cells]
+    touches, known = _touches(problem.placements, np.append(component, [NOBODY, NOBODY])[around])
     # the component of the model that each of those left was a piece of
-    home = np.zeros(left.n_components, dtype=np.int64)
-    home[left.component] = np.delete(links.component, out)
-    chosen = _solved(problem, touches, home[known], int(links.component[links.owner[place]]))
-    return bricks if chosen is None else gathered([kept, bricks_of(problem, chosen)])
+    home = np.zeros(len(component), dtype=np.int64)
+    home[component] = model.links.component
+    chosen = _solved(problem, touches, home[known], int(model.links.component[model.owner[level + 1, y, x]]))
+    if chosen is None or not _better(model, component, out, known, touches[:, chosen], base):
+        return None
+    kept = model.bricks.take(np.delete(np.arange(len(model.bricks)), out))
+    return gathered([kept, bricks_of(problem, chosen)])
 
 
 def _window(sheet: Sheets, plane: Rows, out: Ints, box: tuple[slice, slice]) -> Sheets:
     """Return the sheet with nothing but the cells of the bricks taken out, and the free ones of the box."""
-    inside = np.zeros(sheet.colour.shape[1:], dtype=bool)
-    n_y, n_x = plane.shape
-    inside[:n_y, :n_x] = np.isin(plane, out)
-    free = np.zeros_like(inside)
-    free[box] = True
-    free[:n_y, :n_x] &= plane == NOBODY
-    inside |= free & ~sheet.must[0]
+    inside = np.isin(plane, out)
+    inside[box] |= (plane[box] == NOBODY) & ~sheet.must[0][box]
     return replace(
         sheet,
         colour=np.where(inside, sheet.colour, np.int16(COLOUR_EMPTY)),
@@ -170,42 +193,47 @@ def _window(sheet: Sheets, plane: Rows, out: Ints, box: tuple[slice, slice]) -> 
     )
 
 
-def _touches(found: Placements, labels: Rows) -> tuple[csr_array, Ints]:
+def _touches(found: Placements, labels: Rows) -> tuple[Mask, Ints]:
     """Return which components are below or above each placement, (n_known, n), and their numbers, (n_known,)."""
     entry = np.tile(np.repeat(np.arange(len(found)), found.size), 2)
     label = labels[:, found.cells].ravel()
     known, row = np.unique(label[label >= 0], return_inverse=True)
-    table = csr_array((np.ones(len(row)), (row, entry[label >= 0])), shape=(len(known), len(found)))
-    table.data[:] = 1
+    table = np.zeros((len(known), len(found)), dtype=bool)
+    table[row, entry[label >= 0]] = True
     return table, known.astype(np.int64)
 
 
-def _solved(problem: Problem, touches: csr_array, home: Ints, loose: int) -> Index | None:
+def _solved(problem: Problem, touches: Mask, home: Ints, loose: int) -> Index | None:
     """Return the placements of least cost that cover the cells and join what they must; None if none do.
 
     Pieces of one component must come together again, and the loose one must be joined to another.
     """
     found = problem.placements
-    if len(found) == 0:
+    if len(found) == 0 or len(_cuts(touches, np.arange(len(found)), home, loose)):
         return None
-    cover = _covering(problem)
-    alone = touches.sum(axis=0) == 0
-    constraints = [LinearConstraint(cover, problem.must.astype(np.float64), 1.0)]
+    alone = ~touches.any(axis=0)
+    constraints = [LinearConstraint(_covering(problem), problem.must.astype(np.float64), 1.0)]
+    chosen = np.zeros(0, dtype=np.intp)
     for _ in range(_CUTS):
-        result = milp(
-            problem.cost + _ALONE * alone,
-            integrality=np.ones(len(found)),
-            bounds=Bounds(0, 1),
-            constraints=constraints,
-        )
-        if result.x is None:
-            return None
-        chosen = np.flatnonzero(result.x > 0.5)
         cuts = _cuts(touches, chosen, home, loose)
-        if len(cuts) == 0:
+        if len(cuts):
+            constraints.append(LinearConstraint(cuts, 1.0))
+        elif len(chosen):
             return chosen
-        constraints.append(LinearConstraint(cuts, 1.0))
+        share = _cheapest(problem.cost + _ALONE * alone, constraints)
+        if share is None:
+            return None
+        chosen = np.flatnonzero(share > 0.5)
     return None
+
+
+def _cheapest(cost: Floats, constraints: Sequence[LinearConstraint]) -> Floats | None:
+    """Return the cheapest shares that are 0 or 1; None if there are none."""
+    # the linear programme costs a quarter, and mostly its shares are whole
+    share = milp(cost, bounds=Bounds(0, 1), constraints=constraints, options={"presolve": False}).x
+    if share is not None and (np.abs(share - np.rint(share)) > WHOLE).any():
+        share = milp(cost, integrality=np.ones(len(cost)), bounds=Bounds(0, 1), constraints=constraints).x
+    return None if share is None else np.asarray(share)
 
 
 def _covering(problem: Problem) -> csr_array:
@@ -215,14 +243,53 @@ def _covering(problem: Problem) -> csr_array:
     return csr_array((np.ones(len(entry)), (found.cells, entry)), shape=(len(problem.must), len(found)))
 
 
-def _cuts(touches: csr_array, chosen: Index, home: Ints, loose: int) -> Floats:
+def _cuts(touches: Mask, chosen: Index, home: Ints, loose: int) -> Floats:
     """Return, for each set of components wrongly left apart, which placements would join it to others."""
-    if touches.shape[0] == 0:
-        return np.zeros((0, touches.shape[1]))
-    held = touches[:, chosen]
-    n_sets, member = connected_components(held @ held.T, directed=False)
-    inside = member == np.arange(n_sets)[:, None]
-    torn = np.array([np.isin(home[~each], home[each]).any() or (home[each] == loose).all() for each in inside])
-    reached = inside[torn].astype(np.float64) @ touches.toarray()
+    member = _joined(touches[:, chosen])
+    inside = member == np.unique(member)[:, None]
+    torn = np.array([np.isin(home[~each], home[each]).any() or (home[each] == loose).all() for each in inside], bool)
+    reached = inside[torn].astype(np.intp) @ touches
     cuts: Floats = ((reached > 0) & (reached < touches.sum(axis=0))).astype(np.float64)
     return cuts
+
+
+def _joined(held: Mask) -> Index:
+    """Return the first of the components that each is joined with, (k,), by bricks of which each holds some, (k, n)."""
+    together = np.eye(len(held), dtype=bool)
+    further = together | (held @ held.T)
+    while not np.array_equal(together, further):
+        together, further = further, further @ further
+    return together.argmax(axis=1)
+
+
+def _better(model: _Model, component: Rows, out: Ints, known: Ints, held: Mask, base: int) -> bool:
+    """Tell whether fewer bricks float than before, or as many and in fewer components.
+
+    Parameters
+    ----------
+    model : _Model
+        As it was.
+    component : (n,) int32 array
+        Component of each brick without those taken `out`.
+    out : (n_out,) int array
+        Rows of the bricks taken out.
+    known : (n_known,) int array
+        Components below or above the window.
+    held : (n_known, n_new) bool array
+        Which of them each new brick holds.
+    base : int
+        Lowest plate of the new bricks.
+    """
+    level, n_new = model.bricks.corner[:, 2], held.shape[1]
+    standing = np.bincount(component, level == level.min()) > 0
+    size = np.bincount(component)
+    size[component[out]] = 0
+    # new bricks count as components that they hold themselves
+    member = _joined(np.concatenate([held, np.eye(n_new, dtype=bool)]))
+    stands = np.bincount(member, np.append(standing[known], np.full(n_new, base == level.min()))) > 0
+    floating = np.append(size[known], np.ones(n_new))[~stands[member]].sum()
+    apart = ~standing
+    apart[known] = False
+    n_components = np.count_nonzero(size) - len(known) + len(np.unique(member))
+    before = model.links.n_floating, model.links.n_components
+    return bool((floating + size[apart].sum(), n_components) < before)
