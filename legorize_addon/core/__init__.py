@@ -18,13 +18,13 @@
 ``backing``             bricks behind flat pictures and reliefs (``facing``)
 ``hollowing``           which cells must be built, may be built, or stay empty (``regions``, ``ceilings``)
 ``holding``             what the shell needs to hold together: something between bodies that nearly touch,
-                        plates under roofs of one layer, plates in walls, single plates in the
-                        neighbour's colour (``bodies``, ``reinforcement``, ``joints``, ``colour_joints``)
-``layout``              which bricks cover the cells
+                        plates under roofs of one layer, plates in walls (``bodies``, ``reinforcement``, ``joints``)
+``layout``              which bricks cover the cells; in the end plates across what is loose still, some of
+                        them in the neighbour's colour (``layout.straps``)
 ``seen_filler``         bricks of no colour that are seen take that of what they hold
 ``connection``          what holds to what
 ``stability``           whether it stands: forces in balance, or a collapse, as proof (``statics``,
-                        ``equilibrium``, ``collapse``, ``tipping``); walls made thicker where it tears (``thickening``)
+                        ``equilibrium``, ``collapse``, ``tipping``)
 ``remarks``             what does not hold or stand, and what a builder has to know, in sentences
 ``segmentation``        pieces that are built on the table and joined, where that saves supports
 ``supports``            what stands below bricks while the model is built; what stays of it

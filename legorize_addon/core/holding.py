@@ -1,16 +1,15 @@
-"""What a shell needs beyond its own cells and colours to hold together once it is laid."""
+"""What a shell needs beyond its own cells to hold together once it is laid."""
 
 from __future__ import annotations
 
 from .bodies import with_bodies_joined
-from .colour_joints import with_colour_joints
 from .joints import with_joints
 from .model import UnitGrid
 from .reinforcement import reinforced
 
 
 def held_together(grid: UnitGrid, *, plates: bool) -> UnitGrid:
-    """Join bodies that nearly touch, reinforce thin roofs, open walls for what sticks out, join what differs in colour.
+    """Join bodies that nearly touch, reinforce thin roofs, open walls for what sticks out.
 
     Parameters
     ----------
@@ -24,6 +23,4 @@ def held_together(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     UnitGrid
     """
     grid = reinforced(with_bodies_joined(grid, plates=plates), plates=plates)
-    if plates:
-        grid = with_joints(grid)
-    return with_colour_joints(grid, plates=plates)
+    return with_joints(grid) if plates else grid

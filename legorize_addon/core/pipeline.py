@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,7 @@ from .building.proof import prove_steps
 from .building_remarks import remarks_on_building, remarks_on_proof
 from .catalogue import Catalogue, load_catalogue
 from .colours import SurfaceColours, chosen_palette, surface_colours
-from .connection import NOBODY, Connection, connect
+from .connection import Connection, connect
 from .detail import Detail
 from .facing import facing_of
 from .grid import Grid, fit_grid
@@ -25,10 +24,11 @@ from .holding import held_together
 from .hollowing import hollow
 from .layout import FILLER, lay
 from .layout.learning import learned_table
+from .layout.straps import strapped
 from .levels import levels_of
 from .marking import Marks, differing_layers
 from .mesh import Repairs, TriangleMesh, repair, scaled
-from .model import Bricks, Mask, Role, UnitGrid
+from .model import Bricks, Mask, UnitGrid
 from .offset_bricks import with_offset_bricks
 from .progress import Progress, silent
 from .remarks import remarks
@@ -37,15 +37,11 @@ from .segmentation import Joint, segmented
 from .settings import Settings
 from .size import check_any, check_size, model_scale
 from .slicing import adaptive_heights, slice_mesh
-from .stability import Stability, Verdict, stability
+from .stability import Stability, stability
 from .supports import Supports, supported, with_falling_propped, with_floating_carried
-from .thickening import thickened
 from .trajectories import Trajectories, link_loops
 from .unit_bricks import unit_bricks
 from .units import PLATES_PER_BRICK
-
-_THICKER: Final = (2, 4)
-"""Studs around torn joints within which walls are made thicker, once after the other."""
 
 
 def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent) -> Build:
@@ -95,19 +91,17 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
         )
     with stage("hollowing"):
         shell = held_together(_hollowed(grid, settings), plates=_in_plates(settings))
-    shell, bricks, connection, found = _standing(grid, shell, settings, palette, catalogue, rng, stage, progress)
+    with stage("layout"):
+        shell, bricks = _laid(shell, settings, palette, catalogue, rng, progress)
+    with stage("stability"):
+        bricks, connection, found = _standing(bricks, settings, catalogue, progress)
     with stage("supports"):
-        if settings.supports != "none":
-            bricks, connection, found = with_falling_propped(
-                bricks, catalogue, connection, found, hold=settings.hold, progress=progress
-            )
         supports, joints = _supported(bricks, connection, settings, catalogue, progress)
     if len(supports.stays) > len(bricks):
         with stage("stability"):
             connection = connect(supports.stays, catalogue)
             found = stability(supports.stays, catalogue, connection, hold=settings.hold, progress=progress)
-    bricks = supports.stays
-    proof = None
+    bricks, proof = supports.stays, None
     if settings.prove_steps:
         with stage("proof"):
             proof = prove_steps(supports.moves, supports.bricks, catalogue, hold=settings.hold, progress=progress)
@@ -228,19 +222,17 @@ def _hollowed(grid: UnitGrid, settings: Settings) -> UnitGrid:
     )
 
 
-def _standing(
-    grid: UnitGrid,
+def _laid(
     shell: UnitGrid,
     settings: Settings,
     palette: NDArray[np.int16],
     catalogue: Catalogue,
     rng: np.random.Generator,
-    stage: Callable[[str], AbstractContextManager[None]],
     progress: Progress,
-) -> tuple[UnitGrid, Bricks, Connection, Stability]:
-    """Lay the bricks and test them by force; where they collapse, thicken the walls there and lay again."""
-    relay = partial(
-        lay,
+) -> tuple[UnitGrid, Bricks]:
+    """Lay the bricks and join what is loose; return them with the cells as they are laid."""
+    bricks = lay(
+        shell,
         catalogue=catalogue,
         rng=rng,
         tier=settings.layout,
@@ -249,25 +241,21 @@ def _standing(
         filler=_filler(palette, catalogue),
         progress=progress,
     )
-    tried = []
-    for reach in (*_THICKER, None):
-        with stage("layout"):
-            bricks = relay(shell)
-            connection = connect(bricks, catalogue)
-            bricks = with_seen_coloured(bricks, shell, connection, catalogue)
-            if settings.supports != "none":
-                bricks, connection = with_floating_carried(bricks, catalogue, connection)
-        with stage("stability"):
-            found = stability(bricks, catalogue, connection, hold=settings.hold, progress=progress)
-        tried.append((shell, bricks, connection, found))
-        # what hangs in the air falls whatever the walls, and a post under it bears little
-        whole = not connection.n_floating and not (bricks.role == Role.SUPPORT_KEPT).any()
-        torn = found.torn if found.standing is Verdict.COLLAPSES and whole else found.torn[:0]
-        if reach is None or len(torn) == 0:
-            break
-        weak = np.unique(torn[torn != NOBODY])
-        shell = thickened(shell, grid, bricks, catalogue, weak=weak, reach=reach)
-    return min(tried, key=_failing)
+    bricks, shell = strapped(bricks, shell, catalogue, plates=_in_plates(settings))
+    return shell, with_seen_coloured(bricks, shell, connect(bricks, catalogue), catalogue)
+
+
+def _standing(
+    bricks: Bricks, settings: Settings, catalogue: Catalogue, progress: Progress
+) -> tuple[Bricks, Connection, Stability]:
+    """Test the bricks by force, with posts under what floats or falls if there may be supports."""
+    connection = connect(bricks, catalogue)
+    tested = partial(stability, catalogue=catalogue, hold=settings.hold, progress=progress)
+    if settings.supports == "none":
+        return bricks, connection, tested(bricks, connection=connection)
+    bricks, connection = with_floating_carried(bricks, catalogue, connection)
+    found = tested(bricks, connection=connection)
+    return with_falling_propped(bricks, catalogue, connection, found, hold=settings.hold, progress=progress)
 
 
 def _supported(
@@ -284,13 +272,6 @@ def _supported(
         progress=progress,
     )
     return supports, joints
-
-
-def _failing(laid: tuple[UnitGrid, Bricks, Connection, Stability]) -> tuple[int, bool, float]:
-    """Return what a better layout has less of: loose bricks and posts for them, doubt, load on its weakest brick."""
-    _, bricks, connection, found = laid
-    loose = connection.n_floating + int(np.count_nonzero(bricks.role == Role.SUPPORT_KEPT))
-    return loose, found.standing is not Verdict.STABLE, -float(found.margin.min())
 
 
 def _table(settings: Settings) -> Mask | None:

@@ -25,6 +25,7 @@ from legorize_addon.core.holding import held_together
 from legorize_addon.core.hollowing import hollow
 from legorize_addon.core.layout import bound, lay
 from legorize_addon.core.layout.problem import owners, with_margins
+from legorize_addon.core.layout.straps import strapped
 from legorize_addon.core.model import Bricks, UnitGrid
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
@@ -67,7 +68,8 @@ def ours(tier: str, *, learned: bool = True, join: bool = True) -> Lay:
     """Return our own way of laying, perhaps without joining what floats in the end."""
 
     def laid(grid: UnitGrid, catalogue: Catalogue, rng: np.random.Generator) -> Bricks:
-        return lay(grid, catalogue, rng=rng, tier=tier, learned=learned, join=join)
+        bricks = lay(grid, catalogue, rng=rng, tier=tier, learned=learned, join=join)
+        return strapped(bricks, grid, catalogue, plates=False)[0] if join else bricks
 
     return laid
 

@@ -9,6 +9,7 @@ from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.connection import connect
 from legorize_addon.core.holding import held_together
 from legorize_addon.core.layout import lay
+from legorize_addon.core.layout.straps import strapped
 from legorize_addon.core.model import COLOUR_EMPTY, Role, UnitGrid
 from tests.core.test_joints import grid_of
 
@@ -28,14 +29,14 @@ def house() -> UnitGrid:
 
 @pytest.mark.parametrize("plates", [True, False])
 def test_house_is_one_piece(plates):
-    """Each of the three lacks leaves loose bricks; together they are mended; bricks alone mend all but the shelf."""
+    """Each of three lacks leaves loose bricks; mended and strapped they are none; bricks mend all but the shelf."""
     catalogue = load_catalogue()
-    before, after = (
-        connect(lay(grid, catalogue, rng=np.random.default_rng(0)), catalogue)
-        for grid in (house(), held_together(house(), plates=plates))
-    )
-    assert before.n_components > 3
-    assert after.n_components == (1 if plates else 2)
+    shell = held_together(house(), plates=plates)
+    before, laid = (lay(grid, catalogue, rng=np.random.default_rng(0)) for grid in (house(), shell))
+    assert connect(before, catalogue).n_components > 3
+    bricks, _ = strapped(laid, shell, catalogue, plates=plates)
+    found = connect(bricks, catalogue)
+    assert found.n_components == (1 if plates else 2)
 
 
 def test_bricks_alone_add_no_plates():

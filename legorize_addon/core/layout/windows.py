@@ -259,7 +259,8 @@ def _joined(held: Mask) -> Index:
     further = together | (held @ held.T)
     while not np.array_equal(together, further):
         together, further = further, further @ further
-    return together.argmax(axis=1)
+    # of nothing there is no first
+    return together.argmax(axis=1) if len(held) else np.zeros(0, dtype=np.intp)
 
 
 def _better(model: _Model, component: Rows, out: Ints, known: Ints, held: Mask, base: int) -> bool:

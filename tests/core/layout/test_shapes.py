@@ -66,3 +66,16 @@ def test_parts_within_are_the_largest_parts_inside():
         assert (len(parts) == 0) == (len(outer) == 1)
         assert all(part < outer for part in parts)
         assert not any(one < other for one in parts for other in parts)
+
+
+@pytest.mark.parametrize("height", [1, 3])
+def test_pieces_cover_the_shape(height):
+    """The smaller shapes that one is merged from cover its squares together, and no other ones."""
+    among = shapes(CATALOGUE, height, np.array([4], dtype=np.int16), 71)
+    merged = 0
+    for cells, pieces in zip(among.cells, among.pieces, strict=True):
+        if len(pieces):
+            covered = {(x, y) for row, *corner in pieces for x, y in (among.cells[row] + corner).tolist()}
+            assert covered == {tuple(square) for square in cells.tolist()}
+            merged += 1
+    assert merged > len(among.size) / 2
