@@ -10,6 +10,7 @@ belong to no other brick of the same trajectory.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,9 @@ from .skins import under_a_skin
 from .units import BRICK, STUD
 
 Codes = NDArray[np.int16]
+
+CLEAR: Final = 22.0
+"""CIEDE2000 from which on a border between two colours is clear to everybody."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

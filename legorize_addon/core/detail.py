@@ -16,17 +16,14 @@ of volume and of colour are our own.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Final
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .cell_colours import Ballot, Codes
+from .agreement import agreed_colours, agreed_shapes
+from .cell_colours import CLEAR, Ballot, Codes
 from .model import COLOUR_ANY, COLOUR_EMPTY, Floats, Mask
 from .units import PLATES_PER_BRICK
-
-_CLEAR: Final = 22.0
-"""CIEDE2000 from which on a border between two colours is clear to everybody."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,10 +38,14 @@ class Detail:
         Error that plates must save: in volume as a share of a brick, in colour
         as the share of its faces times the difference as a share of a clear one.
         0 keeps all plates that differ from a brick.
+    worth : float
+        Error, as above, that one part less is worth: neighbouring columns agree
+        where that costs less. 0 decides every column by itself.
     """
 
     marked: Mask
     least_gain: float
+    worth: float = 0.0
 
 
 def settled(solid: Mask, share: Floats, detail: Detail) -> Mask:
@@ -53,7 +54,8 @@ def settled(solid: Mask, share: Floats, detail: Detail) -> Mask:
     Three rules of superposition: three plates are a brick anyway. A column of
     one or two becomes a brick, or nothing, whichever is nearer to the volume of
     the mesh, unless the error of that exceeds the error of the plates by the
-    least gain. What is thin, or rests on nothing, never becomes nothing.
+    least gain. What is thin, or rests on nothing, never becomes nothing. Where
+    one part less is worth something, neighbours are taken into account.
 
     Parameters
     ----------
@@ -66,6 +68,14 @@ def settled(solid: Mask, share: Floats, detail: Detail) -> Mask:
     -------
     (n_plates, n_y, n_x) bool array
     """
+    if detail.worth == 0:
+        return _settled_alone(solid, share, detail)
+    every = _settled_alone(solid, share, replace(detail, least_gain=0.0))
+    return agreed_shapes(every, share, least_gain=detail.least_gain, worth=detail.worth)
+
+
+def _settled_alone(solid: Mask, share: Floats, detail: Detail) -> Mask:
+    """Settle every column by itself."""
     plates = solid.reshape(-1, PLATES_PER_BRICK, *solid.shape[1:])
     layer, y, x = np.nonzero(plates.any(axis=1) & ~plates.all(axis=1))
     there = plates[layer, :, y, x]
@@ -93,6 +103,8 @@ def _resting(plates: Mask) -> Mask:
 def settled_colours(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -> Codes:
     """Give cell columns of three plates one colour where several do not pay.
 
+    Where one part less is worth something, neighbours are taken into account.
+
     Parameters
     ----------
     colour : (n_plates, n_y, n_x) int16 array
@@ -107,6 +119,14 @@ def settled_colours(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -
     -------
     (n_plates, n_y, n_x) int16 array
     """
+    if detail.worth == 0:
+        return _coloured_alone(colour, seen, ballot, detail)
+    whole = _coloured_alone(colour, seen, ballot, replace(detail, least_gain=0.0))
+    return agreed_colours(whole, seen, ballot, detail.marked, least_gain=detail.least_gain, worth=detail.worth)
+
+
+def _coloured_alone(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -> Codes:
+    """Settle the colours of every column by itself."""
     columns = colour.reshape(-1, PLATES_PER_BRICK, *colour.shape[1:])
     layer, y, x = np.nonzero(_of_several_colours(columns))
     if len(layer) == 0:
@@ -121,7 +141,7 @@ def settled_colours(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -
     )
     total = np.where(voted, cost.mean(axis=1), np.inf)
     one = total.argmin(axis=1)
-    gain = (total.min(axis=1) - several.mean(axis=1)) / _CLEAR
+    gain = (total.min(axis=1) - several.mean(axis=1)) / CLEAR
     merge = np.flatnonzero((~detail.marked[layer] | (gain < detail.least_gain)) & voted.any(axis=1))
     merged = columns.copy()
     merged[layer[merge], :, y[merge], x[merge]] = ballot.codes[one[merge], None]

@@ -206,7 +206,9 @@ def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail
     if not _in_plates(settings):
         return None
     marked = np.bincount(layer, minlength=frame.n_layers) == PLATES_PER_BRICK
-    return Detail(marked, settings.plate_gain if settings.plates == "pays" else 0.0)
+    if settings.plates == "all":
+        return Detail(marked, 0.0)
+    return Detail(marked, settings.plate_gain, settings.fewer_parts)
 
 
 def _hollowed(grid: UnitGrid, settings: Settings) -> UnitGrid:

@@ -80,6 +80,9 @@ class Settings:
     plate_gain: float = setting(
         0.2, "Error that plates must save to pay: a share of a brick's volume, or of a clear difference in colour on "
         "its faces.", group="Detail", low=0.0, high=1.0)
+    fewer_parts: float = setting(
+        0.3, "Error, as above, that one part less is worth: neighbours agree on their plates and colours where that "
+        "costs less; 0 lets every column decide by itself.", group="Detail", low=0.0, high=2.0)
     layer_difference: float = setting(
         0.1, "Share by which trajectories of neighbouring layers may differ in length or area before their layers are "
         "sliced plate by plate.", group="Detail", low=0.0, high=1.0)

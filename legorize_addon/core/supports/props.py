@@ -9,7 +9,8 @@ with posts for cuts.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -38,8 +39,14 @@ SOONER: Final = 2.0
 SINKING: Final = 0.5
 """Share of the fastest sinking place of a part from which on a shorter post is as good."""
 
+SPARING: Final = 5
+"""Times that posts are left out again to see if the model stands without them."""
+
 STEADY: Final = 1.0
 """Studs that the weight of what tips over shall come to lie inside of its feet."""
+
+Propped = tuple[Bricks, Connection, Stability]
+"""Bricks with posts behind them, their connection, and how they stand."""
 
 
 def with_falling_propped(
@@ -77,6 +84,8 @@ def with_falling_propped(
     found : Stability
         How they stand.
     """
+    tested = partial(_tested, bricks, catalogue=catalogue, hold=hold, progress=progress)
+    posts: list[Bricks] = []
     propped = bricks, connection, found
     for turn in range(ROUNDS):
         if propped[2].standing is Verdict.STABLE:
@@ -84,11 +93,46 @@ def with_falling_propped(
         places = _chosen(*propped, catalogue, fast=FAST / SOONER**turn)
         if not len(places):
             break
-        posts = [kept_post(propped[0], propped[1], catalogue, places, number) for number in range(len(places))]
-        more = joined([propped[0], *posts])
-        touching = connect(more, catalogue)
-        propped = more, touching, stability(more, catalogue, touching, hold=hold, programme=0, progress=progress)
-    return propped if propped[2].stable else (bricks, connection, found)
+        posts += [kept_post(propped[0], propped[1], catalogue, places, number) for number in range(len(places))]
+        propped = tested(posts)
+    if not propped[2].stable:
+        return bricks, connection, found
+    return _with_fewer(propped, posts, tested)
+
+
+def _tested(
+    bricks: Bricks, posts: Sequence[Bricks], *, catalogue: Catalogue, hold: float, progress: Progress
+) -> Propped:
+    """Return bricks with posts behind them, and how they stand."""
+    more = joined([bricks, *posts])
+    connection = connect(more, catalogue)
+    return more, connection, stability(more, catalogue, connection, hold=hold, programme=0, progress=progress)
+
+
+def _with_fewer(propped: Propped, posts: Sequence[Bricks], tested: Callable[[Sequence[Bricks]], Propped]) -> Propped:
+    """Leave out what bears least, half of the posts and then ever fewer of them, as long as the model stands."""
+    share, tries = len(posts) // 2, 0
+    while share and tries < SPARING:
+        order = np.argsort(_loads(propped, posts), kind="stable")
+        fewer = [posts[number] for number in np.sort(order[share:])]
+        without = tested(fewer)
+        if without[2].stable:
+            propped, posts, share = without, fewer, len(fewer)
+        share //= 2
+        tries += 1
+    return propped
+
+
+def _loads(propped: Propped, posts: Sequence[Bricks]) -> Floats:
+    """Return what lies on each post in N, under the forces of the proof."""
+    bricks, _, found = propped
+    contacts, rows = found.statics.contacts, found.statics.rows
+    lengths = np.array([len(each) for each in posts])
+    first = len(bricks) - lengths.sum()
+    post = np.concatenate([np.full(first, len(posts)), np.repeat(np.arange(len(posts)), lengths), [len(posts)]])
+    by = post[np.where(contacts.by == NOBODY, len(bricks), rows[contacts.by])]
+    upward = found.forces * contacts.direction[:, 2] * (post[rows[contacts.on]] != by)
+    return np.bincount(by, upward, len(posts) + 1)[:-1]
 
 
 def _chosen(bricks: Bricks, connection: Connection, found: Stability, catalogue: Catalogue, *, fast: float) -> Places:
