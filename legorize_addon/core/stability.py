@@ -16,7 +16,7 @@ import numpy as np
 from .catalogue import Catalogue
 from .collapse import is_collapse, least_imbalance
 from .connection import NOBODY, Connection
-from .equilibrium import Balance, Plane, balance, is_equilibrium, residual
+from .equilibrium import AIMS, Aim, Balance, Plane, balance, is_equilibrium, residual
 from .model import Bricks, Floats, Ints
 from .progress import Progress, silent
 from .statics import EQUATIONS, HOLD, Ground, Statics, statics
@@ -141,6 +141,7 @@ def stability(
     hold: float = HOLD,
     ground: Ground = Ground.TABLE,
     loads: Floats | None = None,
+    aims: tuple[Aim, ...] = AIMS,
     programme: int = PROGRAMME,
     progress: Progress = silent,
 ) -> Stability:
@@ -160,6 +161,8 @@ def stability(
         What the lowest bricks stand on.
     loads : (n, 3) float64 array, optional
         Forces on the bricks besides their weight, in N at their centres of mass.
+    aims : tuple of Aim
+        What forces to search for, and for how long.
     programme : int
         Bricks up to which a linear programme decides what projections do not.
         Of larger models it takes those that would move most, and can prove no
@@ -173,7 +176,7 @@ def stability(
         Verdict, proof and margins.
     """
     equations = statics(bricks, catalogue, connection, hold=hold, ground=ground, loads=loads)
-    found = balance(equations, progress=progress)
+    found = balance(equations, aims=aims, progress=progress)
     if not found.found and not found.collapse:
         found = _toppled(equations, found, connection)
     if programme and not found.found and not found.collapse:

@@ -35,11 +35,11 @@ def addon() -> Iterator[None]:
 
 
 @pytest.fixture
-def arm() -> bpy.types.Object:
-    """Return a selected arm on a post, to be built 12 studs long: a support has to carry its end."""
-    bpy.ops.mesh.primitive_cube_add(size=1, location=(-5, 0, 3), scale=(2, 2, 6))
+def table() -> bpy.types.Object:
+    """Return a selected table on one leg, to be built 12 studs long: supports have to carry its ends."""
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 3), scale=(4, 4, 6))
     post = bpy.context.object
-    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 7), scale=(12, 2, 2))
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 7), scale=(12, 8, 2))
     post.select_set(True)
     bpy.ops.object.join()
     bpy.context.scene.legorize.settings.width = 12
@@ -264,7 +264,7 @@ def test_export_reads_back(box, tmp_path) -> None:
     assert len(set(rows(bricks))) == len(bricks) > 1
 
 
-def test_supports_are_at_hand(arm) -> None:
+def test_supports_are_at_hand(table) -> None:
     """Supports come with the model, hidden at first; the figures of the panel are those of the model without them."""
     bpy.ops.legorize.build()
     build = current_build(bpy.context.scene)
@@ -286,7 +286,7 @@ def test_supports_are_at_hand(arm) -> None:
     assert panels._building_figures(None) == ()
 
 
-def test_heat_map_of_a_model_with_supports(arm) -> None:
+def test_heat_map_of_a_model_with_supports(table) -> None:
     """The map colours the model and leaves supports grey; it goes as it came."""
     bpy.ops.legorize.build()
     view = bpy.context.scene.legorize
@@ -297,7 +297,7 @@ def test_heat_map_of_a_model_with_supports(arm) -> None:
     assert content() == before
 
 
-def test_exports_of_a_model_with_supports(arm, tmp_path) -> None:
+def test_exports_of_a_model_with_supports(table, tmp_path) -> None:
     """The .ldr holds the finished model, the .mpd all of it, with supports by themselves; both also reopened."""
     bpy.ops.legorize.build()
     bricks = read_bricks(current_build(bpy.context.scene))

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, components, connect, stud_columns
+from ..equilibrium import AIMS, Aim
 from ..model import Bricks, Floats, Ints, Mask, joined
 from ..outline import corners, inside
 from ..progress import Progress, silent
@@ -41,6 +42,9 @@ SINKING: Final = 0.5
 
 SPARING: Final = 5
 """Times that posts are left out again to see if the model stands without them."""
+
+PATIENCE: Final = 60
+"""Projections more than with all posts to look for a proof without some of them."""
 
 STEADY: Final = 1.0
 """Studs that the weight of what tips over shall come to lie inside of its feet."""
@@ -101,21 +105,29 @@ def with_falling_propped(
 
 
 def _tested(
-    bricks: Bricks, posts: Sequence[Bricks], *, catalogue: Catalogue, hold: float, progress: Progress
+    bricks: Bricks,
+    posts: Sequence[Bricks],
+    *,
+    catalogue: Catalogue,
+    hold: float,
+    progress: Progress,
+    aims: tuple[Aim, ...] = AIMS,
 ) -> Propped:
     """Return bricks with posts behind them, and how they stand."""
     more = joined([bricks, *posts])
     connection = connect(more, catalogue)
-    return more, connection, stability(more, catalogue, connection, hold=hold, programme=0, progress=progress)
+    found = stability(more, catalogue, connection, hold=hold, aims=aims, programme=0, progress=progress)
+    return more, connection, found
 
 
-def _with_fewer(propped: Propped, posts: Sequence[Bricks], tested: Callable[[Sequence[Bricks]], Propped]) -> Propped:
+def _with_fewer(propped: Propped, posts: Sequence[Bricks], tested: Callable[..., Propped]) -> Propped:
     """Leave out what bears least, half of the posts and then ever fewer of them, as long as the model stands."""
     share, tries = len(posts) // 2, 0
     while share and tries < SPARING:
         order = np.argsort(_loads(propped, posts), kind="stable")
         fewer = [posts[number] for number in np.sort(order[share:])]
-        without = tested(fewer)
+        # with posts enough the proof was found soon; what takes much longer needs more
+        without = tested(fewer, aims=(AIMS[-1]._replace(turns=PATIENCE + propped[2].iterations),))
         if without[2].stable:
             propped, posts, share = without, fewer, len(fewer)
         share //= 2
