@@ -33,7 +33,7 @@ _SURE: Final = 0.7
 _ALIKE: Final = 1e-4
 """Shares that differ by less count as equal."""
 
-_WIDE: Final = 8_000
+_WIDE: Final = 5_000
 _LARGE: Final = 20_000
 """Placements above which wide areas get a running bond, and above which what is left is laid block after block."""
 

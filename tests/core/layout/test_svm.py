@@ -175,11 +175,12 @@ def test_the_right_ones_are_chosen(held_back, laid):
 
 
 def test_fast_tier_runs_without():
-    """Switched off, the fast tier covers a model as well; switched on, it takes fewer bricks."""
-    grid, _ = built("ring", UNSEEN)
-    with_it, without = (
-        lay(grid, CATALOGUE, rng=np.random.default_rng(0), tier="fast", learned=learned) for learned in (True, False)
-    )
-    assert_covers(with_it, grid)
-    assert_covers(without, grid)
-    assert len(with_it) < len(without)
+    """Switched off, the fast tier covers a model of each kind as well; switched on, it takes fewer bricks in all."""
+    bricks = {True: 0, False: 0}
+    for kind in KINDS:
+        grid, _ = built(kind, UNSEEN + 1)
+        for learned in bricks:
+            laid = lay(grid, CATALOGUE, rng=np.random.default_rng(0), tier="fast", learned=learned)
+            assert_covers(laid, grid)
+            bricks[learned] += len(laid)
+    assert bricks[True] < bricks[False]
