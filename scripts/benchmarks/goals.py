@@ -15,8 +15,11 @@ import numpy as np
 from legorize_addon.core.bodies import free_bodies
 from legorize_addon.core.build import Build
 from legorize_addon.core.catalogue import Catalogue, load_catalogue
+from legorize_addon.core.connection import Connection, connect
 from legorize_addon.core.layout import bound, lay
+from legorize_addon.core.model import SUPPORTS, Bricks
 from legorize_addon.core.pipeline import legorize
+from legorize_addon.core.remarks import remarks
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shopping import count_parts, not_made
 from legorize_addon.core.stability import Verdict, stability
@@ -95,8 +98,8 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int]) -> list[Table]:
     Returns
     -------
     list of Table
-        What comes out; what it costs; the goals; and what cannot stand, with
-        the reason, if anything cannot.
+        What comes out; what it costs; the goals; and what cannot stand by
+        itself, with the reason, if anything cannot.
     """
     cases = [(path, width) for path in paths for width in sorted(widths)]
     # a new process for each, whose peak of memory is its own; this one stays small, as its peak is inherited
@@ -112,7 +115,7 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int]) -> list[Table]:
         Table("goals_met", "The goals, and the worst of all models", tuple(goals_met(results, costs))),
     ]
     fallen = tuple(row["fallen"] for row in rows if row["fallen"]["reason"])
-    return [*tables, Table("goals_fallen", "What cannot stand, and why", fallen)] if fallen else tables
+    return [*tables, Table("goals_fallen", "What cannot stand without posts, and why", fallen)] if fallen else tables
 
 
 def _told(path: Path, width: int, row: dict[str, Row]) -> dict[str, Row]:
@@ -140,22 +143,18 @@ def case(path: Path, width: int) -> dict[str, Row]:
     small = len(mesh.faces) < TRIANGLES
     if width > WIDE and not small:
         return {}
-    laid = 0
-
-    def count(stage: str, share: float) -> None:
-        nonlocal laid
-        laid += stage == "layout" and share == 1.0
-
-    build = legorize(mesh, Settings(width=width, supports="none"), count)
+    build = legorize(mesh, Settings(width=width))
     memory = peak_memory()
     start: Row = {"model": path.stem, "studs": width}
     must = must_cells(build.hollow)
-    costs = _costs(build, must, laid, memory, limit=SECONDS.get(width) if small else None)
-    notes = build.notes[len(build.repairs.sentences()) :]
+    costs = _costs(build, must, memory, limit=SECONDS.get(width) if small else None)
+    bricks = build.bricks.take(~np.isin(build.bricks.role, SUPPORTS))
+    links = connect(bricks, catalogue)
+    alone = stability(bricks, catalogue, links)
     return {
-        "results": start | _results(build, must, catalogue),
+        "results": start | _results(build, bricks, links, must, catalogue) | {"by_itself": alone.verdict.value},
         "costs": start | {"triangles": len(mesh.faces)} | costs,
-        "fallen": start | {"reason": "" if build.stability.stable else " ".join(notes)},
+        "fallen": start | {"reason": "" if alone.stable else " ".join(remarks(bricks, alone, catalogue))},
     }
 
 
@@ -169,16 +168,17 @@ def peak_memory() -> float | None:
     return peak / 2**20 if sys.platform == "darwin" else peak / 2**10
 
 
-def _results(build: Build, must: int, catalogue: Catalogue) -> Row:
-    """Return what came out."""
-    bricks, links = build.bricks, build.connection
+def _results(build: Build, bricks: Bricks, links: Connection, must: int, catalogue: Catalogue) -> Row:
+    """Return what came out: of the model without the posts that stay in it, but for whether it stands."""
     fewest = bound(build.hollow, catalogue)
     before = lay(build.hollow, catalogue, rng=np.random.default_rng(build.settings.seed), join=False)
     singles, forced = single(bricks, catalogue), forced_singles(bricks, build.hollow, catalogue)
     seen, lost = colours_lost(build.grid, bricks, links)
+    cautious = stability(build.bricks, catalogue, build.connection, hold=CAUTIOUS_HOLD)
     return {
         "must": must,
         "bricks": len(bricks),
+        "posts": len(build.bricks) - len(bricks),
         "bound": fewest,
         "ratio_laid": len(before) / fewest,
         "ratio": len(bricks) / fewest,
@@ -195,20 +195,19 @@ def _results(build: Build, must: int, catalogue: Catalogue) -> Row:
         "colours_seen": seen,
         "colours_lost": lost,
         f"at_{HOLD}": build.stability.verdict.value,
-        f"at_{CAUTIOUS_HOLD}": stability(bricks, catalogue, links, hold=CAUTIOUS_HOLD).verdict.value,
+        f"at_{CAUTIOUS_HOLD}": cautious.verdict.value,
     }
 
 
-def _costs(build: Build, must: int, laid: int, memory: float | None, limit: float | None) -> Row:
-    """Return what it cost; walls made thicker are laid again, which is part of it."""
-    total = sum(build.timings.values())
+def _costs(build: Build, must: int, memory: float | None, limit: float | None) -> Row:
+    """Return what it cost from mesh to proof; supports that are taken out again are not part of it."""
+    total = sum(seconds for stage, seconds in build.timings.items() if stage != "supports")
     return {
         "must": must,
         **build.timings,
         "total_s": total,
         "limit_s": limit,
         "time_met": None if limit is None else total <= limit,
-        "times_laid": laid,
         "layout_us": 1e6 * build.timings["layout"] / must,
         "layout_met": None if must > CELLS else 1e6 * build.timings["layout"] / must <= LAYOUT,
         "memory_mb": memory,
@@ -228,7 +227,7 @@ def goals_met(results: Sequence[Row], costs: Sequence[Row]) -> list[Row]:
 
 def _growth(costs: Sequence[Row], from_width: int, most: float | None) -> Row:
     power = exponent([row for row in costs if row["studs"] >= from_width])
-    text = "exponent of the CPU of one laying in must cells" + (f", from {from_width} studs on" if from_width else "")
+    text = "exponent of the CPU of the layout in must cells" + (f", from {from_width} studs on" if from_width else "")
     return _goal_row(text, most, power, None, None, None if power is None or most is None else power <= most)
 
 
@@ -270,12 +269,12 @@ def _names(rows: Sequence[Row]) -> str | None:
 
 
 def exponent(costs: Sequence[Row]) -> float | None:
-    """Fit the power of the must cells that the CPU seconds of one laying grow with.
+    """Fit the power of the must cells that the CPU seconds of the layout grow with.
 
     Parameters
     ----------
     costs : sequence of Row
-        ``model``, ``must``, ``layout`` and ``times_laid`` of each case.
+        ``model``, ``must`` and ``layout`` of each case.
 
     Returns
     -------
@@ -285,7 +284,7 @@ def exponent(costs: Sequence[Row]) -> float | None:
     """
     models, row = np.unique([each["model"] for each in costs], return_inverse=True)
     cells = np.log([each["must"] for each in costs])
-    seconds = np.log([each["layout"] / each["times_laid"] for each in costs])
+    seconds = np.log([each["layout"] for each in costs])
     count = np.bincount(row, minlength=len(models))
     cells, seconds = (each - (np.bincount(row, each) / count)[row] for each in (cells, seconds))
     spread = float(cells @ cells)
