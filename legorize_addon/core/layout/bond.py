@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from scipy.ndimage import generate_binary_structure, label, maximum_filter, minimum_filter
+from scipy.ndimage import maximum_filter, minimum_filter
 
-from ..model import COLOUR_ANY, COLOUR_EMPTY
+from ..model import COLOUR_EMPTY, Mask
 from .problem import Problem
 from .shapes import Index
 
@@ -20,9 +20,6 @@ _WORTH: Final = 2.0
 
 _DEPTH: Final = 2
 """Studs around the middle of a wide area that are not laid in running bond."""
-
-_IN_SHEET: Final = generate_binary_structure(3, 1) & (np.arange(3)[:, None, None] == 1)
-"""Neighbours of a cell: the four in its sheet."""
 
 
 def running_bond(problem: Problem) -> Index:
@@ -39,14 +36,13 @@ def running_bond(problem: Problem) -> Index:
         Rows of placements in the middle of areas that must be covered. They share no cell.
     """
     found, extents = problem.placements, problem.shapes.extent[problem.placements.shape]
-    area_of_cell = _areas(problem)
-    row: Index = np.flatnonzero(found.totals(area_of_cell > 0) == found.size)
+    row: Index = np.flatnonzero(found.totals(_deep(problem)) == found.size)
     # a corner part has the sides of a square one, but lies beside others in another way
     row = row[(extents[row].min(axis=1) == _WIDTH) & (extents[row].prod(axis=1) == found.size[row])]
     if not len(row):
         return row
-    area = area_of_cell[found.cells[found.start[row]]]
-    length, along = extents[row].max(axis=1), extents[row].argmax(axis=1)
+    _, area = np.unique(np.stack([found.corner[row, 2], found.colour[row]]), axis=1, return_inverse=True)
+    area, length, along = area.ravel(), extents[row].max(axis=1), extents[row].argmax(axis=1)
     longest = np.zeros(area.max() + 1, dtype=np.intp)
     np.maximum.at(longest, area, length)
     # one lattice for each direction and way to begin; in each area the one that pays most is taken
@@ -60,15 +56,13 @@ def running_bond(problem: Problem) -> Index:
     return row
 
 
-def _areas(problem: Problem) -> Index:
-    """Return the area of each cell around which there are only must cells that one part could cover, 0 elsewhere."""
+def _deep(problem: Problem) -> Mask:
+    """Tell which cells have only must cells of their own colour around them, shape (n_cells,)."""
     sheets = problem.sheets
     colour = np.where(sheets.must, sheets.colour, np.int16(COLOUR_EMPTY))
     window = (1, 2 * _DEPTH + 1, 2 * _DEPTH + 1)
-    most = maximum_filter(colour, window, mode="constant", cval=COLOUR_EMPTY)
-    # where colours differ, free ones aside, the least is below the greatest
-    coloured = np.where(colour == COLOUR_ANY, np.iinfo(np.int16).max, colour)
-    least = minimum_filter(coloured, window, mode="constant", cval=COLOUR_EMPTY)
-    deep = (least != COLOUR_EMPTY) & (least >= most)
-    area: Index = label(deep, _IN_SHEET)[0].reshape(-1)[sheets.cells].astype(np.intp)
-    return area
+    least, most = (
+        extreme(colour, window, mode="constant", cval=COLOUR_EMPTY) for extreme in (minimum_filter, maximum_filter)
+    )
+    deep: Mask = ((least == most) & (least != COLOUR_EMPTY)).reshape(-1)[sheets.cells]
+    return deep
