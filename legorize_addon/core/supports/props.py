@@ -28,6 +28,9 @@ from .posts import Places, kept_post, places_below
 ROUNDS: Final = 8
 """Times that posts are added before a model is given up."""
 
+WORK: Final = 100_000
+"""Bricks tested in all these rounds together, and again while posts are left out: a large model takes fewer rounds."""
+
 MOVING: Final = 1e-3
 """Share of the fastest motion from which on a brick counts as moving."""
 
@@ -91,7 +94,7 @@ def with_falling_propped(
     tested = partial(_tested, bricks, catalogue=catalogue, hold=hold, progress=progress)
     posts: list[Bricks] = []
     propped = bricks, connection, found
-    for turn in range(ROUNDS):
+    for turn in range(min(ROUNDS, WORK // max(len(bricks), 1))):
         if propped[2].standing is Verdict.STABLE:
             break
         places = _chosen(*propped, catalogue, fast=FAST / SOONER**turn)
@@ -123,7 +126,7 @@ def _tested(
 def _with_fewer(propped: Propped, posts: Sequence[Bricks], tested: Callable[..., Propped]) -> Propped:
     """Leave out what bears least, half of the posts and then ever fewer of them, as long as the model stands."""
     share, tries = len(posts) // 2, 0
-    while share and tries < SPARING:
+    while share and tries < min(SPARING, WORK // len(propped[0])):
         order = np.argsort(_loads(propped, posts), kind="stable")
         fewer = [posts[number] for number in np.sort(order[share:])]
         # with posts enough the proof was found soon; what takes much longer needs more
