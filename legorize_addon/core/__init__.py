@@ -12,7 +12,8 @@
 ``unit_bricks``         loops on the grid -> which cells are bricks or plates, in which colour
                         (``levels``, ``coverage``, ``pass_through``; ``rays``, ``samples``; ``thin_features``,
                         ``bridges``; ``exposure``, ``skins``, ``cell_colours``, ``eight_neighbours``)
-``detail``              where plates stay and where three of them are a brick again
+``detail``              where plates stay and where three of them are a brick again; neighbouring columns agree
+                        where that saves parts (``agreement``, ``conditional_modes``)
 ``overhangs``           horizontal faces between trajectories: offset bricks, kinds of overhang
                         (``offset_bricks``)
 ``backing``             bricks behind flat pictures and reliefs (``facing``)

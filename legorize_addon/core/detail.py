@@ -2,9 +2,10 @@
 
 Layers are marked for three slices of 3.2 mm instead of one of 9.6 mm where the
 trajectories of neighbouring layers differ, where the surface is flat, or where
-its colour changes. In marked layers every cell column is decided by itself: its
-three plates stay where a brick in their place would err too much, in volume or
-in colour; elsewhere they are one brick again.
+its colour changes. In marked layers the three plates of a cell column stay where
+a brick in their place would err too much, in volume or in colour; elsewhere they
+are one brick again. Every column is decided by itself, or together with its
+neighbours where fewer parts are worth an error.
 
 References
 ----------
@@ -55,7 +56,9 @@ def settled(solid: Mask, share: Floats, detail: Detail) -> Mask:
     one or two becomes a brick, or nothing, whichever is nearer to the volume of
     the mesh, unless the error of that exceeds the error of the plates by the
     least gain. What is thin, or rests on nothing, never becomes nothing. Where
-    one part less is worth something, neighbours are taken into account.
+    one part less is worth something, columns that gain nothing are settled so
+    first; the others are only filled up, as their neighbours ask for it, and the
+    least gain is what plates cost.
 
     Parameters
     ----------

@@ -52,7 +52,7 @@ class Stability:
 
     Attributes
     ----------
-    component : (n,) int32 array
+    component : (n,) int64 array
         Component of each brick.
     margin : (n,) float64 array
         Share of the friction left at the worst contact of each brick, under the

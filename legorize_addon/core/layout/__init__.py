@@ -22,6 +22,8 @@
 ``table``           what lies on a sheet; the table of all bricks
 ``repair``          joins components that float, by exchanges
 ``windows``         joins what is left of them, by small windows laid anew
+``straps``          joins what is loose even then, by plates across the seams, once all is laid
+``contacts``        where such plates may lie (``cutting``: the bricks that are cut for them)
 ``features``        the paper's four energies of a layer
 ``layers``          all sheets in the order of the tier: :func:`lay`
 ==================  =====================================================================

@@ -87,7 +87,7 @@ def with_floating_carried(bricks: Bricks, catalogue: Catalogue, connection: Conn
 def with_inside_carried(
     bricks: Bricks, catalogue: Catalogue, connection: Connection, rows: Ints
 ) -> tuple[Bricks, Connection]:
-    """Put a red post under each of the given bricks, one after the other from the lowest.
+    """Put a red post under each of the given bricks.
 
     Parameters
     ----------

@@ -2,8 +2,8 @@
 
 What falls moves in a way that no forces stop; what may fall yields most in the
 motion with which the search for forces ended. A post below a place that sinks
-in that motion stops it, so each round adds one under every part that moves by
-itself, until forces in balance are found: the cutting plane method (Kelley 1960)
+in that motion stops it, so each round adds some under what tips over, or one
+under every part that sinks fast, until forces in balance are found: the cutting plane method (Kelley 1960)
 with posts for cuts.
 """
 
