@@ -116,7 +116,7 @@ def _reaches(owner: Rows) -> Iterator[_Reach]:
     for step, more, bears in ((-1, 1.0, np.ones(owner.max() + 2, dtype=bool)), (1, _ON_TOP, _stacked(owner))):
         brick = np.roll(owner, step, axis=0)
         brick[~empty | ~bears[brick]] = NOBODY
-        # nothing is added below the ground or above the model
+        # nothing is added in the empty planes below and above the grid
         brick[[0, -1]] = NOBODY
         yield _Reach(brick, price * more, 1)
 

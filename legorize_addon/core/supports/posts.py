@@ -137,8 +137,7 @@ def _under(bricks: Bricks, catalogue: Catalogue, connection: Connection, mine: M
     chosen = [first]
     if not under.on_brick[first]:
         squares = np.column_stack([under.x, under.y])
-        mass = catalogue.mass[bricks.part[mine]]
-        middle = mass @ middles(bricks.take(mine), catalogue) / mass.sum() - connection.low[:2]
+        middle = middle_of_weight(bricks.take(mine), catalogue) - connection.low[:2]
         standing = np.flatnonzero(~under.on_brick)
         steady = [(_inside(squares[[*chosen, each]], middle), each) for each in standing.tolist()]
         while _inside(squares[chosen], middle) < STEADY and max(steady)[0] > _inside(squares[chosen], middle):
@@ -176,6 +175,13 @@ def places_below(bricks: Bricks, catalogue: Catalogue, connection: Connection, m
             found.append((row, x, y, z, z - foot, len(below) > 0))
     row, x, y, top, length, on_brick = np.array(found, dtype=np.int64).reshape(-1, 6).T
     return Places(row, x, y, top, length, on_brick.astype(bool))
+
+
+def middle_of_weight(bricks: Bricks, catalogue: Catalogue) -> Floats:
+    """Return the middle of the weight of bricks, x and y in studs, (2,) float64."""
+    mass = catalogue.mass[bricks.part]
+    middle: Floats = mass @ middles(bricks, catalogue) / mass.sum()
+    return middle
 
 
 def kept_post(bricks: Bricks, connection: Connection, catalogue: Catalogue, places: Places, number: int) -> Bricks:

@@ -3,8 +3,8 @@
 What falls moves in a way that no forces stop; what may fall yields most in the
 motion with which the search for forces ended. A post below a place that sinks
 in that motion stops it, so each round adds some under what tips over, or one
-under every part that sinks fast, until forces in balance are found: the cutting plane method (Kelley 1960)
-with posts for cuts.
+under every part that sinks fast, until forces in balance are found: the cutting
+plane method (Kelley 1960) with posts for cuts.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ import numpy as np
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, components, connect, stud_columns
 from ..equilibrium import AIMS, Aim
-from ..model import Bricks, Floats, Ints, Mask, joined
+from ..model import Bricks, Floats, Ints, joined
 from ..outline import corners, inside
 from ..progress import Progress, silent
 from ..stability import Stability, Verdict, stability, torn_by
 from ..statics import Statics
-from .posts import Places, kept_post, places_below
+from .posts import Places, kept_post, middle_of_weight, places_below
 
 ROUNDS: Final = 8
 """Times that posts are added before a model is given up."""
@@ -155,9 +155,9 @@ def _chosen(bricks: Bricks, connection: Connection, found: Stability, catalogue:
     tipping = np.flatnonzero(found.tipping < 0).tolist()
     under = places_below(bricks, catalogue, connection, np.abs(found.yielding).max(axis=1) > MOVING)
     if tipping:
-        chosen = [place for body in tipping for place in _steadying(bricks, connection, found, catalogue, body, under)]
+        chosen = [place for body in tipping for place in _steadying(bricks, connection, catalogue, body, under)]
         return under.take(np.array(chosen, dtype=np.int64))
-    sinking = _sinking(bricks, connection, found.statics, found.yielding, under)
+    sinking = _sinking(connection, found.statics, found.yielding, under)
     part = _parts(connection, found)[under.brick]
     fastest: list[int] = []
     for number in np.unique(part[sinking > fast * sinking.max(initial=MOVING)]):
@@ -167,35 +167,24 @@ def _chosen(bricks: Bricks, connection: Connection, found: Stability, catalogue:
     return under.take(_apart(under, np.array(fastest, dtype=np.int64)))
 
 
-def _steadying(
-    bricks: Bricks, connection: Connection, found: Stability, catalogue: Catalogue, body: int, under: Places
-) -> Iterator[int]:
+def _steadying(bricks: Bricks, connection: Connection, catalogue: Catalogue, body: int, under: Places) -> Iterator[int]:
     """Yield places at which posts to the ground keep a piece that tips over upright, one after the other."""
     mine = connection.component == body
     brick, columns = stud_columns(bricks, catalogue)
     feet = columns[mine[brick] & (columns[:, 2] == bricks.corner[:, 2].min()), :2] - connection.low[:2]
     squares = [(int(x), int(y)) for x, y in feet]
-    middle = _weight(found.statics, mine) - connection.low[:2]
+    below = list(zip(under.x.tolist(), under.y.tolist(), strict=True))
+    middle = middle_of_weight(bricks.take(mine), catalogue) - connection.low[:2]
     left = np.flatnonzero(mine[under.brick] & ~under.on_brick)
     steady = inside(corners(squares), middle)
     while steady < STEADY and len(left):
-        after = np.array(
-            [inside(corners([*squares, (int(under.x[each]), int(under.y[each]))]), middle) for each in left]
-        )
+        after = np.array([inside(corners([*squares, below[each]]), middle) for each in left])
         best = int(np.lexsort((under.length[left], -np.minimum(after, STEADY)))[0])
         if after[best] <= steady:
             return
-        yield int(left[best])
-        squares.append((int(under.x[left[best]]), int(under.y[left[best]])))
         steady = float(after[best])
-
-
-def _weight(equations: Statics, mine: Mask) -> Floats:
-    """Return the middle of the weight of some bricks, x and y in studs."""
-    own = mine[equations.rows]
-    weight = equations.loads.reshape(len(equations.rows), -1)[own, 2]
-    middle: Floats = weight @ equations.middle[own, :2] / weight.sum()
-    return middle
+        squares.append(below[left[best]])
+        yield int(left[best])
 
 
 def _parts(connection: Connection, found: Stability) -> Ints:
@@ -207,7 +196,7 @@ def _parts(connection: Connection, found: Stability) -> Ints:
     return components(connection.pairs[kept], n).astype(np.int64)
 
 
-def _sinking(bricks: Bricks, connection: Connection, equations: Statics, motion: Floats, under: Places) -> Floats:
+def _sinking(connection: Connection, equations: Statics, motion: Floats, under: Places) -> Floats:
     """Return how fast the gap that a post would fill closes, (k,)."""
     foot = under.top - under.length - 1
     below = connection.owner[foot, under.y, under.x].astype(np.int64)
