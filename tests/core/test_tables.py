@@ -20,7 +20,7 @@ CATALOGUE = load_catalogue()
 @pytest.fixture(scope="module")
 def built():
     """Return a model with supports."""
-    return legorize(overhanging(100.0)["t_shape"], Settings(width=24))
+    return legorize(overhanging(100.0)["t_shape"], Settings(width=32))
 
 
 def rows(build, number):

@@ -1,9 +1,9 @@
 """From the cells of a model to its bricks, sheet after sheet.
 
 Bricks prefer to lie across the seams of what lies below and above already; none
-may hang in the air. The fast tier lays every other layer, then those between;
-the others lay bricks layer by layer, upwards, and then plates, which are few
-and far between, every third level at once.
+may hang in the air. No sheet touches the sheets two levels further, so every
+other one is laid at once: first quickly, for the sheets between to have
+something to lie across, and again when those are laid.
 """
 
 from __future__ import annotations
@@ -39,19 +39,22 @@ _SLAB: Final = 1 << 15
 enough for the memory (147 placements go through a cell in a wide area)."""
 
 _BATCH: Final = 2000
-"""Placements from which no more sheets of plates are put into one linear programme."""
-
-_PHASES: Final = 3
-"""Sheets of plates that many levels apart are laid together."""
+"""Placements up to which sheets are put into one linear programme."""
 
 Tier = Literal["fast", "standard", "exact"]
+Way = Callable[[Problem, np.random.Generator], Index]
 
-_BRIDGE: Final[Mapping[Tier, float]] = MappingProxyType({"fast": BRIDGE, "standard": BRIDGE, "exact": 0.05})
+_BRIDGE: Final[Mapping[Tier, float]] = MappingProxyType({"fast": BRIDGE, "standard": 0.1, "exact": 0.05})
 """What lying across a seam saves, in bricks: for the fewest bricks it must save less than a brick in most places."""
 
-_COVERS: Final[Mapping[Tier, Callable[[Problem, np.random.Generator], Index]]] = MappingProxyType(
-    {"fast": greedy.cover, "standard": linear.cover, "exact": exact.cover}
+_PASSES: Final[Mapping[Tier, tuple[Way, ...]]] = MappingProxyType(
+    {
+        "fast": (greedy.cover, greedy.cover),
+        "standard": (greedy.cover, linear.cover, linear.cover),
+        "exact": (greedy.cover, exact.cover, exact.cover),
+    }
 )
+"""How the even sheets are laid, then the odd ones, and then the even ones again."""
 
 
 def lay(
@@ -114,54 +117,56 @@ def lay(
     slab_of_layer = np.cumsum(grid.solid.any(axis=1).sum(axis=(1, 2))) // _SLAB
     worth = (shipped() if table is None else table) if tier == "fast" and learned else None
     laid: list[Bricks] = []
-    n_sheets, n_laid = sum(len(sheets) for sheets, _ in work), 0
-    for sheets, among, found in _batches(work, slab_of_layer, tier):
-        progress("layout", n_laid / n_sheets)
-        n_laid += len(sheets)
-        problem = pose(sheets, among, found, owner, must, _BRIDGE[tier])
-        laid.append(_laid(problem, owner, sum(map(len, laid)), tier, worth, rng))
+    n_laid = 0
+    for slab in np.unique(slab_of_layer):
+        progress("layout", float(np.mean(slab_of_layer < slab)))
+        listed = _listed(work, slab_of_layer == slab)
+        halves: list[list[Bricks]] = [[], []]
+        for number, way in enumerate(_PASSES[tier]):
+            halves[number % 2] = half = []
+            for sheets, among, found in _batches(listed, number % 2, np.inf if way is greedy.cover else _BATCH):
+                problem = pose(sheets, among, found, owner, must, _BRIDGE[tier])
+                half.append(_laid(problem, owner, n_laid, way, worth, rng))
+                n_laid += len(half[-1])
+        laid += halves[0] + halves[1]
     if not join:
         return gathered(laid)
     bricks = connect_loose(gathered(laid), grid, work, catalogue, rng, progress)
     return join_by_windows(bricks, grid, work, catalogue, progress)
 
 
+def _listed(work: Sequence[tuple[Sheets, Shapes]], layers: Mask) -> list[tuple[Sheets, Shapes, Placements]]:
+    """Return the sheets of some layers, and what may lie there."""
+    inside = ((sheets.take(layers[sheets.level // PLATES_PER_BRICK]), among) for sheets, among in work)
+    return [(sheets, among, placements(sheets, among)) for sheets, among in inside if len(sheets)]
+
+
 def _batches(
-    work: Sequence[tuple[Sheets, Shapes]], slab_of_layer: Index, tier: Tier
+    listed: Sequence[tuple[Sheets, Shapes, Placements]], half: int, most: float
 ) -> Iterator[tuple[Sheets, Shapes, Placements]]:
-    """Yield what is laid at once, and what may lie there, one batch after the other."""
-    for slab in np.unique(slab_of_layer):
-        for sheets, among in work:
-            inside = sheets.take(slab_of_layer[sheets.level // PLATES_PER_BRICK] == slab)
-            if len(inside):
-                found = placements(inside, among)
-                for which in _order(inside, found, tier):
-                    yield inside.take(which), among, found.on(which, inside.n_cells)
+    """Yield every other sheet, and what may lie there, as many at once as have at most so many placements."""
+    for sheets, among, found in listed:
+        which = np.flatnonzero(sheets.level // sheets.height % 2 == half)
+        count = np.bincount(found.corner[:, 2], minlength=len(sheets))[which]
+        for batch in np.split(which, _ends(count, most)) if len(which) else ():
+            yield sheets.take(batch), among, found.on(batch, sheets.n_cells)
 
 
-def _order(sheets: Sheets, found: Placements, tier: Tier) -> list[Index]:
-    """Divide sheets into batches; no two sheets of a batch touch."""
-    step = sheets.level // sheets.height
-    if tier == "fast":
-        halves = (np.flatnonzero(step % 2 == parity) for parity in range(2))
-        return [half for half in halves if len(half)]
-    if sheets.height == PLATES_PER_BRICK:
-        return list(np.arange(len(sheets))[:, None])
-    count = np.bincount(found.corner[:, 2], minlength=len(sheets))
-    batches = []
-    for phase in range(_PHASES):
-        which = np.flatnonzero(step % _PHASES == phase)
-        group = np.cumsum(count[which]) // _BATCH
-        batches += [which[group == number] for number in np.unique(group)]
-    return batches
+def _ends(count: Index, most: float) -> list[int]:
+    """Return where runs of numbers have to end so that no sum is above the most, unless one number is."""
+    ends, total = [], 0
+    for row, number in enumerate(count.tolist()):
+        total += number
+        if total > most and total > number:
+            ends.append(row)
+            total = number
+    return ends
 
 
-def _laid(
-    problem: Problem, owner: Rows, first: int, tier: Tier, worth: Mask | None, rng: np.random.Generator
-) -> Bricks:
+def _laid(problem: Problem, owner: Rows, first: int, way: Way, worth: Mask | None, rng: np.random.Generator) -> Bricks:
     """Lay sheets that do not touch; write the numbers of their bricks, from `first`, into `owner`."""
     sheets = problem.sheets
-    chosen = fewer_small(problem, _COVERS[tier](problem, rng), rng)
+    chosen = fewer_small(problem, way(problem, rng), rng)
     if worth is not None:
         chosen = improved(problem, chosen, rng, worth)
     covering = problem.owner(chosen)

@@ -21,11 +21,13 @@ GROUND: Final = NOBODY - 1
 
 _SINGLE: Final = 1.0
 _HANGING: Final = 2.0
+_END: Final = 0.2
 BRIDGE: Final = 0.12
 _OPTIONAL: Final = 0.004
 """What a placement costs besides itself, in bricks: being a 1 x 1; having nothing
-below and nothing above; each seam of the layers below and above that it lies
-across (a gain); each cell that need not be covered."""
+below and nothing above; holding to one brick alone, without which it would be
+lost; each seam of the layers below and above that it lies across (a gain); each
+cell that need not be covered."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -125,20 +127,24 @@ def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Ma
     -------
     Problem
         The sheets' cells and costs. A placement costs one brick, more if it is
-        a 1 x 1, hangs in the air or covers optional cells, and less for the
-        seams that it bridges.
+        a 1 x 1, hangs in the air, holds to one brick alone or covers optional
+        cells, and less for the seams that it bridges.
     """
     cells = sheets.cells
     needed = sheets.must.reshape(-1)[cells]
     # bricks that lie there already, and cells that will be built
     around = np.stack([sheets.level, sheets.level + sheets.height + 1])
-    held = ((owner[around] != NOBODY) | must[around]).any(axis=0).reshape(-1)[cells]
+    held = ((owner[around] != NOBODY) | must[around]).reshape(2, -1)[:, cells]
+    n_sides = sum(found.totals(side) > 0 for side in held)
+    on_ground = (owner[sheets.level] == GROUND).any(axis=(1, 2))[found.corner[:, 2]]
+    bridged = _bridged(found, among, _seams(owner[around])[:, cells])
     cost = (
         1
         + _SINGLE * (found.size == 1)
-        + _HANGING * (found.totals(held) == 0)
+        + _HANGING * (n_sides == 0)
+        + _END * ((n_sides == 1) & (bridged == 0) & ~on_ground)
         + _OPTIONAL * found.totals(~needed)
-        - bridge * _bridged(found, among, _seams(owner[around])[:, cells])
+        - bridge * bridged
     )
     sheet, y, x = np.unravel_index(cells, sheets.colour.shape)
     return Problem(sheets, among, found, needed, np.stack([x, y, sheet], axis=1), cost)

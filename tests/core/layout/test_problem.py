@@ -46,6 +46,14 @@ def test_hanging_costs_more():
     assert cost_at(hanging, 2, 1) == pytest.approx(cost_at(standing, 2, 1) + 2)
 
 
+def test_holding_to_one_brick_alone_costs_more():
+    """A brick that lies on a single one, with nothing above, costs more than one across two or on the ground."""
+    lying = row_problem([7, 7, 7, 7])
+    assert cost_at(lying, 2, 0) == pytest.approx(1.2)
+    assert cost_at(row_problem([7, 8, 8, 8]), 2, 0) < 1
+    assert cost_at(row_problem(GROUND), 2, 0) == pytest.approx(1)
+
+
 def test_bridging_a_seam_pays():
     """A brick across the seam between two bricks below is cheaper than one beside it."""
     problem = row_problem([7, 7, 8, 8])
