@@ -24,7 +24,9 @@ WAYS = ("best", "tree", "columns", "beams")
 def models():
     """Return the four meshes with overhangs as bricks without supports."""
     meshes = overhanging(100.0)
-    return {name: legorize(meshes[name], Settings(width=width, supports="none")).bricks for name, width in SIZES.items()}
+    return {
+        name: legorize(meshes[name], Settings(width=width, supports="none")).bricks for name, width in SIZES.items()
+    }
 
 
 @pytest.mark.parametrize("way", WAYS)
