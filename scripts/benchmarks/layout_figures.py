@@ -7,18 +7,27 @@ from typing import Final
 import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter
 
 from legorize_addon.core.catalogue import Catalogue
 from legorize_addon.core.connection import NOBODY, Connection
 from legorize_addon.core.layout import FILLER
+from legorize_addon.core.layout.live import Live
 from legorize_addon.core.layout.placements import placements
 from legorize_addon.core.layout.problem import owners
+from legorize_addon.core.layout.programme import shares
 from legorize_addon.core.layout.shapes import Shapes, shapes
 from legorize_addon.core.layout.sheets import Sheets, split
-from legorize_addon.core.model import Bricks, Mask, UnitGrid
+from legorize_addon.core.model import Bricks, Ints, Mask, UnitGrid
 
 GROUND: Final = -1
 """What the lowest bricks stand on, beside the rows of the bricks."""
+
+NEAR: Final = 4
+"""Studs around a 1 x 1 within which all cells are covered anew to find the fewest."""
+
+ROUNDING: Final = 1e-6
+"""By which the solver may be wrong."""
 
 
 def single(bricks: Bricks, catalogue: Catalogue) -> Mask:
@@ -68,6 +77,51 @@ def forced_singles(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue) -> Mask
     """Return which bricks are 1 x 1 because nothing else could lie there, shape (n,)."""
     x, y, z = bricks.corner.T
     return single(bricks, catalogue) & alone(grid, catalogue)[z, y, x]
+
+
+def fewest_singles(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue) -> int:
+    """Return a number of 1 x 1 that no layout can do without: colours and heights force them.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        A layout. Only near its 1 x 1 is it looked for others, so that wide
+        areas without any cost nothing.
+    grid : UnitGrid
+        The hollowed model.
+    catalogue : Catalogue
+        Parts and colours.
+
+    Returns
+    -------
+    int
+        The sum over all sheets of the least cost of covering these places, where
+        a 1 x 1 costs one and all else nothing: a bound of the linear programme.
+    """
+    codes = np.unique(grid.colour[grid.colour >= 0])
+    small = bricks.take(single(bricks, catalogue)).corner
+    fewest = 0
+    for sheets in split(grid):
+        among = shapes(catalogue, sheets.height, codes, FILLER)
+        for row in range(len(sheets)):
+            here = small[small[:, 2] == sheets.level[row]]
+            fewest += _fewest(sheets.take(slice(row, row + 1)), among, here[:, :2])
+    return fewest
+
+
+def _fewest(sheet: Sheets, among: Shapes, small: Ints) -> int:
+    """Return the bound of one sheet, given the 1 x 1 on its level by x and y."""
+    near = np.zeros(sheet.must[0].shape, dtype=bool)
+    near[small[:, 1], small[:, 0]] = True
+    near = maximum_filter(near, size=2 * NEAR + 1).reshape(-1)[sheet.cells]
+    must = sheet.must.reshape(-1)[sheet.cells]
+    found = placements(sheet, among)
+    # places that need not be covered leave the bound a bound
+    live = Live.of(found).within(near & must)
+    if not len(live.rows):
+        return 0
+    cost = (found.size == 1)[live.rows].astype(np.float64)
+    return int(np.ceil(cost @ shares(live, must & near, cost) - ROUNDING))
 
 
 def articulations(bricks: Bricks, links: Connection, left_out: Mask | None = None) -> int:

@@ -34,7 +34,7 @@ from . import annealing, merging, staggering, tiling
 from .baselines import Lay, at_once, shell_of, upwards
 from .clock import least_seconds
 from .laying import Laid, cells_of, figures, timed
-from .layout_figures import colours_lost, forced_singles
+from .layout_figures import colours_lost, fewest_singles
 from .layout_goals import (
     ANNEALED,
     FAST,
@@ -206,7 +206,7 @@ def table_3(name: str, laid: Laid, grid: UnitGrid, shell: UnitGrid, catalogue: C
         "hor": 1 - filled / int(solid.sum()),
         "nb": len(laid.bricks),
         **figures(laid, catalogue),
-        "forced_single": int(forced_singles(laid.bricks, shell, catalogue).sum()),
+        "forced_single": fewest_singles(laid.bricks, shell, catalogue),
         "visible_lost": lost,
     }
 
