@@ -118,13 +118,14 @@ def lay(
     worth = (shipped() if table is None else table) if tier == "fast" and learned else None
     laid: list[Bricks] = []
     n_laid = 0
-    for slab in np.unique(slab_of_layer):
-        progress("layout", float(np.mean(slab_of_layer < slab)))
+    slabs, ways = np.unique(slab_of_layer), _PASSES[tier]
+    for turn, slab in enumerate(slabs):
         listed = _listed(work, slab_of_layer == slab)
         halves: list[list[Bricks]] = [[], []]
-        for number, way in enumerate(_PASSES[tier]):
+        for number, way in enumerate(ways):
             halves[number % 2] = half = []
             for sheets, among, found in _batches(listed, number % 2, np.inf if way is greedy.cover else _BATCH):
+                progress("layout", (turn + number / len(ways)) / len(slabs))
                 problem = pose(sheets, among, found, owner, must, _BRIDGE[tier])
                 half.append(_laid(problem, owner, n_laid, way, worth, rng))
                 n_laid += len(half[-1])
