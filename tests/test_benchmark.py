@@ -351,6 +351,20 @@ def test_forced_small_bricks_are_counted_apart() -> None:
     assert layout_figures.colours_lost(row, fewer, connect(fewer, catalogue)) == (15, 6)
 
 
+def test_seams_between_colours_are_counted_apart() -> None:
+    """No part lies across the edge of two colours; a wall that is parted there throughout could not be bonded."""
+    catalogue = load_catalogue()
+    grid = red_cube(2)
+    grid.colour[..., 1] = 1
+    bricks = placed([("3004", x, 0, 3 * z, 1) for z in range(2) for x in range(2)], catalogue)
+    links = connect(bricks, catalogue)
+    along_y, along_x = layout_figures.edges_to_bridge(grid, links, catalogue)
+    assert along_y[:, 0].all()
+    assert not along_x.any()
+    assert layout_figures.coinciding_seams(links) == 1
+    assert layout_figures.coinciding_seams(links, np.stack([along_y, along_x])) == 0
+
+
 def test_fewest_small_bricks_is_a_bound_that_a_cross_reaches() -> None:
     """A cross of five cells needs two 1 x 1 at least, whichever part lies across its middle."""
     catalogue = load_catalogue()

@@ -29,6 +29,7 @@ from .layout_figures import (
     articulations,
     coinciding_seams,
     colours_lost,
+    edges_to_bridge,
     fewest_singles,
     forced_singles,
     must_cells,
@@ -89,6 +90,7 @@ GOALS: Final = (
     Goal("articulation bricks", "articulation", 0.10),
     Goal("articulation bricks, 1 x 1 where no other part fits left out", "articulation_free", 0.10),
     Goal("coinciding seams", "seams", 0.25),
+    Goal("coinciding seams that a part could bridge", "seams_free", 0.25),
 )
 
 
@@ -197,6 +199,7 @@ def _results(build: Build, bricks: Bricks, links: Connection, must: int, catalog
         "articulation": articulations(bricks, links) / len(bricks),
         "articulation_free": articulations(bricks, links, left_out) / len(bricks),
         "seams": coinciding_seams(links),
+        "seams_free": coinciding_seams(links, edges_to_bridge(build.hollow, links, catalogue)),
         "bodies": free_bodies(build.hollow),
         "components": links.n_components,
         "floating": links.n_floating,

@@ -148,13 +148,16 @@ def articulations(bricks: Bricks, links: Connection, left_out: Mask | None = Non
     return len(set(nx.articulation_points(graph)) - {GROUND})
 
 
-def coinciding_seams(links: Connection) -> float:
+def coinciding_seams(links: Connection, bridgeable: Mask | None = None) -> float:
     """Return the share of seams that another one lies upon, where a new level of bricks begins on both sides.
 
     Parameters
     ----------
     links : Connection
         The bricks as cells.
+    bridgeable : (2, n_z, n_y, n_x) bool array, optional
+        As :func:`edges_to_bridge`: seams count as coinciding only where a part
+        could lie across one of them.
 
     Returns
     -------
@@ -167,9 +170,47 @@ def coinciding_seams(links: Connection) -> float:
     for axis in (1, 2):
         one, other = (_along(axis, side) for side in (slice(None, -1), slice(1, None)))
         seam = begins[one] & begins[other] & (below[one] != below[other])
+        upon = seam & (above[one] != above[other])
+        if bridgeable is not None:
+            edges = bridgeable[axis - 1]
+            upon &= (edges[:-1] | edges[1:])[one]
         seams += int(seam.sum())
-        coinciding += int((seam & (above[one] != above[other])).sum())
+        coinciding += int(upon.sum())
     return coinciding / max(seams, 1)
+
+
+def edges_to_bridge(grid: UnitGrid, links: Connection, catalogue: Catalogue) -> Mask:
+    """Find the edges between cells across which some part could lie: its colour and height allow it.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        The hollowed model.
+    links : Connection
+        Its bricks as cells.
+    catalogue : Catalogue
+        Parts and colours.
+
+    Returns
+    -------
+    (2, n_z, n_y, n_x) bool array
+        For the plates of ``links.owner``: the edge beyond each cell along y, and along x.
+    """
+    can = np.zeros((2, 3 * len(grid.colour), *grid.colour.shape[2:]), dtype=bool)
+    codes = np.unique(grid.colour[grid.colour >= 0])
+    for sheets in split(grid):
+        among = shapes(catalogue, sheets.height, codes, FILLER)
+        found = placements(sheets, among)
+        first = np.cumsum(among.size) - among.size
+        within = np.arange(len(found.cells)) + np.repeat(first[found.shape] - found.start[:-1], found.size)
+        for edges, inner in zip(can, among.inner[::-1], strict=True):
+            across = np.zeros(sheets.colour.shape, dtype=bool)
+            across.reshape(-1)[sheets.cells[found.cells[inner[within] > 0]]] = True
+            for plate in range(sheets.height):
+                edges[sheets.level + plate] |= across
+    x, y, z = links.low
+    n_z, n_y, n_x = links.owner.shape
+    return can[:, z : z + n_z, y : y + n_y, x : x + n_x]
 
 
 def _along(axis: int, part: slice) -> tuple[slice, ...]:
