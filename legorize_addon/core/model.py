@@ -84,6 +84,21 @@ class UnitGrid:
         return solid
 
 
+def ground_of(filled: Mask) -> int:
+    """Return the plane that stands on the ground: the lowest one in which there is anything.
+
+    Parameters
+    ----------
+    filled : (n_planes, n_y, n_x) bool array
+
+    Returns
+    -------
+    int
+        0 where there is nothing at all.
+    """
+    return int(filled.any(axis=(1, 2)).argmax()) if len(filled) else 0
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Bricks:
     """A table of bricks, one row each, on the grid of a :class:`UnitGrid`.

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 from scipy.spatial import cKDTree
 
-from .model import Ints, Mask
+from .model import Ints, Mask, ground_of
 from .units import STUD
 
 Numbers = NDArray[np.uint16]
@@ -124,9 +124,9 @@ def offset_rings(solid: Mask, *, height: float, critical_angle: float) -> Offset
     Offsets
     """
     around = np.pad(solid, ((0, 0), (1, 1), (1, 1)))
-    above, below = np.zeros_like(around), around.copy()
+    ground, above, below = ground_of(around), np.zeros_like(around), around.copy()
     above[:-1] = around[1:]
-    below[1:] = around[:-1]
+    below[ground + 1 :] = around[ground:-1]
     # a span of one brick stays open even where plates are too low for it
     allowance = max(math.floor(height * math.tan(math.radians(critical_angle)) / STUD + 1e-9), 1)
     shell = around & ~_enclosed(around)

@@ -14,7 +14,7 @@ import numpy as np
 from scipy import ndimage
 
 from .joints import agree, brick_columns, every_plate
-from .model import COLOUR_ANY, Cover, Mask, Role, UnitGrid
+from .model import COLOUR_ANY, Cover, Mask, Role, UnitGrid, ground_of
 from .units import PLATES_PER_BRICK
 
 _REACH: Final = 2
@@ -46,8 +46,9 @@ def reinforced(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     for present, code, height in ((brick, colour, PLATES_PER_BRICK), (single, _stacked(grid.colour), 1)):
         below, above = _vertical(solid, height)
         under = _unheld(present, present & (below | above), code) & ~below
-        # sheet k lies on level k * height
-        added[_levels_below(under, height)] = True
+        # sheet k lies on level k * height, and nothing on the ground is unheld
+        sheet, y, x = np.nonzero(under)
+        added[sheet * height - 1, y, x] = True
     cells = (added & ~solid).reshape(grid.cover.shape)
     if not plates:
         cells = every_plate(cells.any(axis=1) & ~grid.solid.any(axis=1))
@@ -65,19 +66,10 @@ def _stacked(cells: np.ndarray) -> np.ndarray:
     return cells.reshape(-1, *cells.shape[2:])
 
 
-def _levels_below(under: Mask, height: int) -> tuple[np.ndarray, ...]:
-    """Return the cells right below cells of sheets of a height; there are none below the ground."""
-    sheet, y, x = np.nonzero(under)
-    level = sheet * height - 1
-    inside = level >= 0
-    return level[inside], y[inside], x[inside]
-
-
 def _vertical(solid: Mask, height: int) -> tuple[Mask, Mask]:
     """Return whether there is something right below and right above the cells of sheets of a height."""
     around = np.pad(solid, ((1, 1), (0, 0), (0, 0)))
-    # the lowest sheet stands on the ground
-    around[0] = True
+    around[: ground_of(solid) + 1] = True
     return around[:-2][::height], around[2:][height - 1 :: height]
 
 

@@ -15,7 +15,7 @@ from scipy import ndimage
 
 from .catalogue import Catalogue
 from .connection import NOBODY, Connection
-from .model import COLOUR_ANY, Bricks, Ints, Mask, UnitGrid
+from .model import COLOUR_ANY, Bricks, Ints, Mask, UnitGrid, ground_of
 from .unit_bricks import outer_air
 
 _UPWARDS: Final = (1, 0, 0)
@@ -47,11 +47,11 @@ def with_seen_coloured(bricks: Bricks, grid: UnitGrid, connection: Connection, c
         which their part is made; they stay as they are where there is none.
     """
     free = _free(bricks, grid, connection)
-    air = outer_air(connection.owner != NOBODY)
     # what lies on the ground is not seen from below
-    seen = ndimage.binary_dilation(air, border_value=0) & (connection.owner != NOBODY)
+    owner = connection.owner[ground_of(connection.owner != NOBODY) :]
+    seen = ndimage.binary_dilation(outer_air(owner != NOBODY), border_value=0) & (owner != NOBODY)
     wanted = np.zeros(len(bricks), dtype=bool)
-    wanted[connection.owner[seen]] = True
+    wanted[owner[seen]] = True
     wanted &= free
     # what has taken a colour hands it on
     while (more := _coloured(bricks, connection, wanted, free, catalogue)) is not None:

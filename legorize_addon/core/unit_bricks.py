@@ -30,12 +30,12 @@ from .facing import Facing
 from .grid import Grid
 from .levels import Levels
 from .mesh import TriangleMesh
-from .model import COLOUR_ANY, COLOUR_EMPTY, Cover, Floats, Mask, Role, UnitGrid
+from .model import COLOUR_ANY, COLOUR_EMPTY, Cover, Floats, Mask, Role, UnitGrid, ground_of
 from .progress import Progress, silent
 from .samples import horizontal_samples, standing_pieces, surface_area, trajectory_samples
 from .thin_features import thin_cells
 from .trajectories import Trajectories
-from .units import CELL_AREA, PLATE, PLATES_PER_BRICK
+from .units import BRICK, CELL_AREA, PLATE, PLATES_PER_BRICK
 
 _ROUNDING: Final = 1e-9
 """A cell that is half covered (32 mm^2 of 64) but for rounding counts as half covered."""
@@ -88,7 +88,8 @@ def unit_bricks(
     Returns
     -------
     UnitGrid
-        All cells of the solid, the visible ones in their colour.
+        All cells of the solid, the visible ones in their colour; without the
+        layers below the lowest one in which there are any.
     """
     pieces = cut_at_grid(trajectories.points, trajectories.ends, grid.origin[:2])
     share = _shares(trajectories, pieces, levels, grid)
@@ -187,9 +188,14 @@ def visible(solid: Mask, air: Mask) -> Mask:
 
 
 def _unit_grid(colour: NDArray[np.int16], grid: Grid) -> UnitGrid:
-    """Return a grid whose solid cells all must be built, given the colours of bricks or of plates."""
+    """Return a grid whose solid cells all must be built, given the colours of bricks or of plates.
+
+    What is too thin for cells may reach below all others; the ground is where the model stands.
+    """
     times = round(grid.height / PLATE)
-    plates = np.repeat(colour, times, axis=0).reshape(-1, PLATES_PER_BRICK, *colour.shape[1:])
+    planes = np.repeat(colour, times, axis=0)
+    empty = ground_of(planes != COLOUR_EMPTY) // PLATES_PER_BRICK
+    plates = planes.reshape(-1, PLATES_PER_BRICK, *colour.shape[1:])[empty:]
     cover = np.where(plates == COLOUR_EMPTY, Cover.EMPTY, Cover.MUST).astype(np.uint8)
     role = np.where(plates == COLOUR_ANY, Role.INSIDE, Role.SHELL).astype(np.uint8)
-    return UnitGrid(plates, cover, role, grid.origin)
+    return UnitGrid(plates, cover, role, grid.origin + np.array([0.0, 0.0, empty * BRICK]))

@@ -7,7 +7,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from legorize_addon.core.model import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Bricks, Cover, Role, UnitGrid
+from legorize_addon.core.model import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Bricks, Cover, Role, UnitGrid, ground_of
 from legorize_addon.core.units import BRICK, LDU_PER_MM, PLATE, PLATE_LDU, PLATES_PER_BRICK, STUD, STUD_LDU
 
 
@@ -39,6 +39,14 @@ def test_solid_is_what_must_or_may_be_built():
     colour = np.where(cover == Cover.EMPTY, COLOUR_EMPTY, COLOUR_ANY).astype(np.int16)
     grid = UnitGrid(colour, cover, np.full_like(cover, Role.INSIDE), np.zeros(3))
     assert grid.solid.ravel().tolist() == [False, True, True]
+
+
+def test_ground_is_the_first_plane_with_anything():
+    """Empty planes below do not count; of nothing it is the first plane, if there is any."""
+    filled = np.zeros((5, 3, 4), dtype=bool)
+    assert ground_of(filled) == ground_of(filled[:0]) == 0
+    filled[3:, 1, 2] = True
+    assert ground_of(filled) == 3
 
 
 def test_marks_of_cells_are_no_colours():

@@ -152,6 +152,15 @@ def test_larger_angles_never_offset_more(solid):
         assert not (larger & ~smaller).any()
 
 
+@given(BLOBS, st.integers(1, 4))
+def test_ground_is_where_the_model_begins(solid, n_empty):
+    """Empty levels below a model change nothing: what faces the ground does not show."""
+    solid[0, 0, 0] = True
+    lifted = offsets(np.concatenate([np.zeros((n_empty, *solid.shape[1:]), bool), solid]))
+    np.testing.assert_array_equal(lifted.ring[n_empty:], offsets(solid).ring)
+    assert not lifted.cells[:n_empty].any()
+
+
 @given(BLOBS)
 def test_quarter_turn_turns_the_offsets(solid):
     """Rings do not depend on the direction of the axes."""

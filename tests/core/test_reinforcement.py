@@ -62,6 +62,15 @@ def test_narrow_roof_is_held_by_its_walls():
         assert reinforced(grid, plates=True) is grid
 
 
+def test_nothing_is_added_below_the_ground():
+    """Plates that are the lowest of all lie on the ground, on whatever plane of the grid that is."""
+    for ground in range(3):
+        colour = np.full((2, 3, 12, 12), COLOUR_EMPTY)
+        colour[0, ground] = RED
+        grid = grid_of(colour)
+        assert reinforced(grid, plates=True) is grid
+
+
 def test_patch_of_another_colour_is_held_from_below():
     """A blue patch in a red roof near its wall cannot be held by red bricks: plates go under it and its rim."""
     grid = shed(3, side=6)

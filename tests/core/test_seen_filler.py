@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.connection import connect
@@ -54,11 +55,12 @@ def test_colour_is_handed_on():
     assert coloured(rows, [RED, 0, 0], [False, True, True]) == [RED, RED, RED]
 
 
-def test_what_nobody_sees_stays():
-    """A free brick with bricks on all sides keeps the filler's colour."""
+@pytest.mark.parametrize("ground", [0, 1])
+def test_what_nobody_sees_stays(ground):
+    """A free brick on the ground with bricks on all other sides keeps the filler's colour."""
     walls = [("3009", 1, 1, 0), ("3009", 1, 3, 0), ("3005", 1, 2, 0), ("3005", 6, 2, 0)]
     lid = [("3001", 1, 1, 3), ("3003", 5, 1, 3), ("3009", 1, 3, 3)]
-    rows = [*walls, *lid, ("3010", 2, 2, 0)]
+    rows = [(part, x, y, z + ground) for part, x, y, z in [*walls, *lid, ("3010", 2, 2, 0)]]
     assert coloured(rows, [RED] * len(rows), [False] * (len(rows) - 1) + [True])[-1] == FILLER
 
 

@@ -47,6 +47,16 @@ def trimmed(colour: np.ndarray) -> np.ndarray:
 # -------------------------------------------------------------- which cells
 
 
+def test_model_stands_on_its_lowest_cells():
+    """Of a block on a pin too thin for cells the first layer is that of the block, at the height where it lies."""
+    mesh = painted(joined(box((-16, -16, 24), (16, 16, 48)), box((-0.5, -0.5, 0), (0.5, 0.5, 24))), 14)
+    grid = stages(mesh).bricks(keep_thin=False)
+    filled = grid.solid.any(axis=(1, 2, 3))
+    assert filled[0]
+    assert grid.origin[2] + 9.6 * np.count_nonzero(filled) == pytest.approx(48)
+    assert grid.origin[2] == pytest.approx(24, abs=4.8)
+
+
 @pytest.mark.parametrize("symmetric", [True, False])
 @pytest.mark.parametrize("size", [(1, 1, 1), (3, 2, 1), (5, 4, 6), (2, 7, 3)])
 def test_aligned_box_is_exactly_its_cells(size, symmetric):

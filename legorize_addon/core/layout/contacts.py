@@ -16,7 +16,7 @@ from scipy import ndimage
 
 from ..connection import NOBODY
 from ..joints import agree
-from ..model import Floats, Ints, Mask
+from ..model import Floats, Ints, Mask, ground_of
 from ..unit_bricks import outer_air
 from ..units import PLATES_PER_BRICK
 from .shapes import Index, Plane, Rows
@@ -116,8 +116,8 @@ def _reaches(owner: Rows) -> Iterator[_Reach]:
     for step, more, bears in ((-1, 1.0, np.ones(owner.max() + 2, dtype=bool)), (1, _ON_TOP, _stacked(owner))):
         brick = np.roll(owner, step, axis=0)
         brick[~empty | ~bears[brick]] = NOBODY
-        # nothing is added in the empty planes below and above the grid
-        brick[[0, -1]] = NOBODY
+        # nothing is added below the ground or above the grid
+        brick[: ground_of(~empty)] = brick[-1] = NOBODY
         yield _Reach(brick, price * more, 1)
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from ..catalogue import Catalogue
 from ..connection import NOBODY
 from ..errors import BuildError
-from ..model import COLOUR_EMPTY, Bricks, Cover, Mask, UnitGrid
+from ..model import COLOUR_EMPTY, Bricks, Cover, Mask, UnitGrid, ground_of
 from ..progress import Progress, silent
 from ..units import PLATES_PER_BRICK
 from . import exact, greedy, linear
@@ -113,7 +113,7 @@ def lay(
     codes = np.unique(grid.colour[grid.colour >= 0])
     work = [(each, shapes(catalogue, each.height, codes, filler)) for each in split(grid)]
     owner = np.full(must.shape, NOBODY, dtype=np.int32)
-    owner[: min(int(sheets.level[0]) for sheets, _ in work) + 1] = GROUND
+    owner[: ground_of(must)] = GROUND
     slab_of_layer = np.cumsum(grid.solid.any(axis=1).sum(axis=(1, 2))) // _SLAB
     worth = (shipped() if table is None else table) if tier == "fast" and learned else None
     laid: list[Bricks] = []

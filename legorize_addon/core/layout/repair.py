@@ -19,7 +19,7 @@ from scipy.ndimage import maximum_filter
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, components, connect, stud_columns
 from ..joints import agree
-from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Mask, UnitGrid
+from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Mask, UnitGrid, ground_of
 from ..progress import Progress
 from .exchange import exchange
 from .placements import Placements, placements
@@ -181,7 +181,7 @@ class _Cells:
     def of(cls, bricks: Bricks, links: Connection, must: Mask, loose: Mask, catalogue: Catalogue) -> _Cells:
         """Label the bricks of a model, given those that are loose."""
         owner = owners(links, must.shape)
-        owner[: must.any(axis=(1, 2)).argmax()] = GROUND
+        owner[: ground_of(must)] = GROUND
         label = np.append(np.where(loose, links.component + 1, 0), [-1, -1]).astype(np.int32)
         height = np.array([part.height for part in catalogue.parts])[bricks.part[loose]]
         lowest = bricks.corner[loose, 2] + 1

@@ -19,7 +19,7 @@ from sklearn.metrics import confusion_matrix, f1_score
 from ..catalogue import Catalogue
 from ..connection import NOBODY, connect
 from ..errors import BuildError
-from ..model import Bricks, Cover, Mask, UnitGrid
+from ..model import Bricks, Cover, Mask, UnitGrid, ground_of
 from .exchange import fewer_small, gains
 from .greedy import cover
 from .placements import placements
@@ -91,7 +91,7 @@ def tasks(grid: UnitGrid, bricks: Bricks, catalogue: Catalogue) -> Iterator[Prob
     owner = connect(bricks, catalogue).owner
     n_z, n_y, n_x = owner.shape
     built[1 : n_z + 1, :n_y, :n_x] = owner
-    ground = (built != NOBODY).any(axis=(1, 2)).argmax()
+    ground = ground_of(built != NOBODY)
     for sheets in split(grid):
         # the colour of what nobody sees does not matter here
         among = shapes(catalogue, sheets.height, codes, int(catalogue.codes[0]))

@@ -20,7 +20,7 @@ from scipy.sparse import csr_array
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, components, connect
 from ..joints import Touching, agree, brick_columns, every_plate
-from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Ints, Mask, UnitGrid
+from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Ints, Mask, UnitGrid, ground_of
 from ..progress import Progress
 from ..units import PLATES_PER_BRICK
 from .placements import Placements, placements
@@ -118,7 +118,7 @@ class _Model:
     def of(cls, bricks: Bricks, links: Connection, must: Mask) -> _Model:
         """Look up which cells bricks lie in, given those that have to be covered."""
         owner = owners(links, must.shape)
-        owner[: must.any(axis=(1, 2)).argmax()] = GROUND
+        owner[: ground_of(must)] = GROUND
         return cls(bricks, links, owner)
 
     def without(self, out: Ints) -> Rows:

@@ -73,6 +73,17 @@ def test_hidden_places_are_cheaper():
 
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 2**32 - 1))
+def test_nothing_is_added_below_the_ground(seed):
+    """Empty planes of the grid below a model are no place for plates: the contacts are those of the model alone."""
+    owner = np.random.default_rng(seed).choice([NOBODY, NOBODY, 0, 1, 2, 3], (4, 3, 4))
+    owner[0, 0] = np.arange(4)
+    alone, lifted = found_in(owner), found_in(np.pad(owner, ((3, 0), (0, 0), (0, 0)), constant_values=NOBODY))
+    np.testing.assert_array_equal(lifted.place, alone.place + np.array([3, 0, 0]))
+    np.testing.assert_array_equal(lifted.price, alone.price)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 2**32 - 1))
 def test_places_lie_between_components(seed):
     """Every place has bricks of two components, cells inside the model, and comes after cheaper ones."""
     rng = np.random.default_rng(seed)

@@ -48,9 +48,10 @@ def claw(width=1, colour=BLUE):
 
 
 def two_plates():
-    """Make a red and a blue plate of 2 x 3 studs side by side in the air."""
-    cells = np.full((2, 3, 3, 4), COLOUR_EMPTY)
-    cells[1, 1] = RED, RED, BLUE, BLUE
+    """Make a red and a blue plate of 2 x 3 studs side by side in the air, and a stud on the ground by itself."""
+    cells = np.full((2, 3, 3, 7), COLOUR_EMPTY)
+    cells[1, 1, :, :4] = RED, RED, BLUE, BLUE
+    cells[0, 0, 0, 6] = RED
     return grid_of(cells)
 
 
@@ -104,9 +105,9 @@ def test_wall_of_narrow_colours_is_one_piece():
 def test_plates_on_edge_get_one_below():
     """Plates with nothing above or below that touch sideways in two colours get one plate more, not on top."""
     grid = two_plates()
-    _, after, bricks = both(grid)
-    assert after.n_components == 1
-    assert sorted(bricks.corner[:, 2]) == [3, 4, 4]
+    before, after, bricks = both(grid)
+    assert before.n_components == after.n_components + 1
+    assert sorted(bricks.corner[:, 2]) == [0, 3, 4, 4]
     assert not wrong(grid, bricks, after).any()
     added = bricks.corner[:, 2] == 3
     assert bricks.role[added] == Role.PLATE
@@ -183,12 +184,12 @@ def test_grid_is_told_what_was_laid(make):
 @settings(max_examples=40, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.3, 0.5, 0.8]))
 def test_what_touches_holds(seed, filled):
-    """Every body of cells that touch face to face in the air is one piece; nothing is lost, all fits."""
+    """Every body of cells that touch face to face above the ground is one piece; nothing is lost, all fits."""
     rng = np.random.default_rng(seed)
     cells = np.full((4, 3, 6, 7), COLOUR_EMPTY)
     choice = [COLOUR_EMPTY, COLOUR_ANY, RED, BLUE, WHITE]
     cells[1:3] = rng.choice(choice, (2, 3, 6, 7), p=[1 - filled, *[filled / 4] * 4])
-    cells[1, 0, 0, 0] = RED
+    cells[0, 0, 0, 0] = RED
     grid = grid_of(cells)
     before, after, bricks = both(grid)
     assert after.n_components <= min(before.n_components, ndimage.label(planes(grid.solid))[1])
