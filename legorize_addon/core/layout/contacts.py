@@ -74,6 +74,7 @@ class _Reach:
     brick: Rows
     price: Floats
     added: int
+    on_top: bool = False
 
 
 def contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) -> Contacts:
@@ -97,8 +98,9 @@ def contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) -> Co
     """
     reaches = list(_reaches(owner)) if plates else [_Reach(owner, np.zeros(owner.shape), 0)]
     recoloured: Floats = _RECOLOURED + _OPEN_FACE * _open_faces(owner).astype(np.float64)
+    stacked = _stacked(owner)
     found = [
-        _across(axis, one, other, component, colour, recoloured)
+        _across(axis, one, other, component, stacked, colour, recoloured)
         for axis in (1, 2)
         for one in reaches
         for other in reaches
@@ -112,17 +114,16 @@ def _reaches(owner: Rows) -> Iterator[_Reach]:
     yield _Reach(owner, np.zeros(owner.shape), 0)
     empty = owner == NOBODY
     price = np.where(outer_air(~empty), _SEEN, _HIDDEN)
-    # a picture is flat on top
-    for step, more, bears in ((-1, 1.0, np.ones(owner.max() + 2, dtype=bool)), (1, _ON_TOP, _stacked(owner))):
+    for step, more in ((-1, 1.0), (1, _ON_TOP)):
         brick = np.roll(owner, step, axis=0)
-        brick[~empty | ~bears[brick]] = NOBODY
+        brick[~empty] = NOBODY
         # nothing is added below the ground or above the grid
         brick[: ground_of(~empty)] = brick[-1] = NOBODY
-        yield _Reach(brick, price * more, 1)
+        yield _Reach(brick, price * more, 1, step == 1)
 
 
 def _stacked(owner: Rows) -> Mask:
-    """Tell which bricks lie on others or bear some, and that nobody does, (n + 1,)."""
+    """Tell which bricks lie on others or bear some, and that nobody does not, (n + 1,)."""
     below, above = owner[:-1], owner[1:]
     touch = (below != above) & (below != NOBODY) & (above != NOBODY)
     stacked = np.zeros(owner.max() + 2, dtype=bool)
@@ -137,7 +138,9 @@ def _open_faces(owner: Rows) -> Ints:
     return 2 * owner.ndim - touched
 
 
-def _across(axis: int, one: _Reach, other: _Reach, component: Rows, colour: Plane, recoloured: Floats) -> Contacts:
+def _across(
+    axis: int, one: _Reach, other: _Reach, component: Rows, stacked: Mask, colour: Plane, recoloured: Floats
+) -> Contacts:
     """Return the seams along an axis between what two cells reach, if that is two components."""
     low, high = (
         tuple(part if each == axis else slice(None) for each in range(3)) for part in (slice(None, -1), slice(1, None))
@@ -145,6 +148,9 @@ def _across(axis: int, one: _Reach, other: _Reach, component: Rows, colour: Plan
     label = np.append(component, NOBODY)
     first, second = one.brick[low], other.brick[high]
     near = (first != NOBODY) & (second != NOBODY) & (label[first] != label[second])
+    if one.on_top or other.on_top:
+        # a picture is flat on top
+        near &= stacked[first] | stacked[second]
     place = np.argwhere(near)
     differ = ~agree(colour[low][near], colour[high][near]) & (one.added + other.added == 0)
     change = np.minimum(recoloured[low][near], recoloured[high][near])

@@ -114,6 +114,19 @@ def test_plates_on_edge_get_one_below():
     assert (bricks.step == bricks.corner[:, 2] // 3).all()
 
 
+def test_single_plates_beside_a_foot_are_joined_on_top():
+    """Plates of another colour along a foot, too many to be recoloured, are joined by one that reaches over them."""
+    cells = np.full((2, 3, 3, 6), COLOUR_EMPTY)
+    cells[:, :, :2] = RED
+    cells[0, 0, 2] = BLUE
+    grid = grid_of(cells)
+    before, after, bricks = both(grid)
+    assert (before.n_components, after.n_components) == (2, 1)
+    assert not wrong(grid, bricks, after).any()
+    added = (after.owner != NOBODY) & ~planes(grid.solid)
+    assert np.argwhere(added)[:, :2].tolist() == [[1, 2]]
+
+
 def test_flat_picture_stays_as_it_is():
     """A picture of single plates on the ground is not covered by plates and loses no pixel: it stays in pieces."""
     cells = np.full((1, 3, 2, 6), COLOUR_EMPTY)
