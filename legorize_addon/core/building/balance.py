@@ -145,15 +145,15 @@ class _Towers:
         """Whether a tower falls over, which none does twice."""
         if self.fallen[tower] or not self.feet[tower]:
             return False
-        x, y = self._middle(tower).tolist()
-        cells = self.feet[tower]
-        # over one of several cells a middle is inside, if perhaps nearer to the edge than steady towers have it
-        if (int(np.floor(x)), int(np.floor(y))) in cells and len(cells) > 1:
+        middle = self._middle(tower)
+        x, y = np.floor(middle).astype(int).tolist()
+        # well inside of one cell is well inside of the outline of all
+        if (x, y) in self.feet[tower] and np.abs(middle - (x + 0.5, y + 0.5)).max() <= 0.5 - STEADY:
             return False
         planes = self.hull[tower]
         if planes is None:
-            planes = self.hull[tower] = hull(corners(cells))
-        return bool(-beyond(planes, np.array([x, y])).max() < STEADY)
+            planes = self.hull[tower] = hull(corners(self.feet[tower]))
+        return bool(-beyond(planes, middle).max() < STEADY)
 
     def _middle(self, tower: int) -> Floats:
         """Return the middle of a tower's weight in studs, x and y."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.building.balance import tipping
+from legorize_addon.core.building.balance import STEADY, tipping
 from legorize_addon.core.building.order import ordered
-from legorize_addon.core.connection import connect
+from legorize_addon.core.connection import connect, middles
 from legorize_addon.core.stability import stability
 from tests.core.standing import CATALOGUE, table
 
@@ -25,6 +25,15 @@ def test_leaning_tower_falls_at_the_step_that_is_too_much():
     assert found.step == 1
     assert found.bricks.tolist() == [0, 1]
     assert falling(table(("3003", 0, 0, 0), ("3003", 0, 0, 3))) == []
+
+
+@pytest.mark.parametrize(("n_beams", "distance"), [(2, 0.15), (4, 0.08)])
+def test_feet_of_several_cells_have_an_edge_as_well(n_beams, distance):
+    """Beams on a brick of two studs shift its weight towards its edge: what is left to it must be a tenth of a stud."""
+    bricks = table(("3004", 1, 0, 0), *(("3009", 0, 0, 3 * (1 + level)) for level in range(n_beams)))
+    middle = np.average(middles(bricks, CATALOGUE), axis=0, weights=CATALOGUE.mass[bricks.part])
+    assert 3 - middle[0] == pytest.approx(distance, abs=0.01)
+    assert bool(falling(bricks)) == (distance < STEADY)
 
 
 def test_tower_that_is_caught_later_falls_before():
