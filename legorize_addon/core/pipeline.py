@@ -197,7 +197,7 @@ def _unit_grid(
         facing=facing,
         progress=progress,
     )
-    check_any(grid, mesh)
+    check_any(grid, mesh, keep_thin=settings.keep_thin)
     return grid if facing is None else with_backing(grid, facing, depth=settings.backing)
 
 

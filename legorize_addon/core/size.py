@@ -84,7 +84,7 @@ def check_size(mesh: TriangleMesh, *, plates: bool) -> None:
         )
 
 
-def check_any(grid: UnitGrid, mesh: TriangleMesh) -> None:
+def check_any(grid: UnitGrid, mesh: TriangleMesh, *, keep_thin: bool) -> None:
     """Refuse a model without bricks.
 
     Parameters
@@ -92,6 +92,8 @@ def check_any(grid: UnitGrid, mesh: TriangleMesh) -> None:
     grid : UnitGrid
     mesh : TriangleMesh
         In its final size.
+    keep_thin : bool
+        Whether cells were added where the mesh is thin.
 
     Raises
     ------
@@ -102,11 +104,13 @@ def check_any(grid: UnitGrid, mesh: TriangleMesh) -> None:
         return
     size = np.ptp(mesh.vertices, axis=0)
     model = f"The model would be {size[0]:.2g} x {size[1]:.2g} x {size[2]:.2g} mm"
-    if (size >= (STUD, STUD, BRICK)).all():
+    small = (size < (STUD, STUD, BRICK)).all()
+    if not (small or keep_thin):
         raise SettingsError(
             f"{model}, but nowhere fills half of a cell of {STUD:g} x {STUD:g} mm: turn keep_thin on, or choose a "
             "larger size."
         )
     raise SettingsError(
-        f"{model}, too small for one brick of {STUD:g} x {STUD:g} x {BRICK:g} mm: choose a larger size."
+        f"{model}, too {'small' if small else 'thin'} for one brick of {STUD:g} x {STUD:g} x {BRICK:g} mm: choose a "
+        "larger size."
     )

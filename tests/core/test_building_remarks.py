@@ -12,12 +12,12 @@ from legorize_addon.core.supports import supported, with_floating_carried
 from tests.core.standing import CATALOGUE, table
 
 
-def told(*rows, posts=False, **options):
+def told(*rows, posts=False, deepest=3, **options):
     """Return what is told of bricks."""
     bricks = table(*rows)
     if posts:
         bricks, _ = with_floating_carried(bricks, CATALOGUE, connect(bricks, CATALOGUE))
-    return remarks_on_building(supported(bricks, CATALOGUE, **options), CATALOGUE)
+    return remarks_on_building(supported(bricks, CATALOGUE, deepest=deepest, **options), CATALOGUE)
 
 
 def test_nothing_to_tell():
@@ -50,7 +50,7 @@ def test_brick_in_the_air_is_named():
 def test_piece_without_hold_is_told():
     """A piece that touches nothing when it is joined is counted."""
     bricks = replace(table(("3003", 0, 0, 0), ("3003", 6, 0, 3)), piece=np.array([0, 1], np.int16))
-    [sentence] = remarks_on_building(supported(bricks, CATALOGUE, wish="none"), CATALOGUE)
+    [sentence] = remarks_on_building(supported(bricks, CATALOGUE, wish="none", deepest=3), CATALOGUE)
     assert "1 piece that finds no hold" in sentence
 
 

@@ -62,7 +62,7 @@ def build_of(rows):
         images=(np.zeros((1, 1, 3), np.uint8),),
         image_clamp=np.ones(1, bool),
     )
-    supports = supported(bricks, CATALOGUE, wish="none")
+    supports = supported(bricks, CATALOGUE, wish="none", deepest=3)
     solid = np.zeros((3, 6, 8), bool)
     solid[:2, 1:5, 1:7] = True
     return SimpleNamespace(

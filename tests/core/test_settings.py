@@ -9,10 +9,16 @@ import pytest
 
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.settings import Settings, choices, setting_type
+from legorize_addon.core.statics import HOLD
 
 ENTRIES = {entry.name: entry for entry in fields(Settings)}
 NUMBERS = [name for name, entry in ENTRIES.items() if setting_type(entry) in (int, float)]
 WORDS = [name for name, entry in ENTRIES.items() if choices(entry)]
+
+
+def test_default_hold_is_that_of_the_force_test():
+    """Who tests bricks without settings tests them as the product does."""
+    assert Settings().hold == HOLD
 
 
 def refusal(name, value) -> str:

@@ -117,7 +117,7 @@ def supported(
     catalogue: Catalogue,
     *,
     wish: Wish = "best",
-    deepest: int = 3,
+    deepest: int,
     hold: float = HOLD,
     progress: Progress = silent,
 ) -> Supports:

@@ -60,7 +60,7 @@ def found_faults(found):
 def test_model_comes_first_and_unchanged(models):
     """The rows of the model are those that came in, in their order, but for the steps."""
     bricks = models["table"]
-    found = supported(bricks, CATALOGUE)
+    found = supported(bricks, CATALOGUE, deepest=3)
     kept = found.bricks.take(np.arange(len(bricks)))
     for name in ("part", "corner", "turn", "colour", "role", "piece"):
         assert np.array_equal(getattr(kept, name), getattr(bricks, name)), name
@@ -69,7 +69,8 @@ def test_model_comes_first_and_unchanged(models):
 def test_different_structures_on_one_model(models):
     """Columns, trees and beams are three different structures, and the best is the lightest of them."""
     mass = {
-        way: float(CATALOGUE.mass[supported(models["t_shape"], CATALOGUE, wish=way).removed.part].sum()) for way in WAYS
+        way: float(CATALOGUE.mass[supported(models["t_shape"], CATALOGUE, wish=way, deepest=3).removed.part].sum())
+        for way in WAYS
     }
     assert mass["best"] == min(mass.values())
     assert len({mass[way] for way in WAYS[1:]}) == 3
@@ -77,7 +78,7 @@ def test_different_structures_on_one_model(models):
 
 def test_nothing_is_added_if_nothing_is_wanted(models):
     """Without supports the model is left as it is, and the check says what cannot be built."""
-    found = supported(table(("3003", 0, 0, 0), ("3003", 5, 5, 3), ("3003", 0, 0, 3)), CATALOGUE, wish="none")
+    found = supported(table(("3003", 0, 0, 0), ("3003", 5, 5, 3), ("3003", 0, 0, 3)), CATALOGUE, wish="none", deepest=3)
     assert not found.temporary.any()
     assert found.walk.in_air.tolist() == [1]
 
