@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from .cell_colours import CLEAR, Ballot, Codes
+from .cell_colours import CLEAR, Ballot, Codes, cost_in
 from .conditional_modes import Columns, is_brick, relaxed
 from .model import COLOUR_ANY, COLOUR_EMPTY, Floats, Ints, Mask
 from .units import PLATES_PER_BRICK
@@ -161,8 +161,7 @@ class _Colours:
         every = np.concatenate([np.repeat(one[:, :, None], PLATES_PER_BRICK, axis=2), beside], axis=1)
         taken = np.where(self.shown[which][:, None] & (every >= 0), every, now[:, None])
         offered = np.concatenate([now[:, None], taken], axis=1)
-        place = np.minimum(np.searchsorted(self.codes, offered), len(self.codes) - 1)
-        error: Floats = np.take_along_axis(self.cost[which], place.transpose(0, 2, 1), axis=2).sum(axis=1)
+        error = cost_in(self.cost[which], self.shown[which], self.codes, offered).sum(axis=2)
         several = (offered != COLOUR_EMPTY).all(axis=2) & ~is_brick(offered)
         return offered, error + np.where(several, self.price[which, None], 0.0)
 

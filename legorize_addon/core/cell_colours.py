@@ -64,6 +64,31 @@ class Ballot:
         return chosen(self.codes, self.votes, self.score, seen, height)
 
 
+def cost_in(cost: Floats, shown: Mask, codes: Codes, wanted: Codes) -> Floats:
+    """Look up what plates cost in colours.
+
+    Parameters
+    ----------
+    cost : (n, 3, k) float64 array
+        Of each plate in each colour.
+    shown : (n, 3) bool array
+        Plates that have a colour; others cost nothing.
+    codes : (k,) int16 array
+        The colours, rising.
+    wanted : (n, m, 3) int16 array
+        LDraw codes to look up.
+
+    Returns
+    -------
+    (n, m, 3) float64 array
+        Infinite in a colour that is not among them, as nobody voted for it.
+    """
+    place = np.searchsorted(codes, wanted)
+    there = np.append(codes, np.int16(COLOUR_ANY))[place] == wanted
+    found = np.take_along_axis(cost, np.minimum(place, len(codes) - 1).transpose(0, 2, 1), axis=2).transpose(0, 2, 1)
+    return np.where(shown[:, None], np.where(there, found, np.inf), 0.0)
+
+
 def likeliest_colours(
     samples: SurfaceSamples,
     air: Mask,

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .agreement import agreed_colours, agreed_shapes
-from .cell_colours import CLEAR, Ballot, Codes
+from .cell_colours import CLEAR, Ballot, Codes, cost_in
 from .model import COLOUR_ANY, COLOUR_EMPTY, Floats, Mask
 from .units import PLATES_PER_BRICK
 
@@ -138,10 +138,7 @@ def _coloured_alone(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -
     number = np.cumsum(seen.ravel()).reshape(columns.shape)[layer, :, y, x] - 1
     cost = np.where(shown[:, :, None], ballot.cost[number], 0.0)
     voted = ((ballot.votes[number] > 0) & shown[:, :, None]).any(axis=1)
-    own = np.searchsorted(ballot.codes, columns[layer, :, y, x])
-    several = np.where(
-        shown, np.take_along_axis(cost, np.minimum(own, cost.shape[2] - 1)[:, :, None], axis=2)[:, :, 0], 0
-    )
+    several = cost_in(cost, shown, ballot.codes, columns[layer, None, :, y, x])[:, 0]
     total = np.where(voted, cost.mean(axis=1), np.inf)
     one = total.argmin(axis=1)
     gain = (total.min(axis=1) - several.mean(axis=1)) / CLEAR

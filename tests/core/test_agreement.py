@@ -10,6 +10,7 @@ from scipy import ndimage
 
 from legorize_addon.core.agreement import agreed_colours, agreed_shapes
 from legorize_addon.core.cell_colours import CLEAR, Ballot
+from legorize_addon.core.detail import Detail, settled_colours
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
@@ -95,6 +96,19 @@ def ballot_of(surface: np.ndarray, difference: float) -> Ballot:
     """Let each visible cell vote for the colour of its surface; blue and red differ by so much."""
     votes = (surface[:, None] == np.array([BLUE, RED])).astype(float)
     return Ballot(np.array([BLUE, RED], np.int16), votes, votes, difference * (1 - np.eye(2)))
+
+
+@pytest.mark.parametrize("code", [BLUE + 1, RED + 1])
+def test_a_colour_that_nobody_voted_for_is_dearer_than_all_others(code):
+    """A plate in a colour that is not on the ballot takes one that is, and no neighbour follows it."""
+    red = np.full((3, 5, 1), RED, dtype=np.int16)
+    everywhere, ballot = np.ones(red.shape, dtype=bool), ballot_of(red.ravel(), 90.0)
+    plate, wall = red.copy(), np.full_like(red, code)
+    plate[0, 2], wall[:, 2] = code, RED
+    settled = settled_colours(plate, everywhere, ballot, Detail(np.array([True]), 0.0))
+    np.testing.assert_array_equal(settled, red)
+    agreed = agreed_colours(wall, everywhere, ballot, np.array([True]), least_gain=0.2, worth=WORTH)
+    np.testing.assert_array_equal(agreed[:, 1:4], red[:, 1:4])
 
 
 def coloured(colour: np.ndarray, difference: float, *, marked=True) -> np.ndarray:
