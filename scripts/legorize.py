@@ -281,6 +281,8 @@ def failed_checks(facts: dict[str, Any]) -> list[str]:
         (colours["bricks"], 0, "Bricks in a colour in which their part was never made: {}."),
     )
     failed = [sentence.format(count) for count, allowed, sentence in counts if count > allowed]
+    if not facts["building"]["ends_as_model"]:
+        failed.append("The building order does not end with the model.")
     proof = facts["building"]["proof"]
     if proof and proof["collapsing"] + proof["undecided"]:
         failed.append(f"Steps not proven to stand: {len(proof['collapsing'] + proof['undecided'])}.")

@@ -23,9 +23,11 @@ from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Bricks, Cover, U
 from scripts import benchmark  # noqa: E402
 from scripts.benchmarks import annealing, baselines, layout_goals, merging, peer, rules, tiling, volumes  # noqa: E402
 from scripts.benchmarks.baselines import LayerWay  # noqa: E402
+from scripts.benchmarks.energies import energies  # noqa: E402
 from scripts.benchmarks.laying import faults, nothing_beneath  # noqa: E402
 from scripts.benchmarks.layouts import METHODS, without_corners  # noqa: E402
 from scripts.benchmarks.seams import EQUAL, FEW, Layer  # noqa: E402
+from tests.core.standing import CATALOGUE, table  # noqa: E402
 
 RED, WHITE = 4, 15
 
@@ -126,6 +128,17 @@ def test_energies_are_the_papers() -> None:
         owner = np.full(layer.problem.sheets.colour.shape[1:], NOBODY)
         owner.reshape(-1)[layer.problem.sheets.cells] = layer.problem.owner(chosen)
         assert aesthetics >= features.symmetry(owner, found.colour[chosen]) - 1e-12
+
+
+def test_energies_of_whole_models() -> None:
+    """A 2 x 8 alone has nothing above or below; two on each other have one side each; two studs across are a pair."""
+    alone, both = (table(*(("3007", 0, 0, 3 * level) for level in range(n))) for n in (1, 2))
+    assert list(energies(alone, connect(alone, CATALOGUE), CATALOGUE).values()) == [0, 2, 2, 0, 0]
+    found = energies(both, connect(both, CATALOGUE), CATALOGUE)
+    assert (found["e_vertical"], found["e_horizontal"]) == (1, 2)
+    pair = table(("3005", 0, 0, 0), ("3005", 1, 1, 0))
+    found = energies(pair, connect(pair, CATALOGUE), CATALOGUE)
+    assert (found["e_unit_connection"], found["e_efficiency"], found["e_symmetry"]) == (1, 1, 1)
 
 
 def test_seams_are_bridged_or_coincide() -> None:

@@ -11,11 +11,13 @@ from .bodies import free_bodies
 from .build import Build, Cut
 from .catalogue import Catalogue
 from .connection import NOBODY, Connection
+from .coverage import cut_at_grid
 from .joints import brick_columns
 from .layout import bound
 from .ldraw import ldraw_matrix
 from .model import SUPPORTS, Cover, Mask, Role, UnitGrid
 from .overhangs import Offsets, OverhangKind, overhang_kinds
+from .pass_through import corner_windings, pass_through_types
 from .regions import tally_cases
 from .remarks import remarks
 from .shopping import PartsList, count_parts, masses, not_made, pick_a_brick_csv
@@ -46,8 +48,9 @@ def report(build: Build, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         Strings, numbers, lists and dictionaries only, ready for ``json.dumps``.
         ``mesh_to_ldraw`` is the row-major 4 x 4 transform from coordinates of
         that scene to LDU; ``hollow_ratio`` the share of the model's cells that
-        no brick fills, supports excluded. ``offsets`` and ``overhangs`` count by
-        levels, of plates or of bricks, ``hollowing`` by cells a plate high.
+        no brick fills, supports excluded. ``pass_through`` counts the paper's types
+        of cells slice by slice, ``offsets`` and ``overhangs`` count by levels, of
+        plates or of bricks, ``hollowing`` by cells a plate high.
 
     Raises
     ------
@@ -66,6 +69,7 @@ def report(build: Build, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         "mesh_to_ldraw": ldraw_matrix(build.grid.origin, build.scale, mm_per_unit).tolist(),
         "scale": build.scale,
         "grid": _grid(build.grid),
+        "pass_through": _pass_through(build),
         "detail": _detail(build.cut, build.grid),
         "offsets": _offsets(build.offsets),
         "overhangs": _overhangs(levels),
@@ -106,6 +110,17 @@ def _grid(grid: UnitGrid) -> dict[str, int]:
     """Return the extent of the model in studs and layers."""
     layer, _, y, x = np.nonzero(grid.solid)
     return {"x": int(np.ptp(x)) + 1, "y": int(np.ptp(y)) + 1, "layers": int(np.ptp(layer)) + 1}
+
+
+def _pass_through(build: Build) -> dict[str, int]:
+    """Return how many cells trajectories pass such that one, two or three corners lie inside, over all slices."""
+    loops, corner = build.trajectories, build.grid.origin[:2]
+    level = loops.loop_slice[loops.edge_loop].astype(np.int64)
+    n_levels, (n_y, n_x) = len(build.cut.slices.heights), build.grid.colour.shape[2:]
+    windings = corner_windings(loops.points, loops.ends, level, corner=corner, n_levels=n_levels, n_y=n_y, n_x=n_x)
+    pieces = cut_at_grid(loops.points, loops.ends, corner)
+    _, inside = pass_through_types(pieces, level[pieces.edge], windings)
+    return {f"type_{number}": int((inside == number).sum()) for number in (1, 2, 3)}
 
 
 def _levels(build: Build) -> Mask:
@@ -233,6 +248,7 @@ def _building(build: Build) -> dict[str, Any]:
     return {
         "steps": found.n_steps,
         "moves": len(supports.moves),
+        "buildable": found.buildable,
         "pressed_from_below": int(supports.moves.pressed.sum()),
         "in_air": len(found.in_air),
         "squeezed_in": len(found.squeezed),

@@ -14,6 +14,7 @@ from legorize_addon.core.shopping import count_parts, not_made
 
 from .baselines import Lay
 from .clock import least_seconds
+from .energies import energies
 from .layout_figures import articulations, coinciding_seams, colours_lost, single
 from .tables import Row
 
@@ -114,6 +115,7 @@ def figures(laid: Laid, catalogue: Catalogue) -> Row:
         "components": links.n_components,
         "floating": links.n_floating,
         "nothing_beneath": nothing_beneath(bricks, links),
+        **energies(bricks, links, catalogue),
         "faults": laid.faults,
         "tc_s": laid.seconds,
     }

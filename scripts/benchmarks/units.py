@@ -94,7 +94,9 @@ class Cut:
             closed=closed,
             catalogue=load_catalogue(),
         )
-        return grid.colour[:, 0]
+        # the model's own layers begin with its lowest cells
+        below = self.frame.n_layers - len(grid.colour)
+        return np.pad(grid.colour[:, 0], ((below, 0), (0, 0), (0, 0)), constant_values=COLOUR_EMPTY)
 
 
 def measure(paths: Sequence[Path], *, width: int, triangles: Sequence[int], points: int, repeats: int) -> list[Table]:

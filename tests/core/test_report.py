@@ -21,6 +21,8 @@ from legorize_addon.core.report import report
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.stability import stability
 from legorize_addon.core.supports import supported
+from tests.core.solids import box
+from tests.core.textured import painted, stages
 
 CATALOGUE = load_catalogue()
 
@@ -65,12 +67,15 @@ def build_of(rows):
     supports = supported(bricks, CATALOGUE, wish="none", deepest=3)
     solid = np.zeros((3, 6, 8), bool)
     solid[:2, 1:5, 1:7] = True
+    cut = stages(painted(box((4, 28, 0), (36, 52, 19.2)), 4))
+    slices = SimpleNamespace(heights=cut.heights)
     return SimpleNamespace(
         settings=Settings(seed=7),
         mesh=mesh,
         repairs=Repairs(**{entry.name: 0 for entry in fields(Repairs)} | {"watertight": True}),
         scale=0.5,
-        cut=Cut(slices=None, layer=np.array([0, 1], np.int32), plate=np.ones(2, np.int8), marks=None),
+        trajectories=cut.trajectories,
+        cut=Cut(slices=slices, layer=np.array([0, 1], np.int32), plate=np.ones(2, np.int8), marks=None),
         offsets=offsets_of(grid_of(solid), plates=False),
         grid=grid_of(solid),
         hollow=grid_of(solid),
@@ -162,7 +167,8 @@ def test_detail_counts_layers_and_columns():
     grid.cover[1, 0, 2, 3], grid.colour[1, 0, 2, 3] = Cover.EMPTY, COLOUR_EMPTY
     grid.colour[3, 1, :2, 0] = 15
     marks = Marks(number=np.array([0, 1, 1, 0], bool), length=np.ones(4, bool), area=np.zeros(4, bool))
-    cut = Cut(slices=None, layer=np.array([0, 1, 1, 1, 2, 3, 3, 3], np.int32), plate=np.ones(8, np.int8), marks=marks)
+    layer, slices = np.array([0, 1, 1, 1, 2, 3, 3, 3], np.int32), SimpleNamespace(heights=np.zeros(8))
+    cut = Cut(slices=slices, layer=layer, plate=np.ones(8, np.int8), marks=marks)
     assert described_grid(grid, cut=cut)["detail"] == {
         "layers": 4,
         "marked_by_number": 2,
@@ -175,6 +181,19 @@ def test_detail_counts_layers_and_columns():
     unmarked = described_grid(grid_of(np.ones((2, 3, 3), bool)))["detail"]
     assert unmarked["marked_by_number"] is unmarked["marked_by_length"] is unmarked["marked_by_area"] is None
     assert unmarked["layers_in_plates"] == unmarked["columns_of_plates"] == 0
+
+
+def test_order_is_buildable_if_all_steps_are_and_the_model_is_left(described):
+    """What counts the steps and the end apart agrees with the verdict on the whole order."""
+    building = described["building"]
+    done = described["buildable_steps"] == building["steps"] and building["ends_as_model"]
+    assert building["buildable"] == done
+
+
+def test_cells_that_trajectories_pass_are_counted(described):
+    """A rectangle whose sides pass the middles of cells leaves one corner of four of them inside, two of ten."""
+    n_slices = len(stages(painted(box((4, 28, 0), (36, 52, 19.2)), 4)).heights)
+    assert described["pass_through"] == {"type_1": 4 * n_slices, "type_2": 10 * n_slices, "type_3": 0}
 
 
 def test_offsets_are_counted():
