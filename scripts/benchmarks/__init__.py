@@ -22,7 +22,6 @@
 ``followed``      an order followed from its file, apart from the product's check
 ``layouts``       the layouts of the field and ours: Tables 1 and 3, and a peer
 ``laying``        one model by one method: its time, whether it is right and good
-``layout_figures``  how good a layout is beside the number of its bricks
 ``energies``      the paper's energies of whole layouts
 ``layout_goals``  the claims on layouts as goals
 ``volumes``       the paper's Table 1
