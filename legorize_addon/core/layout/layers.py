@@ -9,6 +9,7 @@ something to lie across, and again when those are laid.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final, Literal
 
@@ -17,12 +18,13 @@ import numpy as np
 from ..catalogue import Catalogue
 from ..connection import NOBODY
 from ..errors import BuildError
-from ..model import COLOUR_EMPTY, Bricks, Cover, Mask, UnitGrid, ground_of
+from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Mask, UnitGrid, ground_of
 from ..progress import Progress, silent
 from ..units import PLATES_PER_BRICK
 from . import exact, greedy, linear
 from .exchange import fewer_small
 from .placements import Placements, placements
+from .pricing import prices
 from .problem import BRIDGE, GROUND, Problem, pose, with_margins
 from .repair import connect_loose
 from .shapes import Index, Rows, Shapes, shapes
@@ -38,7 +40,7 @@ _SLAB: Final = 1 << 15
 """Cells that are laid together: enough to drown the cost of a numpy call, few
 enough for the memory (147 placements go through a cell in a wide area)."""
 
-_BATCH: Final = 2000
+_BATCH: Final = 5000
 """Placements up to which sheets are put into one linear programme."""
 
 Tier = Literal["fast", "standard", "exact"]
@@ -120,13 +122,14 @@ def lay(
     n_laid = 0
     slabs, ways = np.unique(slab_of_layer), _PASSES[tier]
     for turn, slab in enumerate(slabs):
-        listed = _listed(work, slab_of_layer == slab)
+        listed = _listed(work, slab_of_layer == slab, must, tier)
         halves: list[list[Bricks]] = [[], []]
         for number, way in enumerate(ways):
             halves[number % 2] = half = []
-            for sheets, among, found in _batches(listed, number % 2, np.inf if way is greedy.cover else _BATCH):
+            for each in _batches(listed, number % 2, np.inf if way is greedy.cover else _BATCH):
                 progress("layout", (turn + number / len(ways)) / len(slabs))
-                problem = pose(sheets, among, found, owner, must, _BRIDGE[tier])
+                problem = pose(each.sheets, each.among, each.found, owner, must, _BRIDGE[tier])
+                problem = replace(problem, price=each.price)
                 half.append(_laid(problem, owner, n_laid, way, worth, rng))
                 n_laid += len(half[-1])
         laid += halves[0] + halves[1]
@@ -136,21 +139,42 @@ def lay(
     return join_by_windows(bricks, grid, work, catalogue, progress)
 
 
-def _listed(work: Sequence[tuple[Sheets, Shapes]], layers: Mask) -> list[tuple[Sheets, Shapes, Placements]]:
-    """Return the sheets of some layers, and what may lie there."""
-    inside = ((sheets.take(layers[sheets.level // PLATES_PER_BRICK]), among) for sheets, among in work)
-    return [(sheets, among, placements(sheets, among)) for sheets, among in inside if len(sheets)]
+@dataclass(frozen=True, slots=True, eq=False)
+class _Listed:
+    """Sheets of one height, what may lie there, and what their cells are worth at a guess."""
+
+    sheets: Sheets
+    among: Shapes
+    found: Placements
+    price: Floats | None
+
+    def take(self, which: Index) -> _Listed:
+        """Return some of the sheets."""
+        sheet = np.repeat(np.arange(len(self.sheets)), self.sheets.n_cells)
+        price = None if self.price is None else self.price[np.isin(sheet, which)]
+        return _Listed(self.sheets.take(which), self.among, self.found.on(which, self.sheets.n_cells), price)
 
 
-def _batches(
-    listed: Sequence[tuple[Sheets, Shapes, Placements]], half: int, most: float
-) -> Iterator[tuple[Sheets, Shapes, Placements]]:
-    """Yield every other sheet, and what may lie there, as many at once as have at most so many placements."""
-    for sheets, among, found in listed:
-        which = np.flatnonzero(sheets.level // sheets.height % 2 == half)
-        count = np.bincount(found.corner[:, 2], minlength=len(sheets))[which]
+def _listed(work: Sequence[tuple[Sheets, Shapes]], layers: Mask, must: Mask, tier: Tier) -> list[_Listed]:
+    """List what may lie on the sheets of some layers."""
+    nobody = np.full(must.shape, NOBODY, dtype=np.int32)
+    listed = []
+    for sheets, among in work:
+        inside = sheets.take(layers[sheets.level // PLATES_PER_BRICK])
+        if len(inside):
+            found = placements(inside, among)
+            price = prices(pose(inside, among, found, nobody, must)) if tier == "standard" else None
+            listed.append(_Listed(inside, among, found, price))
+    return listed
+
+
+def _batches(listed: Sequence[_Listed], half: int, most: float) -> Iterator[_Listed]:
+    """Yield every other sheet, as many at once as have at most so many placements."""
+    for each in listed:
+        which = np.flatnonzero(each.sheets.level // each.sheets.height % 2 == half)
+        count = np.bincount(each.found.corner[:, 2], minlength=len(each.sheets))[which]
         for batch in np.split(which, _ends(count, most)) if len(which) else ():
-            yield sheets.take(batch), among, found.on(batch, sheets.n_cells)
+            yield each.take(batch)
 
 
 def _ends(count: Index, most: float) -> list[int]:

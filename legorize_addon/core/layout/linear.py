@@ -20,6 +20,7 @@ from .bond import running_bond
 from .dominance import dominated
 from .exchange import fewer_small
 from .live import Live
+from .pricing import promising
 from .problem import Problem
 from .programme import WHOLE, shares
 from .shapes import Index
@@ -55,7 +56,10 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
         only where no layout could cover them together.
     """
     found = problem.placements
-    live = Live.of(found).only(~dominated(found, problem.shapes, problem.must, problem.cost))
+    kept = ~dominated(found, problem.shapes, problem.must, problem.cost)
+    if problem.price is not None:
+        kept &= promising(problem, problem.price)
+    live = Live.of(found).only(kept)
     cost = problem.cost + _NOISE * rng.random(len(found))
     if len(live.rows) <= _WIDE:
         return dive(live, problem.must, cost).rows

@@ -48,6 +48,8 @@ class Problem:
         Where the cells are: x and y in studs, number of the sheet.
     cost : (n,) float64 array
         Cost of each placement, in bricks.
+    price : (n_cells,) float64 array, optional
+        What each cell is worth, at a guess (see :mod:`.pricing`).
     """
 
     sheets: Sheets
@@ -56,6 +58,7 @@ class Problem:
     must: Mask
     corner: Index
     cost: Floats
+    price: Floats | None = None
 
     def owner(self, chosen: Index) -> Index:
         """Return the position in `chosen` of the placement that covers each cell, ``NOBODY`` where there is none."""
