@@ -24,9 +24,10 @@ from .shapes import Index, Plane, Rows
 _PLACES: Final = 12
 """Most places for each two components."""
 
-_RECOLOURED: Final = 1.0
+RECOLOURED: Final = 10.0
 _OPEN_FACE: Final = 0.1
-"""Price of a cell that is seen in the neighbour's colour, and of each face that it is seen from."""
+"""Price of a cell that is seen in the neighbour's colour, and of each face that it is seen from: a plate below an edge
+shows less, one on top shows more."""
 
 _HIDDEN: Final = 0.5
 _SEEN: Final = 8.0
@@ -97,7 +98,7 @@ def contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) -> Co
         Some for each two components that come near to each other.
     """
     reaches = list(_reaches(owner)) if plates else [_Reach(owner, np.zeros(owner.shape), 0)]
-    recoloured: Floats = _RECOLOURED + _OPEN_FACE * _open_faces(owner).astype(np.float64)
+    recoloured: Floats = RECOLOURED + _OPEN_FACE * _open_faces(owner).astype(np.float64)
     stacked = _stacked(owner)
     found = [
         _across(axis, one, other, component, stacked, colour, recoloured)

@@ -2,8 +2,9 @@
 
 What is still loose once the bricks are laid is joined to what it touches by a
 plate across the seam, a *strap*, for which the bricks on both sides are cut. The
-strap has the colour of one side: where both are seen, one plate is in the
-neighbour's colour. Where there is nothing to cut, a plate is added below or above.
+strap has the colour of one side: where that would show, a plate is added below
+an edge, and only where there is no room for one is a cell in the neighbour's
+colour. Where there is nothing to cut, a plate is added below or above.
 The cheapest joints come first, as in a least spanning tree (Kruskal 1956).
 """
 
@@ -19,7 +20,7 @@ from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, components, connect
 from ..model import COLOUR_EMPTY, Bricks, Cover, Ints, Role, UnitGrid
 from ..units import PLATES_PER_BRICK
-from .contacts import Contacts, contacts
+from .contacts import RECOLOURED, Contacts, contacts
 from .cutting import Bench, Laid, Seam, Square
 from .problem import owners, with_margins
 from .shapes import Plane, Rows
@@ -34,7 +35,7 @@ _MOST_WRONG: Final = 2
 """Most stud squares of a strap that have to show another colour."""
 
 _FREE: Final = 0.6
-_DEAR: Final = 1.6
+_DEAR: Final = RECOLOURED + 0.6
 """Prices below which a second strap shows nowhere, and below which it shows in one cell of another colour."""
 
 _BRICKS_A_STRAP: Final = 6
@@ -102,12 +103,15 @@ def _joined(bench: Bench, component: Rows, colour: Plane, *, plates: bool) -> in
     seams = _seams(found)
     home = np.arange(component.max() + 1)
     laid = []
-    for row, (one, other) in enumerate(pairs):
-        if home[one] != home[other] and _strap(bench, seams[row], colour, height):
-            home[home == home[one]] = home[other]
-            laid.append(row)
+    # no colour is given up where another place costs less
+    for rows, most_wrong in ((found.price < RECOLOURED, 0), (found.price > -np.inf, _MOST_WRONG)):
+        for row in np.flatnonzero(rows).tolist():
+            one, other = pairs[row]
+            if home[one] != home[other] and _strap(bench, seams[row], colour, height, most_wrong):
+                home[home == home[one]] = home[other]
+                laid.append(row)
     for row in _more(found, pairs, laid, _hanging(pairs[laid], np.bincount(component))):
-        _strap(bench, seams[row], colour, height)
+        _strap(bench, seams[row], colour, height, 0 if found.price[row] < RECOLOURED else _MOST_WRONG)
     return len(laid)
 
 
@@ -154,14 +158,14 @@ def _more(found: Contacts, pairs: Rows, laid: list[int], hanging: list[int]) -> 
             )
 
 
-def _strap(bench: Bench, seam: Seam, colour: Plane, height: int) -> bool:
-    """Lay a strap across a seam; return whether there is one that holds."""
+def _strap(bench: Bench, seam: Seam, colour: Plane, height: int, most_wrong: int) -> bool:
+    """Lay a strap across a seam; return whether there is one that holds and is in the wrong colour in few squares."""
     ends = [bench.at(seam.level, end) for end in seam.ends]
     cut = sorted({number for number in ends if number != NOBODY})
     # a strap laid before may reach across this seam already
     if NOBODY not in ends and len(cut) == 1:
         return False
-    for strap in _straps(bench, seam, cut, colour, height)[:_TRIED]:
+    for strap in _straps(bench, seam, cut, colour, height, most_wrong)[:_TRIED]:
         pieces = bench.cut(cut, strap)
         if pieces is not None and bench.holds([strap, *pieces]):
             bench.put(cut, [strap, *pieces])
@@ -169,7 +173,7 @@ def _strap(bench: Bench, seam: Seam, colour: Plane, height: int) -> bool:
     return False
 
 
-def _straps(bench: Bench, seam: Seam, cut: list[int], colour: Plane, height: int) -> list[Laid]:
+def _straps(bench: Bench, seam: Seam, cut: list[int], colour: Plane, height: int, most_wrong: int) -> list[Laid]:
     """Return what may lie across a seam, in the place of bricks or added: what shows least, then what lies on most."""
     bricks = [bench.laid[number] for number in cut or bench.over_and_under(seam)]
     level = seam.level if height == 1 else bricks[0].level
@@ -182,7 +186,7 @@ def _straps(bench: Bench, seam: Seam, cut: list[int], colour: Plane, height: int
             wrong = _wrong(strap, colour)
             if (
                 seam.ends[1] in strap.squares
-                and len(wrong) <= _MOST_WRONG * height
+                and len(wrong) <= most_wrong * height
                 and (not wrong or _rests(bench, strap))
             ):
                 faces = sum(bench.open_faces(each_level, square) for each_level, square in wrong)

@@ -39,11 +39,11 @@ def wrong(grid, bricks, links) -> np.ndarray:
     return (colour >= 0) & (np.append(bricks.colour, np.int16(NOBODY))[owner] != colour)
 
 
-def claw(width=1, colour=BLUE):
+def claw(width=1, lowest=2):
     """Make a red block with a claw of another colour beside it that hangs in the air."""
     cells = np.full((4, 3, 5, 8), COLOUR_EMPTY)
     cells[:, :, :, :3] = RED
-    cells[2:, :, 1 : 1 + width, 3:5] = colour
+    cells[lowest:, :, 1 : 1 + width, 3:5] = BLUE
     return grid_of(cells)
 
 
@@ -55,9 +55,21 @@ def two_plates():
     return grid_of(cells)
 
 
-def test_what_colours_keep_apart_is_joined_by_one_plate():
-    """A claw beside a block becomes part of it: one cell is in the neighbour's colour, and nothing is added."""
-    grid = claw()
+@pytest.mark.parametrize("width", [1, 3])
+def test_what_colours_keep_apart_gets_a_plate_below(width):
+    """A claw beside a block becomes part of it, all in its own colour, by a plate that reaches below the claw."""
+    grid = claw(width)
+    before, after, bricks = both(grid)
+    assert (before.n_components, after.n_components) == (2, 1)
+    assert not wrong(grid, bricks, after).any()
+    n_z, n_y, n_x = after.owner.shape
+    added = np.argwhere((after.owner != NOBODY) & ~planes(grid.solid)[:n_z, :n_y, :n_x])
+    assert added[:, 0].tolist() == [5]
+
+
+def test_what_stands_beside_is_joined_by_one_plate():
+    """On the ground, with no room below, one cell is in the neighbour's colour, and nothing is added."""
+    grid = claw(lowest=0)
     before, after, bricks = both(grid)
     assert before.n_components == 2
     assert after.n_components == 1
@@ -67,8 +79,8 @@ def test_what_colours_keep_apart_is_joined_by_one_plate():
 
 
 def test_cell_that_is_seen_least_changes():
-    """Of a wide claw's contact a cell with none of its sides open changes its colour."""
-    grid = claw(width=3)
+    """Of a wide claw's contact on the ground a cell with none of its sides open changes its colour."""
+    grid = claw(width=3, lowest=0)
     _, after, bricks = both(grid)
     [[z, y, x]] = np.argwhere(wrong(grid, bricks, after))
     solid = np.pad(planes(grid.solid), 1)
