@@ -12,10 +12,10 @@ from .shapes import Index
 
 SIDE: Final = 16
 _HALO: Final = 5
-"""Studs along a block, and around it."""
+"""Studs along a block, unless said otherwise, and around it."""
 
 
-def blocks(corner: Index, shift: int = 0) -> Iterator[tuple[Mask, Mask]]:
+def blocks(corner: Index, shift: int = 0, side: int = SIDE) -> Iterator[tuple[Mask, Mask]]:
     """Divide sheets into blocks, to and fro.
 
     Parameters
@@ -24,6 +24,8 @@ def blocks(corner: Index, shift: int = 0) -> Iterator[tuple[Mask, Mask]]:
         Where the cells are: x and y in studs, number of the sheet.
     shift : int
         Studs by which the first row and column of blocks are cut short.
+    side : int
+        Studs along a block.
 
     Yields
     ------
@@ -31,15 +33,15 @@ def blocks(corner: Index, shift: int = 0) -> Iterator[tuple[Mask, Mask]]:
         A block with some studs around it, and the block alone. Blocks without cells are left out.
     """
     x, y, sheet = corner.T + np.array([[shift], [shift], [0]])
-    n_x, n_y, n_sheets = np.array([x.max(), y.max(), sheet.max()]) // (SIDE, SIDE, 1) + 1
+    n_x, n_y, n_sheets = np.array([x.max(), y.max(), sheet.max()]) // (side, side, 1) + 1
     for row in range(n_sheets * n_y):
         for column in range(n_x)[:: -1 if row % 2 else 1]:
-            low = np.array([column, row % n_y]) * SIDE
+            low = np.array([column, row % n_y]) * side
             near = sheet == row // n_y
             core, window = (
                 near
-                & _between(x, low[0] - reach, low[0] + SIDE + reach)
-                & _between(y, low[1] - reach, low[1] + SIDE + reach)
+                & _between(x, low[0] - reach, low[0] + side + reach)
+                & _between(y, low[1] - reach, low[1] + side + reach)
                 for reach in (0, _HALO)
             )
             if core.any():

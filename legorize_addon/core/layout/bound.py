@@ -3,8 +3,9 @@
 Every cell gets a price, so that the cells of no placement are worth more than
 one brick together. Then no layout has fewer bricks than all cells are worth
 (weak duality), whoever lays it. The dual of the linear programme finds the best
-prices; where areas are too wide for it, block after block is priced, the others
-staying as they are.
+prices. On very wide sheets it finds those around the middle alone, whose cells keep
+an equal share of the largest part, or else block after block, the others staying
+as they are.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ import numpy as np
 from ..catalogue import Catalogue
 from ..model import Floats, Mask, UnitGrid
 from ..progress import Progress, silent
-from .blocks import SIDE, blocks
+from .blocks import blocks
 from .dominance import dominated
 from .live import Live
 from .placements import Placements, placements
@@ -31,8 +32,11 @@ _BATCH: Final = 3000
 _SLAB: Final = 1 << 14
 """Cells whose placements are listed at once."""
 
-_LARGE: Final = 8_000
-"""Placements above which a sheet is priced block after block."""
+_LARGE: Final = 30_000
+_WIDE: Final = 60_000
+_SIDE: Final = 32
+"""Placements above which the middle of wide areas keeps its prices, which loses up to
+two percent there; above which the rest is priced block after block; studs along a block."""
 
 _ROUNDING: Final = 1e-6
 """What the prices of a component may lose by rounding."""
@@ -130,15 +134,15 @@ def cell_prices(live: Live, must: Mask, corner: Index) -> Floats:
 
 def _parts(live: Live, corner: Index) -> Iterator[Mask]:
     """Yield the cells that are priced together, again and again where they are not all of them."""
-    if len(live.rows) <= _LARGE:
-        yield np.ones(len(corner), dtype=bool)
-        return
     choice = np.bincount(live.cells, minlength=len(corner))
-    for shift in (0, SIDE // 2):
-        for _, core in blocks(corner, shift):
-            # the middle of a wide area cannot be worth more
-            if choice[core].any() and (choice[core] < choice.max()).any():
-                yield core
+    # the middle of a wide area can hardly be worth more
+    part = choice < (choice.max() if len(live.rows) > _LARGE else np.inf)
+    if len(live.within(part).rows) <= _WIDE:
+        # on a checkerboard all cells are alike, and well priced to begin with
+        yield from [part] if part.any() else []
+        return
+    for shift in (0, _SIDE // 2):
+        yield from (core & part for _, core in blocks(corner, shift, _SIDE) if (core & part).any())
 
 
 def _worth(live: Live, price: Floats) -> Floats:

@@ -31,6 +31,10 @@ _BARE: Final = 100.0
 _GAP: Final = 1e-4
 """Share of the cost by which a whole solution may miss the best."""
 
+_MANY: Final = 8_000
+"""Placements above which prices are found by the interior point method: where many
+prices are as good as each other, as on wide areas, the simplex method goes in circles."""
+
 # for shares the search for simplifications takes longer than it saves
 _PLAIN: Final = (("presolve", False),)
 
@@ -106,7 +110,7 @@ def prices(live: Live, must: Mask, room: Floats) -> tuple[Index, Floats]:
         A_eq=rows[needed],
         b_eq=np.ones(np.count_nonzero(needed)),
         **optional,
-        method="highs-ds",
+        method="highs-ipm" if len(room) > _MANY else "highs-ds",
         options=dict(_PLAIN),
     )
     price = np.zeros(len(used))

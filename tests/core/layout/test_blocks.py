@@ -14,16 +14,16 @@ def cells_of(n_sheets, n_y, n_x):
     return np.stack([x, y, sheet], axis=1)
 
 
-@pytest.mark.parametrize("shift", [0, SIDE // 2])
-def test_every_cell_is_in_one_block(shift):
+@pytest.mark.parametrize(("shift", "side"), [(0, SIDE), (SIDE // 2, SIDE), (0, 7), (12, 24)])
+def test_every_cell_is_in_one_block(shift, side):
     """Blocks cover all cells of all sheets once, and lie inside their windows on one sheet."""
     corner = cells_of(2, 40, 21)
     times = np.zeros(len(corner), dtype=int)
-    for window, core in blocks(corner, shift):
+    for window, core in blocks(corner, shift, side):
         times += core
         assert window[core].all()
         assert len(np.unique(corner[window, 2])) == 1
-        assert np.ptp(corner[core, :2], axis=0).max() < SIDE
+        assert np.ptp(corner[core, :2], axis=0).max() < side
     assert (times == 1).all()
 
 

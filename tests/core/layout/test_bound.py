@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import get_args
 
 import numpy as np
@@ -10,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.errors import Cancelled
-from legorize_addon.core.layout import Tier, bound, lay
+from legorize_addon.core.layout import Tier, bound, lay, programme
 from legorize_addon.core.layout.bound import cell_prices
 from legorize_addon.core.layout.live import Live
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Cover
@@ -39,6 +40,21 @@ def test_no_placement_is_worth_more_than_a_brick(seed):
     worth = np.bincount(np.repeat(live.rows, live.size), weights=price[live.cells])
     assert worth.max() <= 1 + 1e-9
     assert price[~problem.must].max(initial=0) <= 0
+
+
+@pytest.mark.parametrize("many", [0, 10**6])
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=10, deadline=None)
+def test_the_prices_are_worth_the_linear_programme(many, seed):
+    """Either method finds prices that are worth as much as the least shares, and the best layout is not worth less."""
+    problem = problem_of(*random_sheet(seed))
+    live, cost = Live.of(problem.placements), np.ones(len(problem.placements))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(programme, "_MANY", many)
+        worth = cell_prices(live, problem.must, problem.corner).sum()
+    whole = programme.whole_shares(live, problem.must, cost, 10_000)
+    assert worth == pytest.approx(programme.shares(live, problem.must, cost).sum(), abs=1e-6)
+    assert worth <= whole.sum() + 1e-6
 
 
 @pytest.mark.parametrize(
@@ -72,11 +88,34 @@ def test_optional_cells_count_only_where_they_help():
     assert (bound(grid, CATALOGUE), bound(without, CATALOGUE)) == (1, 2)
 
 
-def test_wide_slabs_are_priced_in_blocks():
+def test_wide_slabs():
     """A slab of 64 x 64 needs 256 bricks; a wide disc needs more than its cells ask for."""
     assert bound(brick_grid(np.full((1, 64, 64), RED)), CATALOGUE) == 256
     wide = disc(20)
-    assert bound(brick_grid(wide[None]), CATALOGUE) > 1.05 * np.count_nonzero(wide == RED) / 16
+    assert bound(brick_grid(wide[None]), CATALOGUE) > 1.3 * np.count_nonzero(wide == RED) / 16
+
+
+@pytest.mark.parametrize(("large", "wide"), [(0, 10**6), (0, 0)])
+def test_prices_around_the_middle_lose_little(large, wide):
+    """At once or in blocks, prices are feasible, and worth nearly as much as those of the whole disc."""
+    problem = problem_of(disc(14))
+    live = Live.of(problem.placements)
+    whole = cell_prices(live, problem.must, problem.corner).sum()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys.modules[cell_prices.__module__], "_LARGE", large)
+        patch.setattr(sys.modules[cell_prices.__module__], "_WIDE", wide)
+        price = cell_prices(live, problem.must, problem.corner)
+    worth = np.bincount(np.repeat(live.rows, live.size), weights=price[live.cells])
+    assert worth.max() <= 1 + 1e-9
+    assert 0.9 * whole <= price.sum() <= whole + 1e-6
+
+
+def test_a_checkerboard_needs_a_brick_a_cell():
+    """Where all cells have one placement each, nothing is left to be priced."""
+    colour = np.where(np.indices((20, 20)).sum(axis=0) % 2, RED, WHITE)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys.modules[cell_prices.__module__], "_LARGE", 0)
+        assert bound(brick_grid(colour[None]), CATALOGUE) == 400
 
 
 def test_progress_may_cancel():
