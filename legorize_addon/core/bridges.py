@@ -48,6 +48,29 @@ def bridging_cells(solid: Mask, surface: Floats) -> Mask:
             _join(joined, weight, start, end)
 
 
+def under_steps(solid: Mask) -> Mask:
+    """Return cells to add where thin walls step aside from layer to layer, below the upper of two that meet at an edge.
+
+    Such walls may be joined elsewhere, so that they stay one part, but hang there
+    and tear off. What is added shows from below alone.
+
+    Parameters
+    ----------
+    solid : (n_layers, n_y, n_x) bool array
+
+    Returns
+    -------
+    (n_layers, n_y, n_x) bool array
+    """
+    under = np.zeros_like(solid)
+    for across in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+        upper, beside = _shifted(solid[1:], (0, *across))
+        below, stair = _shifted(solid[:-1], (0, *across))
+        cells, _ = _shifted(under[:-1], (0, *across))
+        cells |= upper & ~beside & ~below & stair
+    return under
+
+
 def _touching(part: np.ndarray, n_parts: int) -> tuple[Ints, Ints]:
     """Return one pair of cells for each pair of parts that touch at an edge, or else at a corner."""
     pairs = []

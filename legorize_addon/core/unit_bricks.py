@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from .bridges import bridging_cells
+from .bridges import bridging_cells, under_steps
 from .catalogue import Catalogue
 from .cell_colours import likeliest_colours
 from .colours import SurfaceColours
@@ -105,6 +105,7 @@ def unit_bricks(
     progress("unit bricks", 0.4)
     if keep_thin:
         solid |= thin_cells(samples, solid)
+        solid |= under_steps(solid)
     if detail is not None:
         solid = settled(solid, share, detail)
     if keep_thin:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import ndimage
 
-from legorize_addon.core.bridges import bridging_cells
+from legorize_addon.core.bridges import bridging_cells, under_steps
 
 
 def model(*cells: tuple[int, int, int]) -> np.ndarray:
@@ -51,3 +51,35 @@ def test_touching_parts_become_one(solid):
     assert not (bridge & solid).any()
     faces, touching = ndimage.label(solid | bridge)[1], ndimage.label(solid | bridge, np.ones((3, 3, 3)))[1]
     assert faces == touching <= ndimage.label(solid, np.ones((3, 3, 3)))[1]
+
+
+@pytest.mark.parametrize("axis", [1, 2])
+@pytest.mark.parametrize("way", [1, -1])
+def test_thin_stair_gets_a_cell_below_each_step(axis, way):
+    """A wall of four steps, one aside of the other, gets three cells, each between two that met at an edge."""
+    solid = np.moveaxis(np.eye(4, dtype=bool)[:, ::way, None].repeat(5, axis=2), 1, axis)
+    under = under_steps(solid)
+    assert under.sum() == 3 * 5
+    assert (under[:-1] <= solid[1:]).all()
+    assert ndimage.label(solid)[1] == 4
+    assert ndimage.label(solid | under)[1] == 1
+
+
+def test_thick_stair_gets_nothing():
+    """What stands on more than an edge is left alone."""
+    step = np.abs(np.subtract.outer(np.arange(6), np.arange(6)))[:, :, None]
+    assert not under_steps(step <= 1).any()
+
+
+@given(arrays(bool, (4, 5, 4), elements=st.booleans()))
+def test_no_cells_are_left_one_above_the_other_at_an_edge(solid):
+    """Afterwards every two cells of the model that met at an edge across a level have a face neighbour in common."""
+    under = under_steps(solid)
+    assert not (under & solid).any()
+    whole = solid | under
+    for axis in (1, 2):
+        cells, all_cells = np.moveaxis(solid, axis, 2), np.moveaxis(whole, axis, 2)
+        for way in (slice(None), slice(None, None, -1)):
+            upper, below = cells[1:, :, way][:, :, 1:], cells[:-1, :, way][:, :, :-1]
+            beside, under_it = all_cells[1:, :, way][:, :, :-1], all_cells[:-1, :, way][:, :, 1:]
+            assert (beside | under_it)[upper & below].all()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import ndimage
@@ -70,6 +72,17 @@ def test_wall_has_no_holes_and_one_cell_of_thickness():
     shown = solid.any(axis=2)
     layers, rows = np.flatnonzero(shown.any(axis=1)), np.flatnonzero(shown.any(axis=0))
     assert shown[layers[0] : layers[-1] + 1, rows[0] : rows[-1] + 1].all()
+
+
+@pytest.mark.parametrize("lean", [0.3, 0.45, 0.7, 1.2, 2.0])
+def test_leaning_wall_of_plates_has_no_holes(lean):
+    """A wall of 1 mm that leans by less than a stud a plate is closed, level by level, and stands on itself."""
+    found = stages(sheared(box((0, 0, 0), (1, 160, 96)), lean), cusp=0.1)
+    made = replace(found, grid=found.grid.plates()).bricks().solid
+    solid = made.reshape(-1, *made.shape[2:])
+    rows = np.flatnonzero(solid.any(axis=(0, 2)))
+    assert solid.any(axis=2)[1:-1, rows].all()
+    assert (solid[1:] & solid[:-1]).any(axis=2)[1:-1, rows].all()
 
 
 def test_sheet_has_no_holes():
