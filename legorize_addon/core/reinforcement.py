@@ -43,8 +43,10 @@ def reinforced(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     solid = _stacked(grid.solid)
     single = solid & ~np.repeat(brick, PLATES_PER_BRICK, axis=0)
     added = np.zeros_like(solid)
+    # a stair of plates, each on the rim of the next, carries nothing: what holds is as high as a brick
+    upright = ndimage.binary_opening(solid, np.ones((PLATES_PER_BRICK, 1, 1), dtype=bool))
     for present, code, height in ((brick, colour, PLATES_PER_BRICK), (single, _stacked(grid.colour), 1)):
-        below, above = _vertical(solid, height)
+        below, above = _vertical(upright, height)
         under = _unheld(present, present & (below | above), code) & ~below
         # sheet k lies on level k * height, and nothing on the ground is unheld
         sheet, y, x = np.nonzero(under)

@@ -71,6 +71,19 @@ def test_nothing_is_added_below_the_ground():
         assert reinforced(grid, plates=True) is grid
 
 
+def test_stair_of_plates_is_doubled():
+    """Plates on the rims of each other, a stair up from a wall, get plates below, but not near the wall."""
+    colour = np.full((5, 3, 6, 30), COLOUR_EMPTY)
+    colour[:3, :, :, :1] = RED
+    plates = colour.reshape(15, 6, 30)
+    for step in range(5):
+        plates[8 + step, :, 5 * step : 5 * step + 6] = RED
+    added = (reinforced(grid_of(colour), plates=True).solid & ~grid_of(colour).solid).reshape(15, 6, 30)
+    for step in range(1, 5):
+        assert added[7 + step, :, 5 * step + 1 : 5 * step + 6].all()
+    assert not added[:7].any()
+
+
 def test_patch_of_another_colour_is_held_from_below():
     """A blue patch in a red roof near its wall cannot be held by red bricks: plates go under it and its rim."""
     grid = shed(3, side=6)
