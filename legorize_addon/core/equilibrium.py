@@ -146,7 +146,9 @@ def _weights(statics: Statics) -> Floats:
     return weight
 
 
-def balance(statics: Statics, *, aims: tuple[Aim, ...] = AIMS, progress: Progress = silent) -> Balance:
+def balance(
+    statics: Statics, *, aims: tuple[Aim, ...] = AIMS, start: Floats | None = None, progress: Progress = silent
+) -> Balance:
     """Search for forces in balance that every contact bears.
 
     Parameters
@@ -155,6 +157,9 @@ def balance(statics: Statics, *, aims: tuple[Aim, ...] = AIMS, progress: Progres
         The equations.
     aims : tuple of Aim
         What to try, one after the other; the first that is reached ends the search.
+    start : (k,) float64 array, optional
+        Forces in N to start from, such as those of a model that is nearly the
+        same; without them the lightest that are in balance.
     progress : Progress
         Told how far the search is; may cancel it.
 
@@ -164,7 +169,8 @@ def balance(statics: Statics, *, aims: tuple[Aim, ...] = AIMS, progress: Progres
         The forces, or the motion by which the model collapses, or neither.
     """
     plane = Plane(statics)
-    forces = start = plane.project(np.zeros(len(plane.weight)))
+    near = plane.project(np.zeros(len(plane.weight)) if start is None else start / plane.weight)
+    forces = near
     motion, turns, most = np.zeros(len(statics.loads)), 0, sum(aim.turns for aim in aims)
     found = collapse = False
     for aim in aims:
@@ -175,9 +181,9 @@ def balance(statics: Statics, *, aims: tuple[Aim, ...] = AIMS, progress: Progres
             if found or collapse or _stagnates(gaps):
                 break
             progress("stability", turns / most)
-            inside = np.maximum(start, target)
-            forces = plane.project(2 * inside - start)
-            start = start + RELAXATION * (forces - inside)
+            inside = np.maximum(near, target)
+            forces = plane.project(2 * inside - near)
+            near = near + RELAXATION * (forces - inside)
             turns += 1
             if turns % PAUSE == 0:
                 gaps.append(float(np.linalg.norm(forces - inside)))

@@ -142,6 +142,7 @@ def stability(
     ground: Ground = Ground.TABLE,
     loads: Floats | None = None,
     aims: tuple[Aim, ...] = AIMS,
+    start: Floats | None = None,
     programme: int = PROGRAMME,
     progress: Progress = silent,
 ) -> Stability:
@@ -163,6 +164,8 @@ def stability(
         Forces on the bricks besides their weight, in N at their centres of mass.
     aims : tuple of Aim
         What forces to search for, and for how long.
+    start : (k,) float64 array, optional
+        Forces of ``statics`` in N to start the search from.
     programme : int
         Bricks up to which a linear programme decides what projections do not.
         Of larger models it takes those that would move most, and can prove no
@@ -176,7 +179,7 @@ def stability(
         Verdict, proof and margins.
     """
     equations = statics(bricks, catalogue, connection, hold=hold, ground=ground, loads=loads)
-    found = balance(equations, aims=aims, progress=progress)
+    found = balance(equations, aims=aims, start=start, progress=progress)
     if not found.found and not found.collapse:
         found = _toppled(equations, found, connection)
     if programme and not found.found and not found.collapse:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from legorize_addon.core.equilibrium import Aim, balance, is_equilibrium, residual
+from legorize_addon.core.equilibrium import AIMS, Aim, balance, is_equilibrium, residual
 from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.statics import HOLD, Ground
 from scripts.benchmarks.stablelego import CASES, Case, stair
@@ -41,6 +41,16 @@ def test_aims_leave_a_margin() -> None:
     assert (reached.forces[found.contacts.least == -HOLD] >= -0.55 * HOLD).all()
     none = balance(equations(table(*stair(20)), ground=Ground.BASEPLATE), aims=(Aim(0.5, 0.45, 0),))
     assert (none.found, none.turns) == (False, 0)
+
+
+def test_search_from_its_own_end_is_over_at_once() -> None:
+    """Started from forces that were found, the search finds them again without a turn."""
+    found = equations(table(*stair(18)), ground=Ground.BASEPLATE)
+    first = balance(found, aims=AIMS[-1:])
+    again = balance(found, aims=AIMS[-1:], start=first.forces)
+    assert (first.found, again.found, again.turns) == (True, True, 0)
+    assert first.turns > 0
+    np.testing.assert_allclose(again.forces, first.forces, atol=1e-9)
 
 
 def test_search_can_be_cancelled() -> None:

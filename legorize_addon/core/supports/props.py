@@ -46,8 +46,8 @@ SINKING: Final = 0.5
 SPARING: Final = 5
 """Times that posts are left out again to see if the model stands without them."""
 
-PATIENCE: Final = 60
-"""Projections more than with all posts to look for a proof without some of them."""
+PATIENCE: Final = 40
+"""Projections to look for a proof without some of them, from the proof with them."""
 
 STEADY: Final = 1.0
 """Studs that the weight of what tips over shall come to lie inside of its feet."""
@@ -115,11 +115,12 @@ def _tested(
     hold: float,
     progress: Progress,
     aims: tuple[Aim, ...] = AIMS,
+    start: Floats | None = None,
 ) -> Propped:
     """Return bricks with posts behind them, and how they stand."""
     more = joined([bricks, *posts])
     connection = connect(more, catalogue)
-    found = stability(more, catalogue, connection, hold=hold, aims=aims, programme=0, progress=progress)
+    found = stability(more, catalogue, connection, hold=hold, aims=aims, start=start, programme=0, progress=progress)
     return more, connection, found
 
 
@@ -127,10 +128,13 @@ def _with_fewer(propped: Propped, posts: Sequence[Bricks], tested: Callable[...,
     """Leave out what bears least, half of the posts and then ever fewer of them, as long as the model stands."""
     share, tries = len(posts) // 2, 0
     while share and tries < min(SPARING, WORK // len(propped[0])):
-        order = np.argsort(_loads(propped, posts), kind="stable")
-        fewer = [posts[number] for number in np.sort(order[share:])]
-        # with posts enough the proof was found soon; what takes much longer needs more
-        without = tested(fewer, aims=(AIMS[-1]._replace(turns=PATIENCE + propped[2].iterations),))
+        post = _post_of(propped, posts)
+        left = np.ones(len(posts) + 1, dtype=bool)
+        left[np.argsort(_loads(propped[2], post, len(posts)), kind="stable")[:share]] = False
+        fewer = [each for each, stays in zip(posts, left, strict=False) if stays]
+        # with the posts left out, the forces of the proof are nearly in balance
+        near = propped[2].forces[left[post].all(axis=0)]
+        without = tested(fewer, aims=(AIMS[-1]._replace(turns=PATIENCE),), start=near)
         if without[2].stable:
             propped, posts, share = without, fewer, len(fewer)
         share //= 2
@@ -138,16 +142,23 @@ def _with_fewer(propped: Propped, posts: Sequence[Bricks], tested: Callable[...,
     return propped
 
 
-def _loads(propped: Propped, posts: Sequence[Bricks]) -> Floats:
-    """Return what lies on each post in N, under the forces of the proof."""
+def _post_of(propped: Propped, posts: Sequence[Bricks]) -> Ints:
+    """Return in which post the two bricks of each contact lie, (2, k); behind the last for bricks of the model."""
     bricks, _, found = propped
-    contacts, rows = found.statics.contacts, found.statics.rows
-    lengths = np.array([len(each) for each in posts])
-    first = len(bricks) - lengths.sum()
-    post = np.concatenate([np.full(first, len(posts)), np.repeat(np.arange(len(posts)), lengths), [len(posts)]])
-    by = post[np.where(contacts.by == NOBODY, len(bricks), rows[contacts.by])]
-    upward = found.forces * contacts.direction[:, 2] * (post[rows[contacts.on]] != by)
-    return np.bincount(by, upward, len(posts) + 1)[:-1]
+    lengths = [len(each) for each in posts]
+    post = np.full(len(bricks) + 1, len(posts))
+    post[len(bricks) - sum(lengths) : -1] = np.repeat(np.arange(len(posts)), lengths)
+    contacts, rows = found.statics.contacts, np.append(found.statics.rows, len(bricks))
+    # NOBODY is the last row
+    of_both: Ints = post[np.stack([rows[contacts.on], rows[contacts.by]])]
+    return of_both
+
+
+def _loads(found: Stability, post: Ints, n_posts: int) -> Floats:
+    """Return what lies on each post in N, under the forces of the proof."""
+    on, by = post
+    upward = found.forces * found.statics.contacts.direction[:, 2] * (on != by)
+    return np.bincount(by, upward, n_posts + 1)[:-1]
 
 
 def _chosen(bricks: Bricks, connection: Connection, found: Stability, catalogue: Catalogue, *, fast: float) -> Places:

@@ -14,7 +14,7 @@ from legorize_addon.core.model import Bricks, Role
 from legorize_addon.core.progress import silent
 from legorize_addon.core.statics import HOLD
 from legorize_addon.core.supports import with_falling_propped, with_floating_carried
-from legorize_addon.core.supports.props import _tested, _with_fewer
+from legorize_addon.core.supports.props import _post_of, _tested, _with_fewer
 from scripts.benchmarks.stablelego import stair
 from tests.core.standing import CATALOGUE, judged, table
 
@@ -114,3 +114,16 @@ def test_posts_that_bear_little_are_left_out():
     assert found.stable
     assert 1 <= len(after) - len(bricks) <= 2
     assert same(after.take(np.arange(len(bricks))), bricks)
+
+
+def test_contacts_that_stay_are_told_by_their_posts():
+    """What is left of the contacts of bricks with posts, once some posts are taken away, are those of the others."""
+    bricks = table(("3005", 0, 0, 0), ("3008", 0, 0, 3), ("3003", 6, 0, 6))
+    posts = [table(("3024", x, 0, 0), ("3024", x, 0, 1), ("3024", x, 0, 2)) for x in (3, 5, 6)]
+    tested = partial(_tested, bricks, catalogue=CATALOGUE, hold=HOLD, progress=silent)
+    every = tested(posts)
+    for left in np.ndindex(2, 2, 2):
+        fewer = tested([post for post, stays in zip(posts, left, strict=True) if stays])[2].statics.contacts
+        kept = np.array([*left, 1], dtype=bool)[_post_of(every, posts)].all(axis=0)
+        for name in ("point", "direction", "least"):
+            assert np.array_equal(getattr(every[2].statics.contacts, name)[kept], getattr(fewer, name))
