@@ -17,7 +17,7 @@ from ..connection import NOBODY, Connection, connect, middles, stud_columns
 from ..model import Bricks, Floats, Ints, Mask, Role, joined
 from ..outline import corners, inside
 from ..units import PLATES_PER_BRICK
-from .boxes import INSIDE_COLOUR, OUTSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, joined_upwards, sizes_in
+from .boxes import INSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, joined_upwards
 
 GROUND: Final = 30
 """Plates that a post to a brick may be longer than one to the ground."""
@@ -56,7 +56,7 @@ class Places:
 
 
 def with_floating_carried(bricks: Bricks, catalogue: Catalogue, connection: Connection) -> tuple[Bricks, Connection]:
-    """Put a post under each component that floats, in the colour of the brick on it if posts are made in it.
+    """Put a post under each component that floats, in the colour of the brick on it: 1 x 1 parts are made in each.
 
     Parameters
     ----------
@@ -77,8 +77,7 @@ def with_floating_carried(bricks: Bricks, catalogue: Catalogue, connection: Conn
         posts = []
         for number in floating.tolist():
             boxes, carried = _under(bricks, catalogue, connection, connection.component == number)
-            colour = _colour(int(bricks.colour[carried]), catalogue)
-            posts.append(_bricks(boxes, catalogue, colour, Role.SUPPORT_KEPT))
+            posts.append(_bricks(boxes, catalogue, int(bricks.colour[carried]), Role.SUPPORT_KEPT))
         bricks = joined([bricks, *posts])
         connection = connect(bricks, catalogue)
     return bricks, connection
@@ -117,12 +116,6 @@ def with_inside_carried(
 
 def _bricks(boxes: Boxes, catalogue: Catalogue, colour: int, role: Role) -> Bricks:
     return bricks_of_boxes(joined_upwards(boxes, catalogue, colour), catalogue, colour=colour, role=role)
-
-
-def _colour(wanted: int, catalogue: Catalogue) -> int:
-    """Return a colour if posts can be made in it, else that of all supports outside."""
-    made = sizes_in(catalogue, wanted)
-    return wanted if all((1, 1, height) in made for height in (1, PLATES_PER_BRICK)) else OUTSIDE_COLOUR
 
 
 def _under(bricks: Bricks, catalogue: Catalogue, connection: Connection, mine: Mask) -> tuple[Boxes, int]:
@@ -185,8 +178,8 @@ def middle_of_weight(bricks: Bricks, catalogue: Catalogue) -> Floats:
 
 
 def kept_post(bricks: Bricks, connection: Connection, catalogue: Catalogue, places: Places, number: int) -> Bricks:
-    """Return the post at one place, in the colour of the brick on it if posts are made in it, ``SUPPORT_KEPT``."""
-    colour = _colour(int(bricks.colour[places.brick[number]]), catalogue)
+    """Return the post at one place, in the colour of the brick on it, ``SUPPORT_KEPT``."""
+    colour = int(bricks.colour[places.brick[number]])
     return _bricks(_post(connection, places, number), catalogue, colour, Role.SUPPORT_KEPT)
 
 

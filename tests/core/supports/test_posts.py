@@ -10,7 +10,7 @@ import pytest
 from legorize_addon.core.connection import connect
 from legorize_addon.core.model import Role
 from legorize_addon.core.stability import stability
-from legorize_addon.core.supports.boxes import INSIDE_COLOUR, OUTSIDE_COLOUR
+from legorize_addon.core.supports.boxes import INSIDE_COLOUR
 from legorize_addon.core.supports.posts import with_floating_carried, with_inside_carried
 from tests.core.standing import CATALOGUE, table
 
@@ -54,15 +54,6 @@ def test_floating_parts_on_each_other_all_stand():
     assert connection.n_floating == 0
     assert sorted(bricks.corner[n:, 2].tolist())[-1] == 6
     assert stability(bricks, CATALOGUE, connection).stable
-
-
-def test_colour_without_posts_gives_white():
-    """In a colour in which no 1 x 1 plate is made, posts are white."""
-    plate, brick = CATALOGUE.part_row("3024"), CATALOGUE.part_row("3005")
-    without = CATALOGUE.codes[~(CATALOGUE.exists[plate] & CATALOGUE.exists[brick])]
-    for code in without.tolist():
-        bricks, _, n = carried(("3003", 0, 0, 0), ("3003", 0, 0, 4), colour=code)
-        assert set(bricks.colour[n:].tolist()) == {OUTSIDE_COLOUR}
 
 
 def test_nothing_floats_nothing_changes():
