@@ -46,7 +46,7 @@ def reinforced(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     # a stair of plates, each on the rim of the next, carries nothing: what holds is as high as a brick
     upright = ndimage.binary_opening(solid, np.ones((PLATES_PER_BRICK, 1, 1), dtype=bool))
     for present, code, height in ((brick, colour, PLATES_PER_BRICK), (single, _stacked(grid.colour), 1)):
-        below, above = _vertical(upright, height)
+        below, above = _vertical(upright, ground_of(solid), height)
         under = _unheld(present, present & (below | above), code) & ~below
         # sheet k lies on level k * height, and nothing on the ground is unheld
         sheet, y, x = np.nonzero(under)
@@ -68,10 +68,10 @@ def _stacked(cells: np.ndarray) -> np.ndarray:
     return cells.reshape(-1, *cells.shape[2:])
 
 
-def _vertical(solid: Mask, height: int) -> tuple[Mask, Mask]:
-    """Return whether there is something right below and right above the cells of sheets of a height."""
+def _vertical(solid: Mask, ground: int, height: int) -> tuple[Mask, Mask]:
+    """Return whether the ground or a cell is right below, and right above, the cells of sheets of a height."""
     around = np.pad(solid, ((1, 1), (0, 0), (0, 0)))
-    around[: ground_of(solid) + 1] = True
+    around[: ground + 1] = True
     return around[:-2][::height], around[2:][height - 1 :: height]
 
 
