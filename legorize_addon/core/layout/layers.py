@@ -24,7 +24,7 @@ from ..units import PLATES_PER_BRICK
 from . import exact, greedy, linear
 from .exchange import fewer_small
 from .placements import Placements, placements
-from .pricing import prices
+from .pricing import guessed_prices
 from .problem import BRIDGE, GROUND, Problem, pose, with_margins
 from .repair import connect_loose
 from .shapes import Index, Rows, Shapes, shapes
@@ -163,7 +163,7 @@ def _listed(work: Sequence[tuple[Sheets, Shapes]], layers: Mask, must: Mask, tie
         inside = sheets.take(layers[sheets.level // PLATES_PER_BRICK])
         if len(inside):
             found = placements(inside, among)
-            price = prices(pose(inside, among, found, nobody, must)) if tier == "standard" else None
+            price = guessed_prices(pose(inside, among, found, nobody, must)) if tier == "standard" else None
             listed.append(_Listed(inside, among, found, price))
     return listed
 

@@ -41,7 +41,7 @@ _MARGIN: Final = 0.5
 """Bricks above the prices of its cells that a placement may cost."""
 
 
-def prices(problem: Problem) -> Floats:
+def guessed_prices(problem: Problem) -> Floats:
     """Guess what each cell is worth.
 
     Parameters

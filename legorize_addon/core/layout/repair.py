@@ -17,15 +17,15 @@ import numpy as np
 from scipy.ndimage import maximum_filter
 
 from ..catalogue import Catalogue
-from ..connection import NOBODY, Connection, components, connect, stud_columns
-from ..joints import agree
+from ..connection import NOBODY, Connection, connect
 from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Mask, UnitGrid, ground_of
 from ..progress import Progress
 from .exchange import exchange
+from .islands import Islands, loose_bricks
 from .placements import Placements, placements
 from .planes import spread
-from .problem import GROUND, owners, pose, with_margins
-from .shapes import Index, Plane, Rows, Shapes
+from .problem import GROUND, Problem, owners, pose, with_margins
+from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
 from .table import bricks_of, gathered
 
@@ -39,7 +39,8 @@ _PATCH: Final = 2.5
 """What to reckon, in bricks, for the rest of a cut brick that needs several. Such
 moves may leave loose bricks themselves, so they are tried when nothing else helps."""
 
-_WAYS: Final = ((np.inf, None), (np.inf, 0), (np.inf, 1), (_PATCH, None), (_PATCH, 0), (_PATCH, 1))
+_Way = tuple[float, int | None]
+_WAYS: Final[tuple[_Way, ...]] = tuple((patch, half) for patch in (np.inf, _PATCH) for half in (None, 0, 1))
 """Price of a patch, and which sheets may change: all, or every other one. What one
 sheet joins the next one may take apart, if both change at once."""
 
@@ -88,68 +89,29 @@ def connect_loose(
     if links.n_components <= 1:
         return bricks
     must = with_margins(grid.cover == Cover.MUST, False)
-    islands = _Islands.of(with_margins(grid.colour, COLOUR_EMPTY), owners(links, must.shape), links.component)
-    loose = _loose(bricks, links, islands, catalogue)
+    islands = Islands.of(with_margins(grid.colour, COLOUR_EMPTY), owners(links, must.shape), links.component)
+    loose = loose_bricks(bricks, links, islands, catalogue)
     cells, way = _Cells.of(bricks, links, must, loose, catalogue), 0
+    offers: list[_Offer] = []
     for number in range(_ROUNDS):
         if not cells.n_loose or way == len(_WAYS):
             break
         progress("connection", number / _ROUNDS)
-        patch, parity = _WAYS[way]
-        parts = [bricks.take(np.isin(bricks.part, among.part)) for _, among in work]
-        relaid = [
-            _joined(part, sheets, among, cells, patch, parity, rng)
-            for part, (sheets, among) in zip(parts, work, strict=True)
-        ]
-        if all(new is part for new, part in zip(relaid, parts, strict=True)):
+        # what may be laid stays the same until the bricks change
+        offers = offers or [_Offer.of(bricks, sheets, among, cells, rng) for sheets, among in work]
+        relaid = [offer.joined(*_WAYS[way], rng) for offer in offers]
+        if all(new is offer.bricks for new, offer in zip(relaid, offers, strict=True)):
             way += 1
             continue
         tried = gathered(relaid)
         tried_links = connect(tried, catalogue)
-        loose = _loose(tried, tried_links, islands, catalogue)
+        loose = loose_bricks(tried, tried_links, islands, catalogue)
         before, after = cells.n_loose, int(np.count_nonzero(loose))
         if after < before and tried_links.n_floating <= links.n_floating:
-            bricks, links = tried, tried_links
+            bricks, links, offers = tried, tried_links, []
             cells = _Cells.of(bricks, links, must, loose, catalogue)
         way = 0 if after < _PROGRESS * before else way + 1
     return bricks
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Islands:
-    """The sets of cells that bricks could hold together, by stacking and by lying across one colour.
-
-    Attributes
-    ----------
-    node : (n_z, n_y, n_x) int32 array
-        What each cell belongs to: a component of bricks, itself, or ``NOBODY``.
-    of_node : (n_nodes,) int32 array
-        The island of each node.
-    """
-
-    node: Rows
-    of_node: Rows
-
-    @classmethod
-    def of(cls, colour: Plane, owner: Rows, component: Rows) -> _Islands:
-        """Find the islands of cells, given their colours, the brick in each, and the component of each brick."""
-        node = np.append(component, np.int32(NOBODY))[owner]
-        free = np.flatnonzero((owner == NOBODY) & (colour != COLOUR_EMPTY))
-        n_known = int(component.max(initial=NOBODY)) + 1
-        # what the bricks of a component cover is held together already
-        node.reshape(-1)[free] = np.arange(n_known, n_known + len(free))
-        pairs = np.concatenate([_meeting(node.reshape(-1), colour, axis) for axis in range(3)])
-        return cls(node, components(pairs, n_known + len(free)))
-
-
-def _meeting(node: Rows, colour: Plane, axis: int) -> Rows:
-    """Return pairs of different nodes, (n, 2), whose cells follow each other along an axis and can be held together."""
-    length, step = colour.shape[axis], int(np.prod(colour.shape[axis + 1 :]))
-    cell = np.flatnonzero(node[:-step] != node[step:])
-    cell = cell[(node[cell] != NOBODY) & (node[cell + step] != NOBODY) & (cell // step % length != length - 1)]
-    if axis > 0:
-        cell = cell[agree(colour.reshape(-1)[cell], colour.reshape(-1)[cell + step])]
-    return np.stack([node[cell], node[cell + step]], axis=1)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -193,55 +155,75 @@ class _Cells:
         return self.label[self.owner[[sheets.level, sheets.level + sheets.height + 1, sheets.level + 1]]]
 
 
-def _loose(bricks: Bricks, links: Connection, islands: _Islands, catalogue: Catalogue) -> Mask:
-    """Tell which bricks are not in the main component of their island: the largest one, on the ground if any is."""
-    brick, column = stud_columns(bricks, catalogue)
-    component, first, size = np.unique(links.component, return_index=True, return_counts=True)
-    x, y, z = column[np.searchsorted(brick, first)].T
-    island = islands.of_node[islands.node[z + 1, y, x]]
-    order = np.lexsort((size, links.grounded[first], island))
-    main = np.append(np.diff(island[order]) > 0, True)
-    return ~np.isin(links.component, component[order[main]])
+@dataclass(frozen=True, slots=True, eq=False)
+class _Offer:
+    """Joining bricks for the sheets of one height that a loose component reaches.
 
+    Attributes
+    ----------
+    bricks : Bricks
+        All of this height.
+    problem : Problem
+        The sheets that are reached.
+    here, lying : (n_here,) intp arrays
+        Rows of the bricks that may change, and of the placements where they lie.
+    row : (n_moves,) intp array
+        Placements to try.
+    reward : (n_moves,) float64 array
+        What the components that each joins are worth, in bricks.
+    """
 
-def _joined(
-    bricks: Bricks,
-    sheets: Sheets,
-    among: Shapes,
-    cells: _Cells,
-    patch: float,
-    parity: int | None,
-    rng: np.random.Generator,
-) -> Bricks:
-    """Offer joining bricks once, in the sheets of one height that a loose component reaches."""
-    reached = cells.reached[sheets.level[:, None] + [0, 1, sheets.height + 1]].any(axis=1)
-    if parity is not None:
-        reached &= sheets.level // sheets.height % 2 == parity
-    sheets = sheets.take(reached)
-    labels = cells.labels(sheets)
-    loose = (labels > 0).any(axis=0) & (sheets.colour != COLOUR_EMPTY)
-    reached = loose.any(axis=(1, 2))
-    if not reached.any():
-        return bricks
-    sheets, labels, loose = sheets.take(reached), labels[:, reached], loose[reached]
-    worthwhile = sheets.must | (cells.owner[sheets.level + 1] > NOBODY) | loose
-    found = placements(replace(sheets, must=_near(loose) & worthwhile), among)
-    problem = pose(sheets, among, found, cells.owner, cells.must)
-    at = labels.reshape(3, -1)[:, sheets.cells]
-    # what touches nothing above or below would be loose itself
-    alone = found.totals(at[:2].max(axis=0) >= 0) == 0
-    problem = replace(problem, cost=problem.cost + _JOIN * alone)
-    here = np.flatnonzero(np.isin(bricks.corner[:, 2], sheets.level))
-    corner = bricks.corner[here]
-    corner[:, 2] = np.searchsorted(sheets.level, corner[:, 2])
-    # bricks out of reach are not found and stay as they are
-    row = found.find(among.rows_of(bricks.part[here], bricks.turn[here]), corner)
-    offered, reward = _offers(found, at, max(_OFFERS[0], _OFFERS[1] * len(bricks)), rng)
-    lying = row[row >= 0]
-    chosen = exchange(problem, lying, offered, rng, reward=reward, patch=patch)
-    if chosen is lying:
-        return bricks
-    return gathered([bricks.take(np.delete(np.arange(len(bricks)), here[row >= 0])), bricks_of(problem, chosen)])
+    bricks: Bricks
+    problem: Problem | None
+    here: Index
+    lying: Index
+    row: Index
+    reward: Floats
+
+    @classmethod
+    def of(cls, bricks: Bricks, sheets: Sheets, among: Shapes, cells: _Cells, rng: np.random.Generator) -> _Offer:
+        """List what could be laid instead of bricks; some of it at random if it is too much."""
+        most = max(_OFFERS[0], _OFFERS[1] * len(bricks))
+        bricks = bricks.take(np.isin(bricks.part, among.part))
+        sheets = sheets.take(cells.reached[sheets.level[:, None] + [0, 1, sheets.height + 1]].any(axis=1))
+        labels = cells.labels(sheets)
+        loose = (labels > 0).any(axis=0) & (sheets.colour != COLOUR_EMPTY)
+        reached = loose.any(axis=(1, 2))
+        if not reached.any():
+            none = np.zeros(0, dtype=np.intp)
+            return cls(bricks, None, none, none, none, np.zeros(0))
+        sheets, labels, loose = sheets.take(reached), labels[:, reached], loose[reached]
+        worthwhile = sheets.must | (cells.owner[sheets.level + 1] > NOBODY) | loose
+        found = placements(replace(sheets, must=_near(loose) & worthwhile), among)
+        problem = pose(sheets, among, found, cells.owner, cells.must)
+        at = labels.reshape(3, -1)[:, sheets.cells]
+        # what touches nothing above or below would be loose itself
+        alone = found.totals(at[:2].max(axis=0) >= 0) == 0
+        problem = replace(problem, cost=problem.cost + _JOIN * alone)
+        here = np.flatnonzero(np.isin(bricks.corner[:, 2], sheets.level))
+        corner = bricks.corner[here]
+        corner[:, 2] = np.searchsorted(sheets.level, corner[:, 2])
+        # bricks out of reach are not found and stay as they are
+        lying = found.find(among.rows_of(bricks.part[here], bricks.turn[here]), corner)
+        row, reward = _offers(found, at, most, rng)
+        return cls(bricks, problem, here[lying >= 0], lying[lying >= 0], row, reward)
+
+    def joined(self, patch: float, parity: int | None, rng: np.random.Generator) -> Bricks:
+        """Make the moves that pay once, in all sheets or in every other one; the same bricks if none does."""
+        if self.problem is None:
+            return self.bricks
+        sheets = self.problem.sheets
+        tried = np.ones(len(self.row), dtype=bool)
+        if parity is not None:
+            tried = (sheets.level // sheets.height % 2 == parity)[self.problem.placements.corner[self.row, 2]]
+        if not tried.any():
+            return self.bricks
+        row, reward = self.row[tried], self.reward[tried]
+        chosen = exchange(self.problem, self.lying, row, rng, reward=reward, patch=patch)
+        if chosen is self.lying:
+            return self.bricks
+        kept = self.bricks.take(np.delete(np.arange(len(self.bricks)), self.here))
+        return gathered([kept, bricks_of(self.problem, chosen)])
 
 
 def _near(loose: Mask) -> Mask:

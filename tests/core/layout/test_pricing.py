@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.layout.live import Live
-from legorize_addon.core.layout.pricing import prices, promising
+from legorize_addon.core.layout.pricing import guessed_prices, promising
 from legorize_addon.core.layout.programme import shares
 from legorize_addon.core.model import COLOUR_EMPTY, Cover
 
@@ -29,7 +29,7 @@ def least(problem, kept=None):
 def test_the_cells_under_one_brick_are_worth_about_that_brick(length):
     """Where a single part covers everything, the prices add up to nearly its cost."""
     problem = problem_of(np.full((1, length), RED))
-    assert prices(problem).sum() == pytest.approx(problem.cost.min(), abs=0.25)
+    assert guessed_prices(problem).sum() == pytest.approx(problem.cost.min(), abs=0.25)
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -37,7 +37,7 @@ def test_the_cells_under_one_brick_are_worth_about_that_brick(length):
 def test_what_need_not_be_covered_is_worth_nothing(seed):
     """Prices of optional cells are never positive."""
     problem = problem_of(*random_sheet(seed))
-    assert (prices(problem)[~problem.must] <= 0).all()
+    assert (guessed_prices(problem)[~problem.must] <= 0).all()
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -58,7 +58,7 @@ def test_good_placements_stay():
     rest, everything, n_kept, n_all = 0.0, 0.0, 0, 0
     for seed in range(12):
         problem = problem_of(*random_sheet(seed, (12, 14)))
-        kept = promising(problem, prices(problem))
+        kept = promising(problem, guessed_prices(problem))
         rest, everything = rest + least(problem, kept), everything + least(problem)
         n_kept, n_all = n_kept + np.count_nonzero(kept), n_all + len(kept)
     assert rest < 1.01 * everything
@@ -79,5 +79,5 @@ def test_nothing_to_cover():
     colour = np.full((3, 4), RED)
     colour[1, 2] = COLOUR_EMPTY
     problem = problem_of(colour, np.where(colour == RED, Cover.MAY, Cover.EMPTY))
-    assert not prices(problem).any()
-    assert not len(promising(problem, prices(problem)))
+    assert not guessed_prices(problem).any()
+    assert not len(promising(problem, guessed_prices(problem)))
