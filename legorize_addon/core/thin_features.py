@@ -58,8 +58,8 @@ def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
     # surface on a cell's border belongs to the cell behind it
     place = samples.place - _ROUNDING * np.sign(samples.normal)
     thin = np.flatnonzero(~_near(place, _thick(solid), _EVERYWHERE))
-    # a wall rises by more than a cell for each that it leans: normals turn the other way as cells get flatter
-    axis = np.argmax(np.abs(samples.normal * samples.sides**2), axis=1)
+    # of flat cells, a wall may rise by no more than one for each that it leans
+    axis = np.argmax(np.abs(samples.normal * np.minimum(samples.sides, 1) ** 2), axis=1)
     # the sides of a plate are as much of it as the sides of a brick are of a brick
     samples = replace(samples, area=samples.area * np.where(axis == 0, 1, BRICK / samples.height))
     # beside the model a cell takes more, else its rims turn out ragged

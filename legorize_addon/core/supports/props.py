@@ -43,11 +43,11 @@ SOONER: Final = 2.0
 SINKING: Final = 0.5
 """Share of the fastest sinking place of a part from which on a shorter post is as good."""
 
-SPARING: Final = 5
+SPARING: Final = 8
 """Times that posts are left out again to see if the model stands without them."""
 
-PATIENCE: Final = 40
-"""Projections to look for a proof without some of them, from the proof with them."""
+PATIENCE: Final = 60
+"""Projections more than with all posts to look for a proof without some of them."""
 
 STEADY: Final = 1.0
 """Studs that the weight of what tips over shall come to lie inside of its feet."""
@@ -125,8 +125,9 @@ def _tested(
 
 
 def _with_fewer(propped: Propped, posts: Sequence[Bricks], tested: Callable[..., Propped]) -> Propped:
-    """Leave out what bears least, half of the posts and then ever fewer of them, as long as the model stands."""
+    """Leave out what bears least, half of the posts, and ever fewer of them where the model would not stand."""
     share, tries = len(posts) // 2, 0
+    aims = (AIMS[-1]._replace(turns=PATIENCE + propped[2].iterations),)
     while share and tries < min(SPARING, WORK // len(propped[0])):
         post = _post_of(propped, posts)
         left = np.ones(len(posts) + 1, dtype=bool)
@@ -134,10 +135,11 @@ def _with_fewer(propped: Propped, posts: Sequence[Bricks], tested: Callable[...,
         fewer = [each for each, stays in zip(posts, left, strict=False) if stays]
         # with the posts left out, the forces of the proof are nearly in balance
         near = propped[2].forces[left[post].all(axis=0)]
-        without = tested(fewer, aims=(AIMS[-1]._replace(turns=PATIENCE),), start=near)
+        without = tested(fewer, aims=aims, start=near)
         if without[2].stable:
-            propped, posts, share = without, fewer, len(fewer)
-        share //= 2
+            propped, posts, share = without, fewer, min(share, len(fewer) // 2)
+        else:
+            share //= 2
         tries += 1
     return propped
 
