@@ -65,7 +65,12 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
         return dive(live, problem.must, cost).rows
     pieces = _piecewise(problem, live, cost)
     quick = fewer_small(problem, greedy.cover(problem, rng), rng)
-    return min(pieces, quick, key=lambda rows: cost[rows].sum())
+    return min(pieces, quick, key=lambda rows: (_bare(problem, rows), cost[rows].sum()))
+
+
+def _bare(problem: Problem, chosen: Index) -> int:
+    """Count the must cells that are left over: between blocks some may, where no brick of one cell is made."""
+    return int(np.count_nonzero(problem.must & (problem.owner(chosen) == NOBODY)))
 
 
 def _piecewise(problem: Problem, live: Live, cost: Floats) -> Index:

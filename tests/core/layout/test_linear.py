@@ -115,3 +115,10 @@ def test_a_cell_that_cannot_be_covered_stays_bare():
     covered = linear.dive(live, problem.must, problem.cost)
     assert covered.rows.tolist() == pairs.tolist()
     assert shares(live, problem.must, problem.cost[pairs]) == pytest.approx(1)
+
+
+def test_a_cheap_layout_with_holes_is_not_taken(monkeypatch):
+    """Where the blocks of a wide sheet leave cells bare, the quick layout covers them."""
+    problem = problem_of(np.full((30, 30), RED))
+    monkeypatch.setattr(linear, "_piecewise", lambda problem, live, cost: np.zeros(0, dtype=np.intp))
+    assert_covered_once(problem, laid(problem))
