@@ -46,17 +46,16 @@ _BATCH: Final = 5000
 Tier = Literal["fast", "standard", "exact"]
 Way = Callable[[Problem, np.random.Generator], Index]
 
-_BRIDGE: Final[Mapping[Tier, float]] = MappingProxyType({"fast": BRIDGE, "standard": 0.1, "exact": 0.05})
-"""What lying across a seam saves, in bricks: for the fewest bricks it must save less than a brick in most places."""
-
-_PASSES: Final[Mapping[Tier, tuple[Way, ...]]] = MappingProxyType(
+_PASSES: Final[Mapping[Tier, tuple[tuple[Way, float], ...]]] = MappingProxyType(
     {
-        "fast": (greedy.cover, greedy.cover),
-        "standard": (greedy.cover, linear.cover, linear.cover),
-        "exact": (greedy.cover, exact.cover, exact.cover),
+        "fast": ((greedy.cover, BRIDGE), (greedy.cover, BRIDGE)),
+        "standard": ((greedy.cover, BRIDGE), (linear.cover, 0.05), (linear.cover, 0.1)),
+        "exact": ((greedy.cover, BRIDGE), (exact.cover, 0.05), (exact.cover, 0.05)),
     }
 )
-"""How the even sheets are laid, then the odd ones, and then the even ones again."""
+"""How the even sheets are laid, then the odd ones, and then the even ones again;
+and what lying across a seam saves then, in bricks: little across seams that do
+not stay, and for the fewest bricks less than a brick in most places."""
 
 
 def lay(
@@ -124,11 +123,11 @@ def lay(
     for turn, slab in enumerate(slabs):
         listed = _listed(work, slab_of_layer == slab, must, tier)
         halves: list[list[Bricks]] = [[], []]
-        for number, way in enumerate(ways):
+        for number, (way, bridge) in enumerate(ways):
             halves[number % 2] = half = []
             for each in _batches(listed, number % 2, np.inf if way is greedy.cover else _BATCH):
                 progress("layout", (turn + number / len(ways)) / len(slabs))
-                problem = pose(each.sheets, each.among, each.found, owner, must, _BRIDGE[tier])
+                problem = pose(each.sheets, each.among, each.found, owner, must, bridge)
                 problem = replace(problem, price=each.price)
                 half.append(_laid(problem, owner, n_laid, way, worth, rng))
                 n_laid += len(half[-1])
