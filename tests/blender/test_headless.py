@@ -37,7 +37,7 @@ FILES = {
     *(f"tables/table_{number}.csv" for number in range(1, 5)),
 }
 BOX = (0.4, 0.2, 0.36)
-ARM = ("--width", "12", "--hanging", "0")
+ARM = ("--width", "16", "--hanging", "0")
 RED, WHITE = 4, 15
 # red but for the last texel of the topmost row
 TEXELS = np.full((3, 4, 3), (201, 26, 9), dtype=np.uint8)
@@ -252,9 +252,9 @@ def test_outlines_and_heat_map_in_the_picture(
 
 
 def add_arm() -> None:
-    """Add an arm on a post, 12 x 4 studs and 8 bricks high: a support has to carry it where nothing may hang."""
-    add_box((5, 4, 6 * 1.2), centre=(-3.5, 0, 3 * 1.2))
-    add_box((12, 4, 2 * 1.2), centre=(0, 0, 7 * 1.2))
+    """Add an arm on a post, 16 x 4 studs and 8 bricks high: no part reaches its end, so a support has to carry it."""
+    add_box((7, 4, 6 * 1.2), centre=(-2.5, 0, 3 * 1.2))
+    add_box((16, 4, 2 * 1.2), centre=(2, 0, 7 * 1.2))
 
 
 @pytest.mark.parametrize("flags", [[], ["--show-supports"], ["--no-show-supports"]])
