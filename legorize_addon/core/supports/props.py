@@ -44,7 +44,9 @@ SINKING: Final = 0.5
 """Share of the fastest sinking place of a part from which on a shorter post is as good."""
 
 SPARING: Final = 8
-"""Times that posts are left out again to see if the model stands without them."""
+SPARED: Final = 6_000
+"""Times that posts are left out again to see if the model stands without them; and bricks
+tested in all of these up to which one post is tried after the other: small models take it."""
 
 PATIENCE: Final = 60
 """Projections more than with all posts to look for a proof without some of them."""
@@ -125,22 +127,29 @@ def _tested(
 
 
 def _with_fewer(propped: Propped, posts: Sequence[Bricks], tested: Callable[..., Propped]) -> Propped:
-    """Leave out what bears least, half of the posts, and ever fewer of them where the model would not stand."""
-    share, tries = len(posts) // 2, 0
+    """Leave out what bears least: half of the posts, and ever fewer of them where the model would not stand."""
     aims = (AIMS[-1]._replace(turns=PATIENCE + propped[2].iterations),)
-    while share and tries < min(SPARING, WORK // len(propped[0])):
+    n_bricks = len(propped[0])
+    share, needed = len(posts) // 2, np.zeros(len(posts), dtype=bool)
+    for number in range(min(max(SPARING, SPARED // n_bricks), WORK // n_bricks)):
         post = _post_of(propped, posts)
+        order = np.lexsort((_loads(propped[2], post, len(posts)), needed))
+        share = min(share, int(np.count_nonzero(~needed)))
+        if not share or (needed.any() and number * n_bricks > SPARED):
+            break
         left = np.ones(len(posts) + 1, dtype=bool)
-        left[np.argsort(_loads(propped[2], post, len(posts)), kind="stable")[:share]] = False
+        left[order[:share]] = False
         fewer = [each for each, stays in zip(posts, left, strict=False) if stays]
         # with the posts left out, the forces of the proof are nearly in balance
         near = propped[2].forces[left[post].all(axis=0)]
         without = tested(fewer, aims=aims, start=near)
         if without[2].stable:
-            propped, posts, share = without, fewer, min(share, len(fewer) // 2)
+            propped, posts, needed = without, fewer, needed[left[:-1]]
+            share = min(share, len(fewer) // 2)
+        elif share == 1:
+            needed[order[0]] = True
         else:
             share //= 2
-        tries += 1
     return propped
 
 
