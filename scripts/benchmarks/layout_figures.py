@@ -19,6 +19,7 @@ from legorize_addon.core.layout.programme import shares
 from legorize_addon.core.layout.shapes import Shapes, shapes
 from legorize_addon.core.layout.sheets import Sheets, split
 from legorize_addon.core.model import Bricks, Ints, Mask, UnitGrid
+from legorize_addon.core.units import PLATES_PER_BRICK
 
 GROUND: Final = -1
 """What the lowest bricks stand on, beside the rows of the bricks."""
@@ -56,7 +57,7 @@ def alone(grid: UnitGrid, catalogue: Catalogue) -> Mask:
     (n_plates, n_y, n_x) bool array
         True at the lowest plate of such cells.
     """
-    found = np.zeros((3 * len(grid.colour), *grid.colour.shape[2:]), dtype=bool)
+    found = np.zeros((PLATES_PER_BRICK * len(grid.colour), *grid.colour.shape[2:]), dtype=bool)
     codes = np.unique(grid.colour[grid.colour >= 0])
     for sheets in split(grid):
         among = shapes(catalogue, sheets.height, codes, FILLER)
@@ -196,16 +197,15 @@ def edges_to_bridge(grid: UnitGrid, links: Connection, catalogue: Catalogue) -> 
     (2, n_z, n_y, n_x) bool array
         For the plates of ``links.owner``: the edge beyond each cell along y, and along x.
     """
-    can = np.zeros((2, 3 * len(grid.colour), *grid.colour.shape[2:]), dtype=bool)
+    can = np.zeros((2, PLATES_PER_BRICK * len(grid.colour), *grid.colour.shape[2:]), dtype=bool)
     codes = np.unique(grid.colour[grid.colour >= 0])
     for sheets in split(grid):
         among = shapes(catalogue, sheets.height, codes, FILLER)
         found = placements(sheets, among)
-        first = np.cumsum(among.size) - among.size
-        within = np.arange(len(found.cells)) + np.repeat(first[found.shape] - found.start[:-1], found.size)
-        for edges, inner in zip(can, among.inner[::-1], strict=True):
+        along_x, along_y = among.inner[:, found.in_shapes(among)]
+        for edges, inside in zip(can, (along_y, along_x), strict=True):
             across = np.zeros(sheets.colour.shape, dtype=bool)
-            across.reshape(-1)[sheets.cells[found.cells[inner[within] > 0]]] = True
+            across.reshape(-1)[sheets.cells[found.cells[inside]]] = True
             for plate in range(sheets.height):
                 edges[sheets.level + plate] |= across
     x, y, z = links.low

@@ -11,6 +11,7 @@
 ``linear``          the standard tier: linear programmes, made whole by dives
 ``programme``       the linear programme and its dual
 ``dominance``       placements that no programme needs
+``pricing``         placements that a good layout hardly needs, by what cells are worth at a guess
 ``bond``            running bond in the middle of wide areas
 ``blocks``          wide sheets in blocks
 ``exact``           the exact tier: branch and bound for what the programmes leave open
@@ -20,7 +21,7 @@
 ``svm_training``    the samples and the training
 ``learning``        files of samples: the one chosen, and learning more from a user's own models
 ``table``           what lies on a sheet; the table of all bricks
-``repair``          joins components that float, by exchanges
+``repair``          joins components that float, by exchanges (``islands``: which ones could be joined)
 ``windows``         joins what is left of them, by small windows laid anew
 ``straps``          joins what is loose even then, by plates across the seams, once all is laid
 ``contacts``        where such plates may lie (``cutting``: the bricks that are cut for them)

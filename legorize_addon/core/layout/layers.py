@@ -118,20 +118,14 @@ def lay(
     slab_of_layer = np.cumsum(grid.solid.any(axis=1).sum(axis=(1, 2))) // _SLAB
     worth = (shipped() if table is None else table) if tier == "fast" and learned else None
     laid: list[Bricks] = []
-    n_laid = 0
-    slabs, ways = np.unique(slab_of_layer), _PASSES[tier]
+    slabs = np.unique(slab_of_layer)
     for turn, slab in enumerate(slabs):
         listed = _listed(work, slab_of_layer == slab, must, tier)
-        halves: list[list[Bricks]] = [[], []]
-        for number, (way, bridge) in enumerate(ways):
-            halves[number % 2] = half = []
-            for each in _batches(listed, number % 2, np.inf if way is greedy.cover else _BATCH):
-                progress("layout", (turn + number / len(ways)) / len(slabs))
-                problem = pose(each.sheets, each.among, each.found, owner, must, bridge)
-                problem = replace(problem, price=each.price)
-                half.append(_laid(problem, owner, n_laid, way, worth, rng))
-                n_laid += len(half[-1])
-        laid += halves[0] + halves[1]
+
+        def tell(share: float, turn: int = turn) -> None:
+            progress("layout", (turn + share) / len(slabs))
+
+        laid += _passed(listed, _PASSES[tier], owner, must, worth, rng, tell)
     if not join:
         return gathered(laid)
     bricks = connect_loose(gathered(laid), grid, work, catalogue, rng, progress)
@@ -165,6 +159,28 @@ def _listed(work: Sequence[tuple[Sheets, Shapes]], layers: Mask, must: Mask, tie
             price = guessed_prices(pose(inside, among, found, nobody, must)) if tier == "standard" else None
             listed.append(_Listed(inside, among, found, price))
     return listed
+
+
+def _passed(
+    listed: Sequence[_Listed],
+    passes: Sequence[tuple[Way, float]],
+    owner: Rows,
+    must: Mask,
+    worth: Mask | None,
+    rng: np.random.Generator,
+    tell: Callable[[float], None],
+) -> list[Bricks]:
+    """Lay sheets in passes, every other one at once; write their bricks into `owner`; tell the share of passes done."""
+    halves: list[list[Bricks]] = [[], []]
+    first = int(owner.max()) + 1
+    for number, (way, bridge) in enumerate(passes):
+        halves[number % 2] = half = []
+        for each in _batches(listed, number % 2, np.inf if way is greedy.cover else _BATCH):
+            tell(number / len(passes))
+            problem = pose(each.sheets, each.among, each.found, owner, must, bridge)
+            half.append(_laid(replace(problem, price=each.price), owner, first, way, worth, rng))
+            first += len(half[-1])
+    return halves[0] + halves[1]
 
 
 def _batches(listed: Sequence[_Listed], half: int, most: float) -> Iterator[_Listed]:

@@ -69,6 +69,12 @@ class Placements:
         entries: Index = np.arange(size.sum()) + np.repeat(offset, size)
         return entries
 
+    def in_shapes(self, among: Shapes) -> Index:
+        """Return which of the cells of all shapes, one shape after the other, each entry of ``cells`` is."""
+        first = np.cumsum(among.size) - among.size
+        where: Index = np.arange(len(self.cells)) + np.repeat(first[self.shape] - self.start[:-1], self.size)
+        return where
+
     def totals(self, amounts: Whole | Mask) -> NDArray[np.int64]:
         """Sum amounts given for each cell over the cells of each placement, shape (n,)."""
         return segment_sums(amounts[self.cells], self.start[1:])

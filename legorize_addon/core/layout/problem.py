@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..connection import NOBODY, Connection
-from ..model import Floats, Mask
+from ..model import Floats, Mask, ground_of
 from .placements import Placements, segment_sums
 from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
@@ -107,6 +107,13 @@ def owners(links: Connection, shape: tuple[int, ...]) -> Rows:
     return owner
 
 
+def standing(links: Connection, must: Mask) -> Rows:
+    """Return the brick in each cell of a model, as :func:`owners`, and ``GROUND`` below the lowest must cell."""
+    owner = owners(links, must.shape)
+    owner[: ground_of(must)] = GROUND
+    return owner
+
+
 def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Mask, bridge: float = BRIDGE) -> Problem:
     """Put costs on the placements on some sheets.
 
@@ -175,8 +182,6 @@ def _seams(owner: Rows) -> NDArray[np.int8]:
 
 def _bridged(found: Placements, among: Shapes, seams: NDArray[np.int8]) -> NDArray[np.int64]:
     """Count the seams inside each placement, given those beyond each cell along x and y."""
-    size = among.size
-    first = np.cumsum(size) - size
-    within = np.arange(len(found.cells)) + np.repeat(first[found.shape] - found.start[:-1], found.size)
-    inside = among.inner[0, within] * seams[0, found.cells] + among.inner[1, within] * seams[1, found.cells]
+    along_x, along_y = among.inner[:, found.in_shapes(among)]
+    inside = along_x * seams[0, found.cells] + along_y * seams[1, found.cells]
     return segment_sums(inside, found.start[1:])

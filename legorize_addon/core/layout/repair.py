@@ -18,13 +18,13 @@ from scipy.ndimage import maximum_filter
 
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, connect
-from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Mask, UnitGrid, ground_of
+from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Mask, UnitGrid
 from ..progress import Progress
 from .exchange import exchange
 from .islands import Islands, loose_bricks
 from .placements import Placements, placements
 from .planes import spread
-from .problem import GROUND, Problem, owners, pose, with_margins
+from .problem import Problem, owners, pose, standing, with_margins
 from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
 from .table import bricks_of, gathered
@@ -142,8 +142,7 @@ class _Cells:
     @classmethod
     def of(cls, bricks: Bricks, links: Connection, must: Mask, loose: Mask, catalogue: Catalogue) -> _Cells:
         """Label the bricks of a model, given those that are loose."""
-        owner = owners(links, must.shape)
-        owner[: ground_of(must)] = GROUND
+        owner = standing(links, must)
         label = np.append(np.where(loose, links.component + 1, 0), [-1, -1]).astype(np.int32)
         height = np.array([part.height for part in catalogue.parts])[bricks.part[loose]]
         lowest = bricks.corner[loose, 2] + 1

@@ -3,8 +3,8 @@
 What is still loose once the bricks are laid is joined to what it touches by a
 plate across the seam, a *strap*, for which the bricks on both sides are cut. The
 strap has the colour of one side: where that would show, a plate is added below
-an edge, and only where there is no room for one is a cell in the neighbour's
-colour. Where there is nothing to cut, a plate is added below or above.
+an edge, and only where there is no room for one are a cell or two in the
+neighbour's colour. Where there is nothing to cut, a plate is added below or above.
 The cheapest joints come first, as in a least spanning tree (Kruskal 1956).
 """
 

@@ -222,11 +222,9 @@ def _n_bricks(problem: Problem, owner: Index) -> NDArray[np.int64]:
     parts that are hooked into each other meet in two places, and count twice.
     """
     found, among = problem.placements, problem.shapes
-    first = np.cumsum(among.size) - among.size
-    within = np.arange(len(found.cells)) + np.repeat(first[found.shape] - found.start[:-1], found.size)
     # bits of what a cell has in common with its neighbours, and of the neighbours that the placement covers too
     x, y = among.inner.astype(np.uint8)
-    common = _same_brick(problem, owner)[found.cells] & (x | y << 1 | (x & y) << 2)[within]
+    common = _same_brick(problem, owner)[found.cells] & (x | y << 1 | (x & y) << 2)[found.in_shapes(among)]
     count = (owner >= 0)[found.cells] - _N_JOINED[common]
     return segment_sums(count, found.start[1:])
 

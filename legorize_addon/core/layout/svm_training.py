@@ -23,7 +23,7 @@ from ..model import Bricks, Cover, Mask, UnitGrid, ground_of
 from .exchange import fewer_small, gains
 from .greedy import cover
 from .placements import placements
-from .problem import GROUND, Problem, pose, with_margins
+from .problem import GROUND, Problem, owners, pose, with_margins
 from .shapes import Index, shapes
 from .sheets import split
 from .svm import NAMES, Machine, Samples, changes
@@ -87,10 +87,7 @@ def tasks(grid: UnitGrid, bricks: Bricks, catalogue: Catalogue) -> Iterator[Prob
     """
     must = with_margins(grid.cover == Cover.MUST, False)
     codes = np.unique(grid.colour[grid.colour >= 0])
-    built = np.full(must.shape, NOBODY, dtype=np.int32)
-    owner = connect(bricks, catalogue).owner
-    n_z, n_y, n_x = owner.shape
-    built[1 : n_z + 1, :n_y, :n_x] = owner
+    built = owners(connect(bricks, catalogue), must.shape)
     ground = ground_of(built != NOBODY)
     for sheets in split(grid):
         # the colour of what nobody sees does not matter here

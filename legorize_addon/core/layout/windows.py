@@ -20,11 +20,11 @@ from scipy.sparse import csr_array
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Connection, components, connect
 from ..joints import Touching, agree, brick_columns, every_plate
-from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Ints, Mask, UnitGrid, ground_of
+from ..model import COLOUR_EMPTY, Bricks, Cover, Floats, Ints, Mask, UnitGrid
 from ..progress import Progress
 from ..units import PLATES_PER_BRICK
 from .placements import Placements, placements
-from .problem import GROUND, Problem, owners, pose, with_margins
+from .problem import Problem, pose, standing, with_margins
 from .programme import WHOLE
 from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
@@ -117,9 +117,7 @@ class _Model:
     @classmethod
     def of(cls, bricks: Bricks, links: Connection, must: Mask) -> _Model:
         """Look up which cells bricks lie in, given those that have to be covered."""
-        owner = owners(links, must.shape)
-        owner[: ground_of(must)] = GROUND
-        return cls(bricks, links, owner)
+        return cls(bricks, links, standing(links, must))
 
     def without(self, out: Ints) -> Rows:
         """Return the component of each brick, (n,), when some are left out, each of which has a number of its own."""

@@ -96,6 +96,18 @@ def test_cells_are_those_of_the_shape(seed):
         assert (sheet[cells] == found.corner[row, 2]).all()
 
 
+@given(st.integers(0, 2**32 - 1))
+def test_entries_are_cells_of_their_shapes(seed):
+    """Corner and cell of the shape together are the cell that is covered, entry by entry."""
+    grid = random_grid(seed)
+    (sheets,) = split(grid)
+    among = shapes_for(grid)
+    found = placements(sheets, among)
+    at = np.concatenate(among.cells)[found.in_shapes(among)] + np.repeat(found.corner[:, :2], found.size, axis=0)
+    _, y, x = np.unravel_index(sheets.cells[found.cells], sheets.colour.shape)
+    np.testing.assert_array_equal(at, np.stack([x, y], axis=1))
+
+
 def test_lookups():
     """Placements are found by shape and corner, by the cells they cover, and summed over."""
     found = placements(split(random_grid(1))[0], shapes_for(random_grid(1)))

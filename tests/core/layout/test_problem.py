@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.connection import NOBODY
+from legorize_addon.core.connection import NOBODY, connect
 from legorize_addon.core.layout.placements import placements
-from legorize_addon.core.layout.problem import GROUND, pose, with_margins
+from legorize_addon.core.layout.problem import GROUND, pose, standing, with_margins
 from legorize_addon.core.layout.shapes import shapes
 from legorize_addon.core.layout.sheets import split
 from legorize_addon.core.model import Cover
+from tests.core.standing import table
 
 from .cells import CATALOGUE, brick_grid
 
@@ -65,6 +66,16 @@ def test_optional_cells_cost_a_little():
     cover = np.array([[[Cover.MUST, Cover.MAY, Cover.MAY, Cover.MUST]]])
     problem = row_problem(GROUND, cover)
     assert 1 < cost_at(problem, 2, 0) < cost_at(problem, 3, 0) < 1.05
+
+
+def test_ground_is_below_the_lowest_must_cell():
+    """Bricks stand in the planes of their cells; all planes below the lowest cell that must be built are ground."""
+    must = np.zeros((7, 1, 2), dtype=bool)
+    must[3:6] = True
+    owner = standing(connect(table(("3004", 0, 0, 2)), CATALOGUE), must)
+    assert (owner[:3] == GROUND).all()
+    assert (owner[3:6] == 0).all()
+    assert (owner[6] == NOBODY).all()
 
 
 def test_margins_are_one_plane_on_either_side():
