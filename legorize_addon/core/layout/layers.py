@@ -120,7 +120,7 @@ def lay(
     laid: list[Bricks] = []
     slabs = np.unique(slab_of_layer)
     for turn, slab in enumerate(slabs):
-        listed = _listed(work, slab_of_layer == slab, must, tier)
+        listed = _listed(work, slab_of_layer == slab, owner, must, tier)
 
         def tell(share: float, turn: int = turn) -> None:
             progress("layout", (turn + share) / len(slabs))
@@ -148,15 +148,14 @@ class _Listed:
         return _Listed(self.sheets.take(which), self.among, self.found.on(which, self.sheets.n_cells), price)
 
 
-def _listed(work: Sequence[tuple[Sheets, Shapes]], layers: Mask, must: Mask, tier: Tier) -> list[_Listed]:
+def _listed(work: Sequence[tuple[Sheets, Shapes]], layers: Mask, owner: Rows, must: Mask, tier: Tier) -> list[_Listed]:
     """List what may lie on the sheets of some layers."""
-    nobody = np.full(must.shape, NOBODY, dtype=np.int32)
     listed = []
     for sheets, among in work:
         inside = sheets.take(layers[sheets.level // PLATES_PER_BRICK])
         if len(inside):
             found = placements(inside, among)
-            price = guessed_prices(pose(inside, among, found, nobody, must)) if tier == "standard" else None
+            price = guessed_prices(pose(inside, among, found, owner, must)) if tier == "standard" else None
             listed.append(_Listed(inside, among, found, price))
     return listed
 
