@@ -1,11 +1,11 @@
 """What each cell is worth, at a guess: it tells which placements a linear programme can do without.
 
 The programme's dual is a price for each cell, and only placements that cost
-little more than the prices of their cells are in a good layout: mostly one in
-ten. Prices that are nearly right suffice for that. Shares that fall off
-exponentially with the cost above the prices are scaled until they sum to one
-on every cell, while it grows colder; all sheets of a model at once, before any
-of them is laid, as the seams to lie across hardly change the prices.
+little more than the prices of their cells are in a good layout. Prices that are
+nearly right suffice to leave out about half of them. Shares that fall off
+exponentially with the cost above the prices are scaled until they sum to one on
+every cell, while it grows colder; many sheets at once, before any of them is
+laid, as the seams to lie across hardly change the prices.
 
 References
 ----------
