@@ -18,15 +18,12 @@ Python, this file catches, shows and turns every exception into a 1 by itself.
 from __future__ import annotations
 
 import argparse
-import json
-import os
 import sys
-import tempfile
 import time
 import tomllib
 import traceback
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import Field, fields, replace
 from pathlib import Path
 from typing import Any, Final, NamedTuple, NoReturn
@@ -37,23 +34,22 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 try:
     from legorize_addon.contact_sheet import render_contact_sheet
-    from legorize_addon.core import ldraw, shopping
     from legorize_addon.core.build import Build
-    from legorize_addon.core.building.order_file import build_order_csv
-    from legorize_addon.core.catalogue import Catalogue, load_catalogue
-    from legorize_addon.core.errors import BuildError, LegorizeError, MeshError, SettingsError
-    from legorize_addon.core.ldraw_document import write_mpd
+    from legorize_addon.core.catalogue import load_catalogue
+    from legorize_addon.core.checks import failed_checks
+    from legorize_addon.core.errors import BuildError, LegorizeError, SettingsError
+    from legorize_addon.core.files.folder import new_folder, writing
+    from legorize_addon.core.files.outputs import texts
     from legorize_addon.core.model import Role
     from legorize_addon.core.pipeline import legorize
     from legorize_addon.core.report import report
     from legorize_addon.core.settings import Settings, choices, setting_type
-    from legorize_addon.core.tables import paper_tables
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.heat_map import show_heat_map
     from legorize_addon.read_mesh import read_objects
+    from legorize_addon.reading.importers import load
     from legorize_addon.render import AZIMUTH, View, render_still
     from legorize_addon.result import show_result
-    from legorize_addon.scene import builds, clear_build
     from legorize_addon.section import AXES, Section
     from legorize_addon.steps import explode
     from legorize_addon.view import cut_away, roles_shown, show_role
@@ -69,8 +65,6 @@ IN_PICTURE: Final = ("view", "section", "outlines", "heat_map", "explode", "show
 
 MOST_PICTURES: Final = 400
 """On a contact sheet."""
-
-SHAPELESS: Final = ("CAMERA", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
 
 class Wanted(NamedTuple):
@@ -270,103 +264,6 @@ def posed(shown: bpy.types.Collection, wanted: Wanted) -> Iterator[None]:
     cut_away(shown, Section())
 
 
-def failed_checks(facts: dict[str, Any]) -> list[str]:
-    """Return a line for each check that a finished model failed."""
-    connection, colours = facts["connection"], facts["unavailable_part_colours"]
-    counts = (
-        (connection["components"], 1, "Components that no brick joins to one model: {}."),
-        (connection["floating"], 0, "Bricks that float, held by nothing below or above: {}."),
-        (connection["collisions"], 0, "Cells that more than one brick claims: {}."),
-        (facts["building"]["steps"] - facts["buildable_steps"], 0, "Steps that cannot be built: {}."),
-        (colours["bricks"], 0, "Bricks in a colour in which their part was never made: {}."),
-    )
-    failed = [sentence.format(count) for count, allowed, sentence in counts if count > allowed]
-    if not facts["building"]["ends_as_model"]:
-        failed.append("The building order does not end with the model.")
-    proof = facts["building"]["proof"]
-    if proof and proof["collapsing"] + proof["undecided"]:
-        failed.append(f"Steps not proven to stand: {len(proof['collapsing'] + proof['undecided'])}.")
-    if not facts["stability"]["stable"]:
-        failed.append(
-            "Stability is not proven: {verdict}, {failing} bricks bear too little.".format(**facts["stability"])
-        )
-    return failed
-
-
-def texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:
-    """Return the contents of the text files by name."""
-    parts, supports = (shopping.count_parts(bricks, catalogue) for bricks in (build.bricks, build.supports.removed))
-    return {
-        "model.ldr": ldraw.write_ldr(build.bricks, catalogue, name="model.ldr", title=title),
-        "model.mpd": write_mpd(build.supports.bricks, catalogue, name="model.ldr", title=title),
-        "build_order.csv": build_order_csv(build.supports.moves, build.supports.bricks, catalogue),
-        "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
-        "parts.csv": shopping.parts_csv(parts, catalogue),
-        "bricklink.xml": shopping.bricklink_xml(parts, catalogue),
-        "rebrickable.csv": shopping.rebrickable_csv(parts, catalogue),
-        "pick-a-brick.csv": shopping.pick_a_brick_csv(parts, catalogue)[0],
-        "support-parts.csv": shopping.parts_csv(supports, catalogue),
-        "support-bricklink.xml": shopping.bricklink_xml(supports, catalogue),
-        **{f"tables/{name}": table for name, table in paper_tables(build, catalogue, name=title).items()},
-    }
-
-
-def load(source: Path) -> list[bpy.types.Object]:
-    """Open or import a file into an empty Blender; return what its renders would show, shown in the viewport too."""
-    if not source.is_file():
-        raise MeshError(f"There is no file {source}: name one that exists.")
-    known = importers()
-    kind = source.suffix.lower()
-    if kind not in known:
-        raise MeshError(f"{source.name} is of no known kind: use one of {', '.join(known)}.")
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    operator, options = known[kind]
-    try:
-        operator(filepath=str(source.resolve()), **options)
-    except RuntimeError as error:
-        # an importer in Python hands on its traceback
-        lines = [line for line in str(error).strip().splitlines() if not line.startswith("Location:")]
-        reason = lines[-1].removeprefix("Error: ").rstrip(".")
-        raise MeshError(f"{source.name} cannot be read as {kind} ({reason}): export it again.") from error
-    if kind != ".blend":
-        for armature in bpy.data.armatures:
-            armature.pose_position = "REST"
-    # else the bricks would be legorized, as they have hidden what they were made of
-    for build in list(builds(bpy.context.scene)):
-        clear_build(bpy.context.scene, build)
-    return list(rendered(bpy.context.view_layer.layer_collection))
-
-
-def importers() -> dict[str, tuple[Any, dict[str, Any]]]:
-    """Return Blender's own operator for every suffix, and its options."""
-    gltf = (bpy.ops.import_scene.gltf, {})
-    # the importer in C++, from 4.5 on, reads more kinds of FBX than the add-on
-    fbx = bpy.ops.wm.fbx_import if "fbx_import" in dir(bpy.ops.wm) else bpy.ops.import_scene.fbx
-    return {
-        ".blend": (bpy.ops.wm.open_mainfile, {"load_ui": False, "use_scripts": False}),
-        ".obj": (bpy.ops.wm.obj_import, {}),
-        ".glb": gltf,
-        ".gltf": gltf,
-        ".ply": (bpy.ops.wm.ply_import, {}),
-        ".stl": (bpy.ops.wm.stl_import, {}),
-        ".fbx": (fbx, {}),
-    }
-
-
-def rendered(layer: bpy.types.LayerCollection) -> Iterator[bpy.types.Object]:
-    """Yield the objects whose shape a render shows, and show them in the viewport, from which meshes are read."""
-    if layer.exclude or layer.collection.hide_render:
-        return
-    layer.hide_viewport = layer.collection.hide_viewport = False
-    for obj in layer.collection.objects:
-        if not obj.hide_render and obj.type not in SHAPELESS:
-            obj.hide_viewport = False
-            obj.hide_set(False)
-            yield obj
-    for below in layer.children:
-        yield from rendered(below)
-
-
 def save(path: Path) -> None:
     """Write the scene, with paths of images that hold wherever the file is moved to."""
     if bpy.data.filepath:
@@ -375,47 +272,6 @@ def save(path: Path) -> None:
         bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, compress=True, relative_remap=False)
     except RuntimeError as error:
         raise BuildError(f"The scene cannot be saved: {str(error).strip()}") from error
-
-
-@contextmanager
-def new_folder(out: Path) -> Iterator[Path]:
-    """Yield a folder to write into; what it holds moves to ``out`` at the end, and only if all went well."""
-    if out.exists() and not out.is_dir():
-        raise BuildError(f"{out} is a file, not a folder: choose another name.")
-    # on the same disk, so that moving is renaming
-    near = next(folder for folder in (out, *out.absolute().parents) if folder.exists())
-    with ExitStack() as stack:
-        with writing(out):
-            temporary = stack.enter_context(tempfile.TemporaryDirectory(prefix=".legorize-", dir=near))
-            folder = Path(temporary) / "results"
-            folder.mkdir()
-        yield folder
-        with writing(out):
-            publish(folder, out)
-
-
-def publish(folder: Path, out: Path) -> None:
-    """Rename a folder, or all of its files if the new name is taken by a folder."""
-    if not out.exists():
-        out.parent.mkdir(parents=True, exist_ok=True)
-        folder.rename(out)
-        return
-    files = sorted(file.relative_to(folder) for file in folder.rglob("*") if file.is_file())
-    for taken in (out / file for file in files):
-        if taken.is_dir():
-            raise BuildError(f"{taken} is a folder: move it away, or choose another folder for the results.")
-    for file in files:
-        (out / file).parent.mkdir(exist_ok=True)
-        os.replace(folder / file, out / file)
-
-
-@contextmanager
-def writing(out: Path) -> Iterator[None]:
-    """Turn a failure of the file system into a sentence."""
-    try:
-        yield
-    except OSError as error:
-        raise BuildError(f"The folder {out} cannot be written ({error.strerror}): choose another one.") from error
 
 
 @contextmanager

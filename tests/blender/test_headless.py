@@ -8,6 +8,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from dataclasses import fields
 from functools import partial
@@ -514,7 +515,7 @@ def test_unwritable_folder(
     taken = tmp_path / "taken"
     if place == "forbidden":
         # root, as whom tests may run, is refused nothing
-        monkeypatch.setattr(script.tempfile, "TemporaryDirectory", forbid)
+        monkeypatch.setattr(tempfile, "TemporaryDirectory", forbid)
     else:
         taken.write_text("a file")
     out = taken / "out" if place == "below" else taken

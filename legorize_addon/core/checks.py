@@ -1,0 +1,28 @@
+"""The checks that decide whether a finished model may be called good."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def failed_checks(facts: dict[str, Any]) -> list[str]:
+    """Return a line for each check that a finished model failed."""
+    connection, colours = facts["connection"], facts["unavailable_part_colours"]
+    counts = (
+        (connection["components"], 1, "Components that no brick joins to one model: {}."),
+        (connection["floating"], 0, "Bricks that float, held by nothing below or above: {}."),
+        (connection["collisions"], 0, "Cells that more than one brick claims: {}."),
+        (facts["building"]["steps"] - facts["buildable_steps"], 0, "Steps that cannot be built: {}."),
+        (colours["bricks"], 0, "Bricks in a colour in which their part was never made: {}."),
+    )
+    failed = [sentence.format(count) for count, allowed, sentence in counts if count > allowed]
+    if not facts["building"]["ends_as_model"]:
+        failed.append("The building order does not end with the model.")
+    proof = facts["building"]["proof"]
+    if proof and proof["collapsing"] + proof["undecided"]:
+        failed.append(f"Steps not proven to stand: {len(proof['collapsing'] + proof['undecided'])}.")
+    if not facts["stability"]["stable"]:
+        failed.append(
+            "Stability is not proven: {verdict}, {failing} bricks bear too little.".format(**facts["stability"])
+        )
+    return failed

@@ -1,0 +1,1 @@
+"""What is written: files of the model, and the folder that they come in."""

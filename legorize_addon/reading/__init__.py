@@ -1,0 +1,1 @@
+"""From files and Blender's scene into the core."""
