@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from .brick_points import sizes
 from .core.building.moves import Action, Moves
 from .core.catalogue import Catalogue
-from .core.connection import NOBODY
-from .core.model import CELL_SIZE, Bricks, Floats, Mask
+from .core.model import CELL_SIZE, NOBODY, Bricks, Floats, Mask
 
 Columns = Mapping[str, NDArray[np.generic]]
 

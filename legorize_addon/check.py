@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from .core.catalogue import load_catalogue
 from .core.model import Bricks
 from .core.remarks import brick_name, layer_of
-from .core.stability import Stability, Verdict
+from .core.verdict import Verdict
+
+if TYPE_CHECKING:
+    from .core.stability import Stability
 
 ICONS: Final = {"stable": "CHECKMARK", "collapses": "CANCEL", "undecided": "QUESTION"}
 UNCHECKED: Final = "Not checked: legorize the object again to find out whether the model stands."

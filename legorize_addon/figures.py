@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,8 +11,10 @@ from .check import check_of
 from .core.building.moves import Moves
 from .core.catalogue import Catalogue
 from .core.model import Bricks, Role
-from .core.stability import Stability
 from .core.units import PLATES_PER_BRICK
+
+if TYPE_CHECKING:
+    from .core.stability import Stability
 
 
 def figures(

@@ -19,7 +19,7 @@ from .brick_points import MARGIN, NO_MARGIN
 from .core.catalogue import Part, load_catalogue
 from .core.errors import BuildError
 from .core.model import Floats
-from .core.stability import UNSUPPORTED
+from .core.verdict import UNSUPPORTED
 from .nodes import HEAT_MAP, HEAT_PARTS, bricks_modifier, plastic, set_input
 from .part_meshes import detail_of, parts_collection, parts_in_use
 from .scene import BUILD_KEY, point_objects

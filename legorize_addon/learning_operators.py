@@ -5,24 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import bpy
 import numpy as np
 
 from .core.catalogue import load_catalogue
 from .core.errors import BuildError
-from .core.layout.learning import learned_more, samples_text, version_of
-from .core.layout.svm import read
-from .core.mesh import TriangleMesh
 from .core.model import Bricks, UnitGrid
-from .core.pipeline import legorize
 from .core.progress import Progress
 from .core.settings import Settings
 from .export_operators import write_whole
 from .operators import Reporting, Working, chosen_sources, order_of
 from .properties import settings_of
 from .scene import BUILD_KEY, OWN_KEY, builds_of, sources_of
+
+if TYPE_CHECKING:
+    from .core.mesh import TriangleMesh
 
 STEM: Final = "samples_v"
 """Beginning of the names of the files; the version follows."""
@@ -48,6 +47,8 @@ class Lesson:
 
     def laid(self, progress: Progress) -> tuple[UnitGrid, Bricks]:
         """Return the hollowed model and its bricks."""
+        from .core.pipeline import legorize
+
         quick = replace(self.settings, layout="fast", learned=False, learned_from="", supports="none", split=1)
         build = legorize(self.mesh, quick, progress)
         return build.hollow, build.bricks
@@ -76,6 +77,8 @@ class Lessons:
 
     def work(self, progress: Progress) -> str:
         """Return the text of the next version; no Blender in here."""
+        from .core.layout.learning import learned_more
+
         laid = [model.laid(progress) for model in self.models]
         progress("learning", 0.0)
         rng = np.random.default_rng(self.seed)
@@ -97,12 +100,16 @@ class LEGORIZE_OT_learn(Working, bpy.types.Operator):
     nothing_chosen = "Select brick models, or objects with a surface."
 
     def _take_order(self, context: bpy.types.Context) -> Lessons:
+        from .core.layout.learning import samples_text, version_of
+
         settings = settings_of(context.scene.legorize.settings)
         text = samples_text(settings.learned_from)
         version = max(version_of(text), *own_versions()) + 1
         return Lessons(tuple(_lessons(context, settings)), text, version, settings.seed)
 
     def _show(self, context: bpy.types.Context, order: Lessons, text: str) -> set[str]:
+        from .core.layout.svm import read
+
         path = own_folder() / f"{STEM}{order.version}.csv"
         write_whole(path, text)
         context.scene.legorize.settings.learned_from = str(path)

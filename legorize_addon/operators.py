@@ -4,24 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import bpy
 from bpy.app.handlers import persistent
 
 from . import job
-from .core.build import Build
 from .core.errors import Cancelled, LegorizeError
-from .core.mesh import TriangleMesh
-from .core.pipeline import legorize
 from .core.progress import Progress
 from .core.settings import Settings
 from .core.units import MM_PER_METRE
 from .properties import current_build, label, settings_of
-from .read_mesh import read_objects
 from .result import show_result
 from .scene import BUILD_KEY, OWN_KEY, builds_of, clear_build, sources_of
 from .view import readable
+
+if TYPE_CHECKING:
+    from .core.build import Build
+    from .core.mesh import TriangleMesh
 
 TICK: Final = 0.1
 """Seconds between two looks at a running job."""
@@ -59,6 +59,8 @@ class Order:
 
     def work(self, progress: Progress) -> Build:
         """Run the core; no Blender in here."""
+        from .core.pipeline import legorize
+
         return legorize(self.mesh, self.settings, progress)
 
 
@@ -255,6 +257,8 @@ def order_of(context: bpy.types.Context, sources: Sequence[bpy.types.Object], se
     -------
     Order
     """
+    from .read_mesh import read_objects
+
     with readable(sources):
         context.view_layer.update()
         mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get())

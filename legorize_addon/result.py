@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import bpy
 
-from .core.build import Build
 from .core.catalogue import load_catalogue
 from .core.model import Role
 from .part_meshes import Detail
 from .scene import BUILD_KEY, show_build
 from .view import roles_shown, show_role
+
+if TYPE_CHECKING:
+    from .core.build import Build
 
 
 def show_result(

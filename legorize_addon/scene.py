@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import bpy
 import numpy as np
@@ -25,12 +25,14 @@ from .core.catalogue import Catalogue, load_catalogue
 from .core.errors import BuildError
 from .core.model import Bricks, Floats, Role
 from .core.settings import Settings
-from .core.stability import Stability
 from .core.units import PLATES_PER_BRICK, STUD
 from .figures import figures, n_layers
 from .nodes import add_bricks_modifier, brick_trees, colour_material
 from .part_meshes import Detail, parts_collection, parts_in_use
 from .section import Section, add_plane
+
+if TYPE_CHECKING:
+    from .core.stability import Stability
 
 BUILD_KEY: Final = "legorize"
 LAYER_KEY: Final = "legorize_layer"

@@ -16,12 +16,10 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from .catalogue import Catalogue, footprint
+from .model import NOBODY as NOBODY
 from .model import Bricks, Floats, Mask
 
 Rows = NDArray[np.int32]
-
-NOBODY = -1
-"""Owner of a cell in which there is no brick."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

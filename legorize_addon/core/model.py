@@ -20,6 +20,9 @@ Mask = NDArray[np.bool_]
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+NOBODY: Final = -1
+"""Row that stands for no brick: the owner of an empty cell, what a move of a whole piece names."""
+
 COLOUR_ANY: Final = -1
 """Colour of a cell that nobody sees: the layout may choose."""
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .catalogue import Catalogue
-from .connection import NOBODY, Rows
-from .model import Bricks, Ints
-from .stability import Stability, Verdict
+from .model import NOBODY, Bricks, Ints
 from .units import PLATES_PER_BRICK
+from .verdict import Verdict
+
+if TYPE_CHECKING:
+    from .connection import Rows
+    from .stability import Stability
 
 
 def remarks(bricks: Bricks, found: Stability, catalogue: Catalogue) -> tuple[str, ...]:

@@ -8,7 +8,6 @@ search. Whatever gets neither within bounded work is "undecided".
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
 from typing import Final
 
 import numpy as np
@@ -21,6 +20,8 @@ from .model import Bricks, Floats, Ints
 from .progress import Progress, silent
 from .statics import EQUATIONS, HOLD, Ground, Statics, statics
 from .tipping import tipping, toppling
+from .verdict import UNSUPPORTED as UNSUPPORTED
+from .verdict import Verdict as Verdict
 
 PROGRAMME: Final = 600
 """Bricks that a linear programme takes in a second; where projections leave it open, it decides smaller models."""
@@ -33,17 +34,6 @@ TORN: Final = 0.01
 
 ROUNDING: Final = 1e-6
 """Gap that is none, when the fastest brick moves by 1."""
-
-UNSUPPORTED: Final = -1.0
-"""Margin of a brick that hangs in the air."""
-
-
-class Verdict(Enum):
-    """What is known of the model."""
-
-    STABLE = "stable"
-    COLLAPSES = "collapses"
-    UNDECIDED = "undecided"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

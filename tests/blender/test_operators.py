@@ -10,6 +10,7 @@ import pytest
 
 import legorize_addon
 from legorize_addon import job, operators, panels
+from legorize_addon.core import pipeline
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.ldraw import read_ldr
@@ -205,14 +206,14 @@ def test_bad_palette_is_one_sentence(box) -> None:
 
 def test_a_bug_keeps_its_traceback(box, monkeypatch) -> None:
     """Anything else than an expected failure comes out as it is."""
-    monkeypatch.setattr(operators, "legorize", failing(ZeroDivisionError("a bug")))
+    monkeypatch.setattr(pipeline, "legorize", failing(ZeroDivisionError("a bug")))
     with pytest.raises(RuntimeError, match=r"Traceback[\s\S]*ZeroDivisionError: a bug"):
         bpy.ops.legorize.build()
 
 
 def test_stopping_changes_nothing(box, monkeypatch) -> None:
     """A run that was stopped leaves the scene alone and is no error."""
-    monkeypatch.setattr(operators, "legorize", failing(Cancelled()))
+    monkeypatch.setattr(pipeline, "legorize", failing(Cancelled()))
     before = content()
     assert bpy.ops.legorize.build() == {"CANCELLED"}
     assert content() == before

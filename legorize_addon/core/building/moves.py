@@ -8,7 +8,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from ..connection import NOBODY
+from ..model import NOBODY
 
 
 class Action(IntEnum):
