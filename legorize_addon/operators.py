@@ -15,6 +15,7 @@ from .core.progress import Progress
 from .core.settings import Settings
 from .core.units import MM_PER_METRE
 from .properties import current_build, label, settings_of
+from .reading.shown import has_surface
 from .result import show_result
 from .scene import BUILD_KEY, OWN_KEY, builds_of, clear_build, sources_of
 from .view import readable
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 TICK: Final = 0.1
 """Seconds between two looks at a running job."""
 
-SOURCE_TYPES: Final = frozenset({"MESH", "CURVE", "SURFACE", "FONT", "META"})
 NAVIGATION: Final = frozenset(
     {"MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM"}
 )
@@ -71,7 +71,7 @@ def chosen_sources(context: bpy.types.Context) -> list[bpy.types.Object]:
     the objects it was made of, and with nothing selected those of the model
     that the panel shows.
     """
-    selected = [thing for thing in context.selected_objects if OWN_KEY not in thing and _has_surface(thing)]
+    selected = [thing for thing in context.selected_objects if OWN_KEY not in thing and has_surface(thing)]
     models = builds_of(context.scene, [thing for thing in context.selected_objects if OWN_KEY in thing])
     if not selected and not models and current_build(context.scene):
         models = [current_build(context.scene)]
@@ -269,10 +269,6 @@ def order_of(context: bpy.types.Context, sources: Sequence[bpy.types.Object], se
         settings=settings,
         mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
     )
-
-
-def _has_surface(thing: bpy.types.Object) -> bool:
-    return thing.type in SOURCE_TYPES or thing.instance_collection is not None
 
 
 def _select_only(context: bpy.types.Context, thing: bpy.types.Object) -> None:

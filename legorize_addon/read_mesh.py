@@ -1,8 +1,9 @@
 """Evaluated objects with their materials as one triangle mesh: the door from Blender into the core.
 
-Taken are the triangles that the viewport shows: after modifiers, parents and
-instancing, curves and texts as the meshes they make. Nothing in the file is
-changed.
+Taken are the triangles that Blender shows, as :mod:`.reading.shown` says: after
+modifiers, parents and instancing, curves and texts as the meshes they make.
+What has no surface or no size is left out, with a remark, as long as something
+else is there. Nothing in the file is changed.
 
 ==========================  ==========================================================
 colour of a material        becomes
@@ -22,28 +23,28 @@ Blender and sRGB bytes in the mesh.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import Final
+from collections.abc import Iterable
+from functools import partial
 
 import bpy
 import numpy as np
 
 from .bake import Bakeable, baked
-from .core.errors import MeshError
 from .core.mesh import TriangleMesh
 from .core.units import MM_PER_METRE
 from .read_colours import Floats, colour_patches
 from .read_images import Album
 from .read_surface import Surface, read_surface, slot_materials, slot_paints
+from .reading.left_out import LeftOut
+from .reading.shown import Shown, shown, when_rendered
 
-_FLAT: Final = 1e-6
-"""Smallest of the three stretches of an object, as a share of the largest, that is not flat."""
+Piece = Surface | Bakeable
 
 
 def read_objects(
     objects: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph
 ) -> tuple[TriangleMesh, tuple[str, ...]]:
-    """Read objects as one mesh.
+    """Read objects as one mesh, as the viewport shows them.
 
     Parameters
     ----------
@@ -64,45 +65,73 @@ def read_objects(
     MeshError
         If there is nothing to read, an image is missing, or a colour cannot be baked.
     """
-    chosen = [obj.original for obj in objects]
-    mm = depsgraph.scene.unit_settings.scale_length * MM_PER_METRE
-    album = Album()
-    # baking adds data, which must not happen while the instances are walked
-    found = [_read(obj, matrix, album) for obj, matrix in _shown(chosen, depsgraph)]
-    painted = [_painted(surface, album) for surface in found]
-    if not painted:
-        raise MeshError("There is nothing to build from: select a mesh object that is visible.")
-    if not any(len(surface.faces) for surface, _, _ in painted):
-        names = ", ".join(repr(obj.name) for obj in chosen)
-        raise MeshError(f"There are no faces in {names}: choose an object with a surface.")
-    return _joined(painted, mm, album), tuple(album.remarks)
+    album, left_out = Album(), LeftOut()
+    pieces = _pieces(depsgraph, list(objects), album, left_out)
+    return _read(pieces, depsgraph.scene, album, left_out)
 
 
-def _shown(chosen: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Iterator[tuple[bpy.types.Object, Floats]]:
-    """Yield the evaluated meshes that the chosen objects show, themselves or by instancing, and their matrices.
+def read_rendered(
+    objects: Iterable[bpy.types.Object], context: bpy.types.Context
+) -> tuple[TriangleMesh, tuple[str, ...]]:
+    """Read objects as one mesh, as renders of the context's view layer show them.
 
-    Curves, texts and metaballs come a second time here, as instances of the meshes they make.
+    Parameters
+    ----------
+    objects : iterable of bpy.types.Object
+        As for :func:`read_objects`; those that renders do not show are left out too.
+    context : bpy.types.Context
+        Its scene has the objects.
+
+    Returns
+    -------
+    TriangleMesh
+        In mm of the world, by the scene's unit scale.
+    tuple of str
+        Remarks.
+
+    Raises
+    ------
+    MeshError
+        As :func:`read_objects` does.
     """
-    for instance in depsgraph.object_instances:
-        owner = instance.parent if instance.is_instance else instance.object
-        if instance.object.type == "MESH" and instance.show_self and owner.original in chosen:
-            yield instance.object, np.array(instance.matrix_world, dtype=float)
+    album, left_out = Album(), LeftOut()
+    read = partial(_pieces, objects=list(objects), album=album, left_out=left_out)
+    return _read(when_rendered(context, read), context.scene, album, left_out)
 
 
-def _read(obj: bpy.types.Object, matrix: Floats, album: Album) -> Surface | Bakeable:
-    stretches = np.linalg.svd(matrix[:3, :3], compute_uv=False)
-    if stretches[2] <= _FLAT * stretches[0]:
-        raise MeshError(f"The object {obj.name!r} has a scale of zero: give it another scale.")
+def _pieces(
+    depsgraph: bpy.types.Depsgraph, objects: list[bpy.types.Object], album: Album, left_out: LeftOut
+) -> list[Piece]:
+    """Return the surfaces that are shown, apart from Blender's data: baking adds to it, which ends all walks in it."""
+    found = [_piece(each, album, left_out) for each in shown(objects, depsgraph)]
+    return [piece for piece in found if piece is not None]
+
+
+def _read(
+    pieces: list[Piece], scene: bpy.types.Scene, album: Album, left_out: LeftOut
+) -> tuple[TriangleMesh, tuple[str, ...]]:
+    left_out.check()
+    painted = [_painted(piece, album) for piece in pieces]
+    mm = scene.unit_settings.scale_length * MM_PER_METRE
+    return _joined(painted, mm, album), (*left_out.sentences(), *album.remarks)
+
+
+def _piece(each: Shown, album: Album, left_out: LeftOut) -> Piece | None:
+    """Return the surface of a mesh that is shown; none if it has no size or no faces."""
+    if left_out.by_matrix(each):
+        return None
     # preserve_all_data_layers would evaluate anew, for which an instance stands for its object
-    mesh = obj.to_mesh()
+    mesh = each.mesh.to_mesh()
     try:
-        paints = slot_paints(obj, mesh, album)
+        if left_out.by_mesh(each, mesh):
+            return None
+        paints = slot_paints(each.mesh, mesh, album)
         if None in paints:
-            album.remark(f"The colours of {obj.name!r} are made by nodes: they were baked to an image.")
-            return Bakeable.of(obj.name, mesh, matrix, paints, slot_materials(obj, mesh))
-        return read_surface(mesh, matrix, paints)
+            album.remark(f"The colours of {each.mesh.name!r} are made by nodes: they were baked to an image.")
+            return Bakeable.of(each.mesh.name, mesh, each.matrix, paints, slot_materials(each.mesh, mesh))
+        return read_surface(mesh, each.matrix, paints)
     finally:
-        obj.to_mesh_clear()
+        each.mesh.to_mesh_clear()
 
 
 def _painted(found: Surface | Bakeable, album: Album) -> tuple[Surface, Floats, np.ndarray]:

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .core.colour_difference import linear_from_srgb
-from .core.errors import MeshError
 from .node_links import NotAProduct
 from .read_colours import Floats
 from .read_images import Album, check_image, is_readable
@@ -120,10 +119,6 @@ def read_surface(mesh: bpy.types.Mesh, matrix: Floats, paints: Sequence[Paint]) 
     """
     mesh.calc_loop_triangles()
     vertices = _numbers(mesh.vertices, "co", 3) @ matrix[:3, :3].T + matrix[:3, 3]
-    if not np.isfinite(vertices).all():
-        raise MeshError(
-            f"The mesh {mesh.name!r} has vertices whose coordinates are no numbers or infinite: remove them first."
-        )
     order = [0, 2, 1] if np.linalg.det(matrix[:3, :3]) < 0 else [0, 1, 2]
     loops = _numbers(mesh.loop_triangles, "loops", 3, np.int32)[:, order]
     paint = _face_slots(mesh, len(paints))

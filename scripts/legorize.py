@@ -5,9 +5,10 @@
     blender -b -P scripts/legorize.py -- IN --out DIR [--width STUDS | --height BRICKS | --scale K] [more]
     python scripts/legorize.py IN --out DIR ...        where Blender is installed as the module bpy
 
-IN is a .blend (all that its renders would show), .obj, .glb, .gltf, .ply, .stl
-or .fbx file; models with bones are taken in their rest pose, not in that of
-whatever action comes first. Every setting is a flag; ``--help`` lists them.
+IN is a .blend, .obj, .glb, .gltf, .ply, .stl or .fbx file. Taken is all that
+its renders would show: a .blend at the frame at which it was saved, any other
+file in its rest pose, without animation. Every setting is a flag; ``--help``
+lists them.
 
 Exit status: 0 written; 2 written, but a check failed and ``report.json`` says
 which; 1 nothing written, the folder is as it was, one sentence says why (or a
@@ -46,7 +47,7 @@ try:
     from legorize_addon.core.settings import Settings, choices, setting_type
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.heat_map import show_heat_map
-    from legorize_addon.read_mesh import read_objects
+    from legorize_addon.read_mesh import read_rendered
     from legorize_addon.reading.importers import load
     from legorize_addon.render import AZIMUTH, View, render_still
     from legorize_addon.result import show_result
@@ -63,8 +64,19 @@ SIZES: Final = ("size_by", "width", "height", "scale")
 IN_PICTURE: Final = ("view", "section", "outlines", "heat_map", "explode", "show_supports")
 """Flags that change the picture alone."""
 
+LAST_FRAME: Final = 1_048_574
+"""In Blender, and the first one below 0."""
+
 MOST_PICTURES: Final = 400
 """On a contact sheet."""
+
+
+class Taken(NamedTuple):
+    """What is read, by the flags of the same names."""
+
+    source: Path
+    frame: int | None
+    object: list[str]
 
 
 class Wanted(NamedTuple):
@@ -101,10 +113,10 @@ def main(arguments: Sequence[str]) -> int:
     """Legorize a file and return the exit status."""
     try:
         options = vars(parser().parse_args(arguments))
-        source, out = options.pop("source"), options.pop("out")
+        out, taken = options.pop("out"), Taken(**{name: options.pop(name) for name in Taken._fields})
         wanted = Wanted(**{name: options.pop(name) for name in Wanted._fields})
         wanted.check()
-        return run(source, out, settings_of(options), wanted)
+        return run(taken, out, settings_of(options), wanted)
     except LegorizeError as error:
         print(error, file=sys.stderr)
         return 1
@@ -115,12 +127,27 @@ def parser() -> Parser:
     made = Parser(prog="legorize.py", description="Turn a textured mesh into a brick model.", allow_abbrev=False)
     made.add_argument("source", metavar="IN", type=Path, help="file with the mesh")
     made.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the results")
+    add_source(made)
     add_pictures(made)
     made.add_argument("--save-blend", action="store_true", help="write the scene with the bricks, build.blend")
     sizes = made.add_mutually_exclusive_group()
     for entry in fields(Settings):
         add_flag(sizes if entry.name in SIZES else made, entry)
     return made
+
+
+def add_source(made: Parser) -> None:
+    """Add the flags for what is taken of the file."""
+    made.add_argument(
+        "--frame", metavar="N", type=frame,
+        help="take the pose of a frame, as Blender counts them (default: the rest pose, without animation; of a .blend "
+        "the frame at which it was saved)",
+    )  # fmt: skip
+    made.add_argument(
+        "--object", metavar="NAME", action="append", default=[],
+        help="take this object, or if it has no surface what is parented to it; may be given several times (default: "
+        "all that renders show)",
+    )  # fmt: skip
 
 
 def add_pictures(made: Parser) -> None:
@@ -193,6 +220,17 @@ def share(text: str) -> float:
     return found
 
 
+def frame(text: str) -> int:
+    """Return the number of a frame."""
+    try:
+        found = int(text)
+    except ValueError:
+        found = LAST_FRAME + 1
+    if abs(found) > LAST_FRAME:
+        raise argparse.ArgumentTypeError(f"{text!r} is no whole number from {-LAST_FRAME} to {LAST_FRAME}")
+    return found
+
+
 def pictures(text: str) -> int:
     """Return a number of pictures."""
     if not (text.isdecimal() and 1 <= int(text) <= MOST_PICTURES):
@@ -206,24 +244,25 @@ def settings_of(options: dict[str, Any]) -> Settings:
     return Settings(**options, **({"size_by": named[0]} if named else {}))
 
 
-def run(source: Path, out: Path, settings: Settings, wanted: Wanted) -> int:
+def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
     """Legorize a file into a folder."""
+    stem = taken.source.stem
     with new_folder(out) as folder:
         seconds = {}
         with timed(seconds, "import"):
-            objects = load(source)
+            objects, left_out = load(taken.source, frame=taken.frame, names=taken.object)
         with timed(seconds, "read"):
-            mesh, remarks = read_objects(objects, bpy.context.evaluated_depsgraph_get())
+            mesh, remarks = read_rendered(objects, bpy.context)
         build = legorize(mesh, settings)
-        build = replace(build, notes=(*remarks, *build.notes), timings={**seconds, **build.timings})
+        build = replace(build, notes=(*left_out, *remarks, *build.notes), timings={**seconds, **build.timings})
         catalogue = load_catalogue()
         facts = report(build, catalogue, version=version(), mm_per_unit=mm_per_unit())
         facts["failed_checks"] = failed_checks(facts)
         with writing(out):
-            for name, text in texts(build, catalogue, facts, source.stem).items():
+            for name, text in texts(build, catalogue, facts, stem).items():
                 (folder / name).parent.mkdir(exist_ok=True)
                 (folder / name).write_text(text, encoding="utf-8", newline="")
-        show(build, folder, wanted, name=source.stem, sources=objects)
+        show(build, folder, wanted, name=stem, sources=objects)
     print(f"{out}: {facts['counts']['bricks']} bricks in {facts['grid']['layers']} layers.")
     for sentence in facts["failed_checks"]:
         print(sentence, file=sys.stderr)

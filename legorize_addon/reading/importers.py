@@ -2,42 +2,130 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import tempfile
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import bpy
 
-from ..core.errors import MeshError
+from ..core.errors import MeshError, SettingsError
 from ..scene import builds, clear_build
+from .at_rest import ANIMATED, fbx_is_animated, without_animation
+from .shown import has_surface
 
 SHAPELESS: Final = ("CAMERA", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
+_NAMED: Final = 20
+"""Names of objects in a sentence."""
 
-def load(source: Path) -> list[bpy.types.Object]:
-    """Open or import a file into an empty Blender; return what its renders would show, shown in the viewport too."""
+
+class Loaded(NamedTuple):
+    """What a file brought into Blender.
+
+    Attributes
+    ----------
+    objects : list of bpy.types.Object
+        Those that renders of the view layer may show, or the chosen ones of them.
+    remarks : tuple of str
+        What was left out or changed, one sentence each.
+    """
+
+    objects: list[bpy.types.Object]
+    remarks: tuple[str, ...]
+
+
+def load(source: Path, *, frame: int | None = None, names: Sequence[str] = ()) -> Loaded:
+    """Open or import a file into an empty Blender.
+
+    An imported model is at rest: objects, bones and shape keys are as they are
+    without animation. A .blend is as its author left it: at the frame at which
+    it was saved, with the poses that renders of that frame show.
+
+    Parameters
+    ----------
+    source : pathlib.Path
+        Of a kind in :func:`importers`.
+    frame : int, optional
+        Frame, as Blender counts, whose pose is taken instead.
+    names : sequence of str, optional
+        Objects to take; one without a surface stands for what is parented to it. All if there are no names.
+
+    Returns
+    -------
+    Loaded
+
+    Raises
+    ------
+    MeshError
+        The file cannot be read, or has no object of a name.
+    """
     if not source.is_file():
         raise MeshError(f"There is no file {source}: name one that exists.")
-    known = importers()
-    kind = source.suffix.lower()
+    known, kind = importers(), source.suffix.lower()
     if kind not in known:
         raise MeshError(f"{source.name} is of no known kind: use one of {', '.join(known)}.")
+    if frame is not None and kind not in (".blend", *ANIMATED):
+        raise SettingsError(f"{kind} files hold no animation: leave --frame out.")
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    operator, options = known[kind]
+    at_rest = frame is None and kind in ANIMATED
+    animated = at_rest and _import_at_rest(source, kind)
+    if not at_rest:
+        _run(source, kind, source)
+    if frame is not None:
+        bpy.context.scene.frame_set(frame)
+    # else the bricks would be legorized, as they have hidden what they were made of
+    for build in list(builds(bpy.context.scene)):
+        clear_build(bpy.context.scene, build)
+    remark = f"The animation in {source.name} was left out: --frame takes the pose of a frame."
+    objects = list(rendered(bpy.context.view_layer.layer_collection))
+    return Loaded(_chosen(objects, names), (remark,) if animated else ())
+
+
+def _import_at_rest(source: Path, kind: str) -> bool:
+    """Import a file without its animation; return whether it has any."""
+    if kind == ".fbx":
+        _run(source, kind, source, use_anim=False)
+        animated = fbx_is_animated(source)
+    else:
+        with tempfile.TemporaryDirectory(prefix="legorize-") as folder:
+            copy = without_animation(source, Path(folder))
+            _run(source, kind, copy or source)
+        animated = copy is not None
+    for armature in bpy.data.armatures:
+        armature.pose_position = "REST"
+    return animated
+
+
+def _run(source: Path, kind: str, path: Path, **more: Any) -> None:
+    """Run Blender's own operator for a file, or for a copy of it."""
+    operator, options = importers()[kind]
     try:
-        operator(filepath=str(source.resolve()), **options)
+        operator(filepath=str(path.resolve()), **options, **more)
     except RuntimeError as error:
         # an importer in Python hands on its traceback
         lines = [line for line in str(error).strip().splitlines() if not line.startswith("Location:")]
         reason = lines[-1].removeprefix("Error: ").rstrip(".")
         raise MeshError(f"{source.name} cannot be read as {kind} ({reason}): export it again.") from error
-    if kind != ".blend":
-        for armature in bpy.data.armatures:
-            armature.pose_position = "REST"
-    # else the bricks would be legorized, as they have hidden what they were made of
-    for build in list(builds(bpy.context.scene)):
-        clear_build(bpy.context.scene, build)
-    return list(rendered(bpy.context.view_layer.layer_collection))
+
+
+def _chosen(objects: list[bpy.types.Object], names: Sequence[str]) -> list[bpy.types.Object]:
+    """Return the objects of some names, with all that is parented to them."""
+    missing = [name for name in names if name not in {obj.name for obj in objects}]
+    if missing:
+        there = ", ".join(sorted(repr(obj.name) for obj in objects)[:_NAMED]) or "none"
+        more = f" and {len(objects) - _NAMED} more" if len(objects) > _NAMED else ""
+        raise MeshError(f"There is no object {missing[0]!r} that renders show: choose of {there}{more}.")
+    return [obj for obj in objects if not names or any(own.name in names for own in _standing_for(obj))]
+
+
+def _standing_for(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """Yield an object, and all without a surface that it is parented to, over whatever is between."""
+    yield obj
+    while obj.parent is not None:
+        obj = obj.parent
+        if not has_surface(obj):
+            yield obj
 
 
 def importers() -> dict[str, tuple[Any, dict[str, Any]]]:
@@ -57,14 +145,15 @@ def importers() -> dict[str, tuple[Any, dict[str, Any]]]:
 
 
 def rendered(layer: bpy.types.LayerCollection) -> Iterator[bpy.types.Object]:
-    """Yield the objects whose shape a render shows, and show them in the viewport, from which meshes are read."""
+    """Yield the objects whose shape a render may show, each once."""
+    objects: dict[bpy.types.Object, None] = {}
+    _gather(layer, objects)
+    yield from objects
+
+
+def _gather(layer: bpy.types.LayerCollection, objects: dict[bpy.types.Object, None]) -> None:
     if layer.exclude or layer.collection.hide_render:
         return
-    layer.hide_viewport = layer.collection.hide_viewport = False
-    for obj in layer.collection.objects:
-        if not obj.hide_render and obj.type not in SHAPELESS:
-            obj.hide_viewport = False
-            obj.hide_set(False)
-            yield obj
+    objects.update((obj, None) for obj in layer.collection.objects if not obj.hide_render and obj.type not in SHAPELESS)
     for below in layer.children:
-        yield from rendered(below)
+        _gather(below, objects)

@@ -214,6 +214,29 @@ def test_section_in_the_picture(axis: str, script: ModuleType, tmp_path: Path, m
     assert low.max() <= (along.min() + along.max() + 3) / 2
 
 
+def test_frame_and_objects_are_flags(script: ModuleType, tmp_path: Path) -> None:
+    """A frame gives the pose, names the objects; what animation was left out stands in the report."""
+    box, lid = add_box((1, 1, 1)), add_box((1, 1, 1), centre=(0, 0, 1))
+    box.name, lid.name = "box", "lid"
+    for frame, x in ((1, 0), (25, 1)):
+        lid.location.x = x
+        lid.keyframe_insert("location", frame=frame)
+    bpy.context.scene.frame_set(1)
+    source = save(tmp_path / "box.glb")
+    runs = {"rest": [], "pose": ["--frame", "25"], "lid": ["--object", "lid"], "both": ["--object=box", "--object=lid"]}
+    found = {}
+    for name, flags in runs.items():
+        assert script.main([str(source), "--out", str(tmp_path / name), "--scale", "0.32", *flags]) in (0, 2)
+        facts = report(tmp_path / name)
+        found[name] = tuple(facts["grid"].values()), [note for note in facts["notes"] if "--frame" in note]
+    remark = "The animation in box.glb was left out: --frame takes the pose of a frame."
+    width = {name: grid[0] for name, (grid, _) in found.items()}
+    assert width["pose"] == 2 * width["rest"]
+    assert [found[name][1] for name in runs] == [[remark], [], [remark], [remark]]
+    assert found["both"] == found["rest"]
+    assert found["lid"][0][2] < found["rest"][0][2]
+
+
 @pytest.mark.parametrize(
     ("flags", "view"), [([], "front_right"), (["--view", "below"], "below"), (["--section", "z=0.5"], "section"),
                         (["--section", "z=0.5", "--view", "below"], "below")],
@@ -379,6 +402,9 @@ def test_every_setting_is_a_flag(script: ModuleType) -> None:
         (["--width", "3", "--height", "4"], "not allowed with"),
         (["--widht", "3"], "--widht"),
         (["--palette", "99999"], "99999"),
+        (["--frame", "1.5"], "'1.5' is no whole number from -1048574 to 1048574"),
+        (["--frame", "2000000"], "'2000000' is no whole number from -1048574 to 1048574"),
+        (["--object", "nose"], "There is no object 'nose' that renders show: choose of 'Cube'."),
         (["--section", "x=0.5"], "--section is only to be seen in the picture: add --render"),
         (["--view", "below"], "--view is only to be seen in the picture: add --render"),
         (["--view", "above", "--render"], "--view: invalid choice: 'above'"),
@@ -447,6 +473,16 @@ def zero_scale(path: Path) -> Path:
     return save(path / "zero.blend")
 
 
+def no_rotation(path: Path) -> Path:
+    """Write a box whose node is turned by numbers too great, of which Blender makes not-a-number."""
+    add_box((1, 1, 1))
+    source = save(path / "turned.gltf")
+    scene = json.loads(source.read_text())
+    scene["nodes"][0]["rotation"] = [0, 0, 0, "BIG"]
+    source.write_text(json.dumps(scene).replace('"BIG"', "1e999"))
+    return source
+
+
 def one_triangle(path: Path) -> Path:
     """Write a single triangle."""
     (path / "one.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
@@ -471,6 +507,7 @@ def missing_image(path: Path) -> Path:
         (no_faces, "no faces"),
         (no_numbers, "no numbers"),
         (zero_scale, "scale of zero"),
+        (no_rotation, "a place, rotation or scale that is no number"),
         (one_triangle, "triangle"),
         (missing_image, "lost.png"),
     ],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import bpy
@@ -463,7 +464,7 @@ def test_nothing_to_read_is_refused() -> None:
         read()
     with pytest.raises(MeshError, match="nothing to build from"):
         read(add_object(None, "empty"))
-    with pytest.raises(MeshError, match="no faces in 'bare'"):
+    with pytest.raises(MeshError, match="'bare' has no faces"):
         read(add_object(bpy.data.meshes.new("bare"), "bare"))
 
 
@@ -482,3 +483,105 @@ def test_vertices_that_are_no_numbers_are_refused() -> None:
     obj.data.vertices[3].co.x = float("nan")
     with pytest.raises(MeshError, match="no numbers"):
         read(obj)
+
+
+def nothing_in_size() -> bpy.types.Object:
+    """Add a cube scaled to a point."""
+    obj = cube()
+    obj.scale = (0, 0, 0)
+    return obj
+
+
+def flattened() -> bpy.types.Object:
+    """Add an empty that shows a collection squeezed to a plane."""
+    collection = bpy.data.collections.new("inside")
+    obj = cube()
+    collection.objects.link(obj)
+    bpy.context.scene.collection.objects.unlink(obj)
+    empty = add_object(None, "empty")
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    empty.scale = (1, 1, 0)
+    return empty
+
+
+def turned_nowhere() -> bpy.types.Object:
+    """Add a cube turned by not-a-number."""
+    obj = cube()
+    obj.rotation_euler.x = float("nan")
+    return obj
+
+
+def moved_nowhere() -> bpy.types.Object:
+    """Add a cube at an infinite place."""
+    obj = cube()
+    obj.location.x = float("inf")
+    return obj
+
+
+def without_faces() -> bpy.types.Object:
+    """Add an object of points."""
+    mesh = bpy.data.meshes.new("Cube")
+    mesh.from_pydata([(0, 0, 0), (9, 9, 9)], [(0, 1)], [])
+    return add_object(mesh, "Cube")
+
+
+def bad_vertex() -> bpy.types.Object:
+    """Add a cube with a vertex that is infinite, as a file may hold it."""
+    obj = cube()
+    obj.data.vertices.foreach_set("co", np.full(24, np.inf, dtype=np.float32))
+    return obj
+
+
+def far_vertex() -> bpy.types.Object:
+    """Add a cube with a vertex that was set to infinity, for which Blender takes the greatest number."""
+    obj = cube()
+    obj.data.vertices[0].co.y = float("inf")
+    return obj
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (nothing_in_size, "a scale of zero"),
+        (flattened, "a scale of zero"),
+        (turned_nowhere, "a place, rotation or scale that is no number or infinite"),
+        (moved_nowhere, "a place, rotation or scale that is no number or infinite"),
+        (without_faces, "no faces"),
+        (far_vertex, "vertices whose coordinates are no numbers or infinite"),
+        (bad_vertex, "vertices whose coordinates are no numbers or infinite"),
+    ],
+)
+def test_what_cannot_be_built_is_left_out(make: Callable[[], bpy.types.Object], words: str) -> None:
+    """An object that cannot be built is left out beside one that can, with a remark, and refused by itself."""
+    bad = make()
+    bpy.context.view_layer.update()
+    with pytest.raises(MeshError, match=rf"^The object 'Cube' has {words}: [^\n]*\.$"):
+        read(bad)
+    good = cube()
+    good.name = "good"
+    mesh, remarks = read_with_remarks(bad, good)
+    assert len(mesh.faces) == 12
+    np.testing.assert_allclose(np.ptp(mesh.vertices, axis=0), 2000)
+    assert remarks == (f"The object 'Cube' has {words}: it was left out.",)
+
+
+def test_many_that_are_left_out_are_one_sentence() -> None:
+    """Objects with one fault share a sentence, which names the first of them."""
+    bad = [nothing_in_size() for _ in range(5)]
+    _, remarks = read_with_remarks(*bad, cube())
+    names = "'Cube', 'Cube.001', 'Cube.002' and 2 more"
+    assert remarks == (f"The objects {names} have a scale of zero: they were left out.",)
+
+
+def test_one_instance_without_size() -> None:
+    """Of the instances of one object those without size are left out, in one sentence."""
+    faces = bpy.data.meshes.new("a face and a sliver")
+    faces.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0), (5, 0, 0), (6, 0, 0), (7, 0, 0)], [], [(0, 1, 2), (3, 4, 5)])
+    parent, child = add_object(faces, "parent"), cube(1)
+    parent.instance_type, parent.use_instance_faces_scale = "FACES", True
+    parent.show_instancer_for_viewport = False
+    child.parent = parent
+    bpy.context.view_layer.update()
+    mesh, remarks = read_with_remarks(parent)
+    assert len(mesh.faces) == 12
+    assert remarks == ("The object 'Cube' has a scale of zero: it was left out.",)
