@@ -178,7 +178,7 @@ def test_reading_what_renders_show_leaves_the_scene() -> None:
 
     def state() -> tuple[object, ...]:
         blocks = [list(getattr(bpy.data, name).keys()) for name in ("objects", "cameras", "images", "scenes", "meshes")]
-        render = {name: str(getattr(scene.render, name)) for name in scene.render.bl_rna.properties.keys()}
+        render = {name: str(getattr(scene.render, name)) for name, _ in scene.render.bl_rna.properties.items()}
         return blocks, scene.camera, render, obj.hide_viewport
 
     before = state()
