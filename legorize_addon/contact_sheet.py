@@ -12,7 +12,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .render import render_still, writable
+from .core.files.single import replacing
+from .render import render_still
 from .steps import check_steps, n_steps, steps_done
 from .view import show_steps
 
@@ -56,8 +57,7 @@ def render_contact_sheet(
     """
     check_steps(build)
     before = steps_done(build)
-    partial = path.with_name(f".{path.name}.part.png")
-    with writable(partial, path), tempfile.TemporaryDirectory() as folder:
+    with replacing(path, "picture") as partial, tempfile.TemporaryDirectory() as folder:
         frame, taken = Path(folder) / "frame.png", []
         try:
             for steps in even_steps(n_steps(build), pictures):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from pathlib import Path
 from typing import Final
 
@@ -13,6 +11,8 @@ from bpy_extras.io_utils import ExportHelper
 
 from .core.catalogue import load_catalogue
 from .core.errors import BuildError
+from .core.files.paths import named
+from .core.files.single import write_whole
 from .core.ldraw import write_ldr
 from .core.ldraw_document import write_mpd
 from .core.model import Role
@@ -42,7 +42,7 @@ class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
         return self.reported(self._write, current_build(context.scene))
 
     def _write(self, build: bpy.types.Collection) -> set[str]:
-        path, bricks = Path(self.filepath), read_bricks(build)
+        path, bricks = chosen_path(self), read_bricks(build)
         finished = bricks.take(bricks.role != Role.SUPPORT_OUTSIDE)
         write_whole(path, write_ldr(finished, load_catalogue(), name=path.name, title=build.name))
         self.report({"INFO"}, f"Wrote {path}.")
@@ -67,7 +67,7 @@ class LEGORIZE_OT_export_mpd(OnBuild, bpy.types.Operator, ExportHelper):
         return self.reported(self._write, current_build(context.scene))
 
     def _write(self, build: bpy.types.Collection) -> set[str]:
-        path = Path(self.filepath)
+        path = chosen_path(self)
         name = path.with_suffix(".ldr").name
         write_whole(path, write_mpd(read_bricks(build), load_catalogue(), name=name, title=build.name))
         self.report({"INFO"}, f"Wrote {path}.")
@@ -103,45 +103,22 @@ class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
         return self.reported(self._render, context.scene)
 
     def _render(self, scene: bpy.types.Scene) -> set[str]:
-        path = Path(self.filepath)
+        path = chosen_path(self)
         size = self.width, self.height
         render_still(scene, path, samples=self.samples, resolution=size, view=self.view, outlines=self.outlines)
         self.report({"INFO"}, f"Wrote {path}.")
         return {"FINISHED"}
 
 
-def write_whole(path: Path, text: str) -> None:
-    """Write a text file in one piece: it is there as a whole or as it was before.
-
-    Parameters
-    ----------
-    path : pathlib.Path
-        File to write or replace.
-    text : str
-        Content, with its own line ends.
+def chosen_path(operator: bpy.types.Operator) -> Path:
+    """Return the path that an operator is to write to; ``//`` at its beginning is the folder of the .blend file.
 
     Raises
     ------
     BuildError
-        The file cannot be written.
+        It is none.
     """
-    try:
-        with tempfile.NamedTemporaryFile(
-            "w", encoding="utf-8", newline="", dir=path.parent, prefix=f".{path.name}.", delete=False
-        ) as file:
-            partial = Path(file.name)
-            file.write(text)
-    except OSError as error:
-        raise BuildError(f"The file {path} cannot be written ({error.strerror}): choose another folder.") from error
-    _move(partial, path)
-
-
-def _move(partial: Path, path: Path) -> None:
-    try:
-        os.replace(partial, path)
-    except OSError as error:
-        partial.unlink()
-        raise BuildError(f"The file {path} cannot be written ({error.strerror}): choose another name.") from error
+    return named(bpy.path.abspath(operator.filepath), "file", BuildError)
 
 
 def _draw_export(self: bpy.types.Menu, context: bpy.types.Context) -> None:

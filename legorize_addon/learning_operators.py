@@ -12,10 +12,10 @@ import numpy as np
 
 from .core.catalogue import load_catalogue
 from .core.errors import BuildError
+from .core.files.single import write_whole
 from .core.model import Bricks, UnitGrid
 from .core.progress import Progress
 from .core.settings import Settings
-from .export_operators import write_whole
 from .operators import Reporting, Working, chosen_sources, order_of
 from .properties import settings_of
 from .scene import BUILD_KEY, OWN_KEY, builds_of, sources_of

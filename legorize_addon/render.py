@@ -7,9 +7,7 @@ and render settings never change.
 
 from __future__ import annotations
 
-import errno
 import math
-import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
@@ -20,6 +18,7 @@ import numpy as np
 from mathutils import Euler, Vector
 
 from .core.errors import BuildError
+from .core.files.single import replacing
 from .core.model import Floats
 from .core.units import PLATE
 from .outlines import outlined
@@ -100,47 +99,18 @@ def render_still(
     BuildError
         Nothing is to be seen, Cycles is switched off, or the file cannot be written there.
     """
-    partial = path.with_name(f".{path.name}.part.png")
-    with writable(partial, path), _studio(scene) as studio:
+    with replacing(path, "picture") as partial, _studio(scene) as studio:
         corners = _corners(studio, corners_while_building if whole_building else shown_corners)
         azimuth, elevation = _place(studio, view)
-        _set_up_render(studio, samples, resolution, partial)
+        _set_up_render(studio, samples, resolution)
         _add_light(studio, azimuth, elevation)
         if elevation > 0:
             _add_ground(studio, corners)
         _add_camera(studio, corners, azimuth, elevation)
         lines = outlined(_materials(studio), _line_width(studio, corners)) if outlines else nullcontext()
         with lines:
-            bpy.ops.render.render("EXEC_DEFAULT", write_still=True, scene=studio.name)
-
-
-@contextmanager
-def writable(partial: Path, path: Path) -> Iterator[None]:
-    """Move a picture to its place once it is written; find out before the work that it cannot be.
-
-    Parameters
-    ----------
-    partial : pathlib.Path
-        What is written meanwhile, in the same folder; gone at the end.
-    path : pathlib.Path
-        The picture.
-
-    Raises
-    ------
-    BuildError
-        The picture cannot be written there.
-    """
-    try:
-        if path.is_dir():
-            raise IsADirectoryError(errno.EISDIR, "it is a folder")
-        partial.touch()
-    except OSError as error:
-        raise BuildError(f"The picture {path} cannot be written ({error.strerror}): choose another place.") from error
-    try:
-        yield
-        os.replace(partial, path)
-    finally:
-        partial.unlink(missing_ok=True)
+            bpy.ops.render.render("EXEC_DEFAULT", scene=studio.name)
+        _save_render(studio, partial)
 
 
 @contextmanager
@@ -188,7 +158,7 @@ def _place(studio: bpy.types.Scene, view: View) -> tuple[float, float]:
     return min(straight - BESIDE, straight + BESIDE, key=abs), ELEVATION
 
 
-def _set_up_render(studio: bpy.types.Scene, samples: int, resolution: tuple[int, int], path: Path) -> None:
+def _set_up_render(studio: bpy.types.Scene, samples: int, resolution: tuple[int, int]) -> None:
     try:
         studio.render.engine = "CYCLES"
     except TypeError as error:
@@ -206,8 +176,15 @@ def _set_up_render(studio: bpy.types.Scene, samples: int, resolution: tuple[int,
     render.resolution_percentage = 100
     render.image_settings.file_format = "PNG"
     render.image_settings.color_mode = "RGB"
-    render.use_file_extension = False
-    render.filepath = str(path)
+
+
+def _save_render(studio: bpy.types.Scene, path: Path) -> None:
+    """Write what was rendered; the path of a scene's output will not do, as words in braces are templates in it."""
+    result = next(image for image in bpy.data.images if image.type == "RENDER_RESULT")
+    try:
+        result.save_render(str(path), scene=studio)
+    except RuntimeError as error:
+        raise BuildError(f"The picture cannot be written ({str(error).strip()}): choose another place.") from error
 
 
 def _set_denoiser(studio: bpy.types.Scene) -> bool:

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from .catalogue import MISSING_CELL, Catalogue, Part
 from .errors import BuildError
+from .files.safe_text import one_line, title_line
 from .model import Bricks, Floats, Role
 from .units import LDU_PER_MM, PLATE_LDU, STUD_LDU
 
@@ -129,8 +130,7 @@ def read_ldr(text: str, catalogue: Catalogue) -> Bricks:
 
 def header(name: str, title: str) -> list[str]:
     """Return the first lines of a model."""
-    # a line end inside a title would start a line of its own
-    return [f"0 {' '.join(title.split())}", f"0 Name: {name}", "0 Author: Legorize"]
+    return [f"0 {title_line(title)}", f"0 Name: {one_line(name)}", "0 Author: Legorize"]
 
 
 def brick_lines(bricks: Bricks, catalogue: Catalogue) -> list[str]:

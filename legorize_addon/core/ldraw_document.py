@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .catalogue import Catalogue
+from .files.safe_text import one_line
 from .ldraw import LINE_END, MAIN_COLOUR, MATRICES, body, header
 from .model import Bricks, Role
 
@@ -36,7 +37,8 @@ def write_mpd(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) ->
         The model and its supports, in any order.
     catalogue : Catalogue
     name : str
-        Name of the main model, "model.ldr".
+        Name of the main model, "model.ldr"; "model-" is put before one that a
+        sub-model has.
     title : str
         What the model shows.
 
@@ -46,6 +48,7 @@ def write_mpd(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) ->
         The text with CRLF line ends.
     """
     groups = _groups(bricks)
+    name = _main_name(name, groups)
     if len(groups) <= 1:
         return LINE_END.join([f"0 FILE {name}", *header(name, title), *body(bricks, catalogue), "0 NOFILE", ""])
     aside = [group for group in groups if group.startswith(_REMOVED) and group != f"{_REMOVED}-0"]
@@ -58,6 +61,13 @@ def write_mpd(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) ->
         lines += _file(f"on-table{piece}", title)
         lines += _calls(group for group in groups if group.endswith(piece))
     return LINE_END.join([*lines, "0 NOFILE", ""])
+
+
+def _main_name(name: str, groups: Iterable[str]) -> str:
+    """Return the name of the main model, in one line; two models of one name would be one that contains itself."""
+    line = one_line(name)
+    stem = line.lower().removesuffix(".ldr")
+    return f"model-{line}" if stem in groups or stem.startswith("on-table") else line
 
 
 def _file(name: str, title: str) -> list[str]:

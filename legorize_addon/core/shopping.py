@@ -8,9 +8,6 @@ BrickLink help, "Upload XML": a wanted list is an ``INVENTORY`` of ``ITEM`` with
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
@@ -18,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .catalogue import Catalogue, Colour, Part
+from .files.safe_text import csv_text
 from .model import Bricks, Floats, Mask
 
 
@@ -99,7 +97,7 @@ def parts_csv(parts: PartsList, catalogue: Catalogue) -> str:
         (part.number, part.title, colour.code, colour.name, count, f"{mass:.2f}", element or "")
         for (part, colour, count), mass, element in zip(parts.entries(catalogue), grams, elements, strict=True)
     ]
-    return _csv(("part", "title", "colour", "colour_name", "count", "mass_g", "element"), rows)
+    return csv_text(("part", "title", "colour", "colour_name", "count", "mass_g", "element"), rows)
 
 
 def bricklink_xml(parts: PartsList, catalogue: Catalogue) -> str:
@@ -118,7 +116,7 @@ def bricklink_xml(parts: PartsList, catalogue: Catalogue) -> str:
 def rebrickable_csv(parts: PartsList, catalogue: Catalogue) -> str:
     """Return the parts list that Rebrickable imports."""
     rows = [(part.number, colour.rebrickable, count) for part, colour, count in parts.entries(catalogue)]
-    return _csv(("Part", "Color", "Quantity"), rows)
+    return csv_text(("Part", "Color", "Quantity"), rows)
 
 
 def pick_a_brick_csv(parts: PartsList, catalogue: Catalogue) -> tuple[str, PartsList]:
@@ -142,12 +140,4 @@ def pick_a_brick_csv(parts: PartsList, catalogue: Catalogue) -> tuple[str, Parts
     element = catalogue.element[parts.part, parts.colour]
     known = element != 0
     rows = zip(element[known].tolist(), parts.count[known].tolist(), strict=True)
-    return _csv(("elementId", "quantity"), rows), parts.take(~known)
-
-
-def _csv(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(head)
-    writer.writerows(rows)
-    return text.getvalue()
+    return csv_text(("elementId", "quantity"), rows), parts.take(~known)

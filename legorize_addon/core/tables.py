@@ -9,14 +9,13 @@ support bricks).
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from .build import Build
 from .catalogue import Catalogue, footprint
+from .files.safe_text import csv_text, one_line
 from .model import SUPPORTS, Bricks, Floats, joined
 from .report import hollow_ratio
 from .shopping import count_parts
@@ -52,11 +51,19 @@ def paper_tables(build: Build, catalogue: Catalogue, *, name: str) -> dict[str, 
         "table_2.csv": _volumes(supports, catalogue),
         "table_3.csv": _text(
             ("model", "method", "hollow_ratio", "bricks", "seconds"),
-            [(name, build.settings.layout, round(hollow_ratio(build), 4), len(build.bricks), round(seconds, 3))],
+            [
+                (
+                    one_line(name),
+                    build.settings.layout,
+                    round(hollow_ratio(build), 4),
+                    len(build.bricks),
+                    round(seconds, 3),
+                )
+            ],
         ),
         "table_4.csv": _text(
             ("model", "method", "weight_g", "bricks"),
-            [(name, ways, round(float(catalogue.mass[supports.part].sum()), 2), len(supports))],
+            [(one_line(name), ways, round(float(catalogue.mass[supports.part].sum()), 2), len(supports))],
         ),
     }
 
@@ -79,8 +86,4 @@ def _volume(catalogue: Catalogue) -> Floats:
 
 
 def _text(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    text = io.StringIO(newline="")
-    table = csv.writer(text, lineterminator=LINE_END)
-    table.writerow(columns)
-    table.writerows(rows)
-    return text.getvalue()
+    return csv_text(columns, rows, line_end=LINE_END)

@@ -33,9 +33,13 @@ from tests.blender.builders import add_image, add_object, image_material
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts" / "legorize.py"
 FILES = {
-    *("model.ldr", "model.mpd", "build_order.csv", "report.json", "parts.csv", "support-parts.csv"),
-    *("bricklink.xml", "rebrickable.csv", "pick-a-brick.csv", "support-bricklink.xml"),
+    *("model.ldr", "model.mpd", "build_order.csv", "report.json"),
+    *("parts.csv", "bricklink.xml", "rebrickable.csv", "pick-a-brick.csv"),
     *(f"tables/table_{number}.csv" for number in range(1, 5)),
+}
+SHOPS = ("parts.csv", "bricklink.xml", "rebrickable.csv", "pick-a-brick.csv")
+SUPPORT_FILES = {f"support-{name}" for name in SHOPS}
+    f"support-{name}" for name in FILES if name.split(".")[0] in ("parts", "bricklink", "rebrickable", "pick-a-brick")
 }
 BOX = (0.4, 0.2, 0.36)
 ARM = ("--width", "16", "--hanging", "0")
@@ -335,7 +339,7 @@ def test_contact_sheet(script: ModuleType, tmp_path: Path, monkeypatch: pytest.M
     add_arm()
     flags = [*ARM, "--contact-sheet", "3", "--outlines", "--save-blend"]
     assert script.main([str(save(tmp_path / "arm.blend")), "--out", str(tmp_path / "out"), *flags]) == 0
-    assert set(contents(tmp_path / "out")) == FILES | {"contact-sheet.png", "build.blend"}
+    assert set(contents(tmp_path / "out")) == FILES | SUPPORT_FILES | {"contact-sheet.png", "build.blend"}
     sheet = bpy.data.images.load(str(tmp_path / "out" / "contact-sheet.png"))
     assert sheet.size[0] == 2 * 32 + 4
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "build.blend"))

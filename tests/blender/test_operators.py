@@ -13,12 +13,12 @@ from legorize_addon import job, operators, panels
 from legorize_addon.core import pipeline
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import Cancelled
+from legorize_addon.core.files.single import write_whole
 from legorize_addon.core.ldraw import read_ldr
 from legorize_addon.core.model import Bricks, Role
 from legorize_addon.core.progress import Progress
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.units import STUD
-from legorize_addon.export_operators import write_whole
 from legorize_addon.properties import current_build
 from legorize_addon.scene import BUILD_KEY, builds, read_bricks
 

@@ -63,3 +63,14 @@ def test_supports_of_later_pieces_are_beside_the_model():
         "piece-1.ldr",
     ]
     assert calls["on-table-1"] == ["support-outside-1.ldr", "piece-1.ldr"]
+
+
+def test_main_model_never_has_the_name_of_a_sub_model():
+    """A document called like one of its own sub-models, or over several lines, reads as the same bricks."""
+    rows = [(0, 0, 0, 0, 0, 4, 0, 0, 0), (0, 1, 0, 0, 0, 15, 4, 1, 0), (0, 2, 0, 0, 0, 4, 0, 1, 1)]
+    plain = read_ldr(write_mpd(table(rows), CATALOGUE, name="m.ldr", title="m"), CATALOGUE)
+    for name in ("piece-0.ldr", "Support-Outside-1.ldr", "on-table-1.ldr", "a\r\n0 STEP\u2028b.ldr"):
+        document = write_mpd(table(rows), CATALOGUE, name=name, title="STEP")
+        names = [line.lower() for line in document.splitlines() if line.startswith("0 FILE")]
+        assert len(set(names)) == len(names) == 5
+        assert multiset(read_ldr(document, CATALOGUE)) == multiset(plain)

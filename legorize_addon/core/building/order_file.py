@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from typing import Final
 
 import numpy as np
 
 from ..catalogue import Catalogue
+from ..files.safe_text import csv_text
 from ..ldraw import brick_lines
 from ..model import Bricks, Role
 from .moves import Action, Moves
@@ -37,11 +36,9 @@ def build_order_csv(moves: Moves, bricks: Bricks, catalogue: Catalogue) -> str:
     """
     lines = brick_lines(bricks, catalogue)
     roles = [Role(role).name.lower() for role in bricks.role.tolist()]
-    text = io.StringIO(newline="")
-    table = csv.writer(text, lineterminator="\r\n")
-    table.writerow(COLUMNS)
+    rows = []
     columns = (moves.step + 1, moves.action, moves.piece, moves.brick)
     for step, action, piece, row in zip(*(np.asarray(column).tolist() for column in columns), strict=True):
         brick = ("", "") if action == Action.JOIN else (roles[row], lines[row])
-        table.writerow([step, Action(action).name.lower(), piece, *brick])
-    return text.getvalue()
+        rows.append((step, Action(action).name.lower(), piece, *brick))
+    return csv_text(COLUMNS, rows, line_end="\r\n")

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..catalogue import ASSETS, Catalogue
 from ..errors import SettingsError
+from ..files.safe_text import one_line
 from ..model import Bricks, Mask, UnitGrid
 from .svm import Machine, Samples, read
 from .svm_training import samples_of, train, written
@@ -140,7 +141,7 @@ def learned_more(
     )
     trained = train(samples, rng, costs=[float(facts["C"])], gammas=[float(facts["gamma"])])
     # a name is one line's part here, whatever it is elsewhere
-    learned = ", ".join(" ".join(name.split()) for name in names)
+    learned = ", ".join(map(one_line, names))
     kept = {name: facts[name] for name in ("what", "formulation") if name in facts}
     origin = f"those of version {version_of(text)} ({facts.get('models', 'unknown')}), then {learned}"
     return written(trained, {**kept, "made by": "learning from models", "version": str(version), "models": origin})
