@@ -39,8 +39,6 @@ FILES = {
 }
 SHOPS = ("parts.csv", "bricklink.xml", "rebrickable.csv", "pick-a-brick.csv")
 SUPPORT_FILES = {f"support-{name}" for name in SHOPS}
-    f"support-{name}" for name in FILES if name.split(".")[0] in ("parts", "bricklink", "rebrickable", "pick-a-brick")
-}
 BOX = (0.4, 0.2, 0.36)
 ARM = ("--width", "16", "--hanging", "0")
 RED, WHITE = 4, 15

@@ -13,7 +13,6 @@ from legorize_addon import job, operators, panels
 from legorize_addon.core import pipeline
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import Cancelled
-from legorize_addon.core.files.single import write_whole
 from legorize_addon.core.ldraw import read_ldr
 from legorize_addon.core.model import Bricks, Role
 from legorize_addon.core.progress import Progress
@@ -336,13 +335,39 @@ def test_export_where_nobody_can_write(box, tmp_path) -> None:
     assert sorted(path.name for path in tmp_path.rglob("*")) == ["file", "folder.ldr"]
 
 
-def test_files_are_replaced_as_a_whole(tmp_path) -> None:
-    """A file keeps its line ends and its letters, and takes the place of an older one."""
-    path = tmp_path / "text.txt"
-    write_whole(path, "old")
-    write_whole(path, "grün\r\n")
-    assert path.read_bytes() == "grün\r\n".encode()
-    assert [entry.name for entry in tmp_path.iterdir()] == ["text.txt"]
+@pytest.mark.parametrize("way", ["export_ldr", "export_mpd", "render_still"])
+def test_no_name_is_one_sentence(box, way: str, monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:
+    """An empty name and a working folder that is gone are told; nothing is written."""
+    bpy.ops.legorize.build()
+    export = getattr(bpy.ops.legorize, way)
+    with pytest.raises(RuntimeError, match=r"^Error: The file has no name: give it one\.\n?$"):
+        export(filepath="")
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    with pytest.raises(RuntimeError, match="working folder is no longer there"):
+        export(filepath="model")
+
+
+def test_names_are_no_commands(box, tmp_path) -> None:
+    """A model called like a command, in a file with a line end in its name, reads back."""
+    bpy.ops.legorize.build()
+    build = current_build(bpy.context.scene)
+    build.name = "STEP"
+    name = "a\n1 4 0 0 0.ldr"
+    assert bpy.ops.legorize.export_ldr(filepath=str(tmp_path / name)) == {"FINISHED"}
+    text = (tmp_path / name).read_text()
+    assert text.startswith("0 Model STEP\n0 Name: a 1 4 0 0 0.ldr\n")
+    assert rows(read_ldr(text, load_catalogue())) == rows(read_bricks(build))
+
+
+def test_two_slashes_are_the_folder_of_the_scene(box, tmp_path) -> None:
+    """As everywhere in Blender, // is where the .blend file lies."""
+    bpy.ops.legorize.build()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    assert bpy.ops.legorize.export_ldr(filepath="//model.ldr") == {"FINISHED"}
+    assert (tmp_path / "model.ldr").exists()
 
 
 def test_picture_button(box, tmp_path) -> None:

@@ -212,3 +212,13 @@ def test_outlines_stay_thin_on_small_bricks(tmp_path) -> None:
     show(table([(0, x, 0, 3 * z, 0, RED) for x in range(60) for z in range(2)]))
     plain, lined = (picture(tmp_path / "still.png", outlines=on) for on in (False, True))
     assert share(lined, RED) > 0.5 * share(plain, RED)
+
+
+@pytest.mark.parametrize("name", ["{blend_name}", "{", "{{x}}", "#", "%04d"])
+def test_path_is_taken_literally(tmp_path, name: str) -> None:
+    """What Blender would replace in the path of a scene's output is a plain name here, and no other folder appears."""
+    show(table([(11, 0, 0, 0, 0, RED)]))
+    folder = tmp_path / name
+    folder.mkdir()
+    assert share(picture(folder / f"{name}.png", samples=1), RED) > 0.05
+    assert [path.relative_to(tmp_path) for path in tmp_path.rglob("*")] == [Path(name), Path(name, f"{name}.png")]

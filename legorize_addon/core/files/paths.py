@@ -90,6 +90,8 @@ def writable(path: str | Path, what: str = "file") -> Path:
     named(str(path), what, BuildError)
     try:
         target = Path(os.path.realpath(path))
+        if target.is_symlink():
+            raise OSError(errno.ELOOP, "it is a link that leads back to itself")
         if target.is_dir():
             raise IsADirectoryError(errno.EISDIR, "it is a folder")
         if target.exists() and not target.is_file():
