@@ -247,12 +247,13 @@ def settings_of(options: dict[str, Any]) -> Settings:
 def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
     """Legorize a file into a folder."""
     stem = taken.source.stem
+    seconds = {}
+    # before there is a folder to clear away: a crash of an importer leaves nothing behind
+    with timed(seconds, "import"):
+        objects, left_out = load(taken.source, frame=taken.frame, names=taken.object)
+    with timed(seconds, "read"):
+        mesh, remarks = read_rendered(objects, bpy.context)
     with new_folder(out) as folder:
-        seconds = {}
-        with timed(seconds, "import"):
-            objects, left_out = load(taken.source, frame=taken.frame, names=taken.object)
-        with timed(seconds, "read"):
-            mesh, remarks = read_rendered(objects, bpy.context)
         build = legorize(mesh, settings)
         build = replace(build, notes=(*left_out, *remarks, *build.notes), timings={**seconds, **build.timings})
         catalogue = load_catalogue()

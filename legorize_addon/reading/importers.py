@@ -10,10 +10,14 @@ from typing import Any, Final, NamedTuple
 import bpy
 
 from ..core.errors import MeshError, SettingsError
+from ..core.files.sources import check_source
 from ..scene import builds, clear_build
 from .at_rest import ANIMATED, fbx_is_animated, without_animation
+from .gltf_importer import readable_extensions
+from .quiet import quiet
 from .shown import has_surface
 
+GLTF: Final = (".glb", ".gltf")
 SHAPELESS: Final = ("CAMERA", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
 _NAMED: Final = 20
@@ -60,11 +64,8 @@ def load(source: Path, *, frame: int | None = None, names: Sequence[str] = ()) -
     MeshError
         The file cannot be read, or has no object of a name.
     """
-    if not source.is_file():
-        raise MeshError(f"There is no file {source}: name one that exists.")
-    known, kind = importers(), source.suffix.lower()
-    if kind not in known:
-        raise MeshError(f"{source.name} is of no known kind: use one of {', '.join(known)}.")
+    kind = source.suffix.lower()
+    losses = check_source(source, readable_extensions() if kind in GLTF else ())
     if frame is not None and kind not in (".blend", *ANIMATED):
         raise SettingsError(f"{kind} files hold no animation: leave --frame out.")
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
@@ -79,7 +80,7 @@ def load(source: Path, *, frame: int | None = None, names: Sequence[str] = ()) -
         clear_build(bpy.context.scene, build)
     remark = f"The animation in {source.name} was left out: --frame takes the pose of a frame."
     objects = list(rendered(bpy.context.view_layer.layer_collection))
-    return Loaded(_chosen(objects, names), (remark,) if animated else ())
+    return Loaded(_chosen(objects, names), (*losses, remark) if animated else losses)
 
 
 def _import_at_rest(source: Path, kind: str) -> bool:
@@ -101,7 +102,8 @@ def _run(source: Path, kind: str, path: Path, **more: Any) -> None:
     """Run Blender's own operator for a file, or for a copy of it."""
     operator, options = importers()[kind]
     try:
-        operator(filepath=str(path.resolve()), **options, **more)
+        with quiet():
+            operator(filepath=str(path.resolve()), **options, **more)
     except RuntimeError as error:
         # an importer in Python hands on its traceback
         lines = [line for line in str(error).strip().splitlines() if not line.startswith("Location:")]

@@ -6,6 +6,8 @@ import errno
 import importlib.util
 import json
 import os
+import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -504,7 +506,7 @@ def missing_image(path: Path) -> Path:
     [
         (no_file, "There is no file"),
         (unknown_kind, "no known kind"),
-        (broken, "cannot be read"),
+        (broken, "is incomplete or damaged"),
         (empty_blend, "nothing to build from"),
         (no_faces, "no faces"),
         (no_numbers, "no numbers"),
@@ -584,6 +586,24 @@ def test_whole_process(before: list[str], tmp_path: Path) -> None:
     done = run_process([*(before or [str(SCRIPT)]), str(source), "--out", str(tmp_path / "out"), "--width", "4"])
     assert done.returncode == 0, done.stderr
     assert report(tmp_path / "out")["counts"]["bricks"] > 0
+    # nothing of what the importer says
+    assert re.fullmatch(r".*out: \d+ bricks in \d+ layers\.\n", done.stdout)
+    assert done.stderr == ""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals as exit status")
+def test_crash_of_an_importer_leaves_nothing(tmp_path: Path) -> None:
+    """When Blender itself is ended by a signal, that is said, and there is no folder to clear away."""
+    add_box(BOX)
+    source = save(tmp_path / "box.ply")
+    before = contents(tmp_path)
+    patch = "import os, legorize_addon.reading.importers as importers; "
+    patch += "importers.importers = lambda: {'.ply': (lambda **_: os.abort(), {})};"
+    done = run_process([str(SCRIPT), str(source), "--out", str(tmp_path / "out")], patch)
+    assert done.returncode == -signal.SIGABRT
+    assert "Aborted" in done.stderr
+    assert contents(tmp_path) == before
+    assert not list(tmp_path.rglob(".legorize-*"))
 
 
 def test_bug_keeps_its_traceback(tmp_path: Path) -> None:

@@ -1,0 +1,37 @@
+"""FBX: only the kind and the files it names, since the importer checks the rest itself."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Final
+
+from ...errors import MeshError
+from .references import check_regular
+
+_BINARY: Final = b"Kaydara FBX Binary"
+_TEXT: Final = re.compile(rb"FBXHeaderExtension|^\s*;\s*FBX", re.MULTILINE)
+_NAMED: Final = re.compile(rb"(?:Relative)?File[Nn]ame(?:S(.{4})|:\s*\"([^\"\r\n]*)\")", re.DOTALL)
+_LONGEST: Final = 4096
+"""Bytes of a path, the limit of Linux."""
+
+
+def check_fbx(source: Path) -> tuple[str, ...]:
+    """Refuse what is no FBX file, and one whose textures are no files."""
+    data = source.read_bytes()
+    if not data.startswith(_BINARY) and not _TEXT.search(data[:4096]):
+        raise MeshError(f"{source.name} is no FBX file, whatever its name says: export it again.")
+    check_regular(source, named_files(data))
+    return ()
+
+
+def named_files(data: bytes) -> set[str]:
+    """Return the names of files in an FBX file, binary or text."""
+    names = set()
+    for match in _NAMED.finditer(data):
+        if match[1] is None:
+            name = match[2]
+        else:
+            name = data[match.end() : match.end() + min(int.from_bytes(match[1], "little"), _LONGEST)]
+        names.add(name.decode(errors="replace"))
+    return names - {""}

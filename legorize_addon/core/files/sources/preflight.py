@@ -1,0 +1,67 @@
+"""Looking at a file before Blender opens it: the check of its kind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from functools import partial
+from pathlib import Path
+
+from ...errors import MeshError
+from .blend import check_blend
+from .fbx import check_fbx
+from .gltf import check_gltf
+from .ply import check_ply
+from .stl import check_stl
+from .wavefront import check_obj
+
+
+def check_source(source: Path, extensions: Collection[str]) -> tuple[str, ...]:
+    """Look at a file before it is imported.
+
+    Parameters
+    ----------
+    source : Path
+        A file of a kind that Blender imports, by its suffix.
+    extensions : collection of str
+        The glTF extensions that the importer can read.
+
+    Returns
+    -------
+    tuple of str
+        Remarks: one sentence each on what the importer will leave out.
+
+    Raises
+    ------
+    MeshError
+        If there is no such file, or it is certain that it cannot be read.
+    """
+    _check_file(source)
+    kind = source.suffix.lower()
+    checks: dict[str, Callable[[Path], tuple[str, ...]]] = {
+        ".blend": check_blend,
+        ".fbx": check_fbx,
+        ".glb": partial(check_gltf, extensions=extensions),
+        ".gltf": partial(check_gltf, extensions=extensions),
+        ".obj": check_obj,
+        ".ply": check_ply,
+        ".stl": check_stl,
+    }
+    if kind not in checks:
+        raise MeshError(f"{source.name} is of no known kind: use one of {', '.join(checks)}.")
+    try:
+        return checks[kind](source)
+    except OSError as error:
+        raise MeshError(f"{source.name} cannot be read ({error.strerror}): check its access rights.") from error
+
+
+def _check_file(source: Path) -> None:
+    if not source.exists():
+        raise MeshError(f"There is no file {source}: name one that exists.")
+    if not source.is_file():
+        raise MeshError(f"{source} is no file: name a file with a model.")
+    try:
+        str(source.resolve()).encode()
+    except UnicodeEncodeError as error:
+        raise MeshError(f"The name of {str(source)!a} is not UTF-8, which Blender needs: rename it.") from error
+    if source.stat().st_size == 0:
+        raise MeshError(f"{source.name} is empty: export it again.")

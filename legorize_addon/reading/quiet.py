@@ -1,0 +1,41 @@
+"""Importers speak to whoever develops them: their lines and tracebacks stay off the user's screen."""
+
+from __future__ import annotations
+
+import faulthandler
+import io
+import os
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout
+from typing import Final
+
+_STREAMS: Final = (1, 2)
+"""Standard output and standard error, to which Blender's own code writes past Python."""
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Keep everything that is printed meanwhile off the screen, by Python and by libraries.
+
+    Exceptions pass. Should a library end the process by a signal, the signal and
+    the place in Python still go to standard error.
+    """
+    sys.stdout.flush()
+    sys.stderr.flush()
+    with ExitStack() as stack:
+        kept = [os.dup(stream) for stream in _STREAMS]
+        for number in kept:
+            stack.callback(os.close, number)
+        hidden = stack.enter_context(tempfile.TemporaryFile())
+        for stream, number in zip(_STREAMS, kept, strict=True):
+            os.dup2(hidden.fileno(), stream)
+            stack.callback(os.dup2, number, stream)
+        if not faulthandler.is_enabled():
+            faulthandler.enable(file=kept[1], all_threads=False)
+            stack.callback(faulthandler.disable)
+        # an importer may keep a handler for its log on these beyond its end
+        stack.enter_context(redirect_stdout(io.StringIO()))
+        stack.enter_context(redirect_stderr(io.StringIO()))
+        yield

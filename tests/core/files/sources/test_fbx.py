@@ -1,0 +1,35 @@
+"""FBX: whether it is one, and the textures that it names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from legorize_addon.core.files.sources import check_source
+from legorize_addon.core.files.sources.fbx import named_files
+from tests.core.files.sources.written import refusal
+
+TEXT = b'; FBX 7.4.0 project file\nFBXHeaderExtension: {}\nRelativeFilename: "paint.png"\n'
+BINARY = b"Kaydara FBX Binary  \0\x1a\0\x10RelativeFilenameS\x09\0\0\0paint.png"
+
+
+@pytest.mark.parametrize("content", [TEXT, BINARY])
+def test_textures(content: bytes, tmp_path: Path) -> None:
+    """A texture may be missing, or a file, and nothing else."""
+    (tmp_path / "box.fbx").write_bytes(content)
+    assert named_files(content) == {"paint.png"}
+    assert check_source(tmp_path / "box.fbx", ()) == ()
+    (tmp_path / "paint.png").mkdir()
+    assert "'paint.png', which is no file" in refusal(tmp_path / "box.fbx")
+
+
+def test_length_that_lies() -> None:
+    """A name whose length is beyond the file is cut at its end."""
+    assert named_files(BINARY.replace(b"S\x09\0\0\0", b"S\xff\xff\xff\xff")) == {"paint.png"}
+
+
+def test_other_content(tmp_path: Path) -> None:
+    """The name alone makes no FBX file."""
+    (tmp_path / "box.fbx").write_bytes(b"v 0 0 0\n")
+    assert "is no FBX file" in refusal(tmp_path / "box.fbx")
