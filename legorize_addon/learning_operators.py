@@ -184,7 +184,7 @@ def _known(stored: dict[str, Any]) -> Settings:
 
 def _lesson(context: bpy.types.Context, sources: Sequence[bpy.types.Object], settings: Settings) -> Lesson:
     order = order_of(context, sources, settings)
-    return Lesson(" + ".join(order.sources), order.mesh, settings)
+    return Lesson(order.name, order.mesh, settings)
 
 
 classes = (LEGORIZE_OT_learn, LEGORIZE_OT_forget)

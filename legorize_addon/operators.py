@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
@@ -10,7 +10,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from . import job
-from .core.errors import Cancelled, LegorizeError
+from .core.errors import BuildError, Cancelled, LegorizeError
 from .core.progress import Progress
 from .core.settings import Settings
 from .core.units import MM_PER_METRE
@@ -39,8 +39,13 @@ class Order:
 
     Attributes
     ----------
-    sources : tuple of str
-        Names of the objects: references to them would not outlive an undo.
+    name : str
+        Of the model: the names of its source objects.
+    scene : int
+        Session identifier of the scene that gets the model.
+    sources : tuple of int
+        Session identifiers of the objects: references to them would not outlive an undo, and a linked object and one of
+        the file may have the same name.
     mesh : TriangleMesh
         Their surface.
     remarks : tuple of str
@@ -51,7 +56,9 @@ class Order:
         World mm per Blender unit.
     """
 
-    sources: tuple[str, ...]
+    name: str
+    scene: int
+    sources: tuple[int, ...]
     mesh: TriangleMesh
     remarks: tuple[str, ...]
     settings: Settings
@@ -76,7 +83,7 @@ def chosen_sources(context: bpy.types.Context) -> list[bpy.types.Object]:
     if not selected and not models and current_build(context.scene):
         models = [current_build(context.scene)]
     again = [source for model in models for source in sources_of(model)]
-    return sorted({*selected, *again}, key=lambda thing: thing.name)
+    return sorted({*selected, *again}, key=lambda thing: (thing.name, thing.library.filepath if thing.library else ""))
 
 
 class Reporting:
@@ -191,21 +198,24 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         return order_of(context, chosen_sources(context), settings_of(context.scene.legorize.settings))
 
     def _show(self, context: bpy.types.Context, order: Order, build: Build) -> set[str]:
-        sources = [bpy.data.objects[name] for name in order.sources if name in bpy.data.objects]
+        [scene] = _by_uid(bpy.data.scenes, [order.scene]) or [None]
+        if scene is None:
+            raise BuildError("The scene was deleted while its model was being built: open another one and start again.")
         notes = (*order.remarks, *build.notes)
-        view = context.scene.legorize
+        view = scene.legorize
         collection = show_result(
-            context.scene,
+            scene,
             build,
             mm_per_unit=order.mm_per_unit,
-            name=" + ".join(order.sources),
-            sources=sources,
+            name=order.name,
+            sources=_by_uid(bpy.data.objects, order.sources),
             notes=notes,
             detail=view.detail,
         )
         view.build = collection
         view.show_sources = False
-        _select_only(context, collection[BUILD_KEY]["root"])
+        if scene == context.scene:
+            _select_only(context, collection[BUILD_KEY]["root"])
         self.report({"INFO"}, f"Built of {len(build.bricks)} bricks.")
         for note in notes:
             self.report({"WARNING"}, note)
@@ -263,12 +273,20 @@ def order_of(context: bpy.types.Context, sources: Sequence[bpy.types.Object], se
         context.view_layer.update()
         mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get())
     return Order(
-        sources=tuple(source.name for source in sources),
+        name=" + ".join(source.name for source in sources),
+        scene=context.scene.session_uid,
+        sources=tuple(source.session_uid for source in sources),
         mesh=mesh,
         remarks=remarks,
         settings=settings,
         mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
     )
+
+
+def _by_uid(blocks: Iterable[bpy.types.ID], uids: Sequence[int]) -> list[Any]:
+    """Return the datablocks with some session identifiers, without those deleted since."""
+    there = {block.session_uid: block for block in blocks}
+    return [there[uid] for uid in uids if uid in there]
 
 
 def _select_only(context: bpy.types.Context, thing: bpy.types.Object) -> None:

@@ -175,7 +175,8 @@ def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
     """
     state = build[BUILD_KEY]
     for entry in state["sources"].values():
-        if entry["object"] is not None:
+        # a build in another scene may have hidden it too
+        if entry["object"] is not None and len(_entries_of(entry["object"])) == 1:
             entry["object"].hide_viewport, entry["object"].hide_render = entry["hide_viewport"], entry["hide_render"]
     own = [thing for thing in build.all_objects if OWN_KEY in thing]
     for guest in [thing for thing in build.all_objects if OWN_KEY not in thing and len(thing.users_collection) == 1]:
@@ -282,7 +283,17 @@ def _rows_by_layer(bricks: Bricks) -> Iterator[tuple[int, list[tuple[Role, NDArr
 
 
 def _hidden_state(source: bpy.types.Object) -> dict[str, Any]:
-    return {"object": source, "hide_viewport": source.hide_viewport, "hide_render": source.hide_render}
+    """Return how a user had hidden an object, which builds in other scenes may have hidden since."""
+    own = {"hide_viewport": source.hide_viewport, "hide_render": source.hide_render}
+    [state, *_] = [*_entries_of(source), own]
+    return {"object": source, **{key: bool(state[key]) for key in own}}
+
+
+def _entries_of(source: bpy.types.Object) -> list[Any]:
+    """Return what the builds of all scenes keep of a source object."""
+    all_builds = [collection for collection in bpy.data.collections if BUILD_KEY in collection]
+    entries = [entry for build in all_builds for entry in build[BUILD_KEY]["sources"].values()]
+    return [entry for entry in entries if entry["object"] == source]
 
 
 def _remove_unused(datablocks: Iterable[bpy.types.ID]) -> None:

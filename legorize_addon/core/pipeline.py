@@ -65,7 +65,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
         The mesh or the settings cannot be used, in one sentence.
     """
     catalogue = load_catalogue()
-    palette = chosen_palette(settings.palette, catalogue)
+    palette, table = chosen_palette(settings.palette, catalogue), _table(settings)
     rng = np.random.default_rng(settings.seed)
     timings: dict[str, float] = {}
     stage = partial(_stage, progress=progress, timings=timings)
@@ -92,7 +92,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     with stage("hollowing"):
         shell = held_together(_hollowed(grid, settings), plates=_in_plates(settings))
     with stage("layout"):
-        shell, bricks = _laid(shell, settings, palette, catalogue, rng, progress)
+        shell, bricks = _laid(shell, settings, palette, table, catalogue, rng, progress)
     with stage("stability"):
         bricks, connection, found = _standing(bricks, settings, catalogue, progress)
     with stage("supports"):
@@ -228,6 +228,7 @@ def _laid(
     shell: UnitGrid,
     settings: Settings,
     palette: NDArray[np.int16],
+    table: Mask | None,
     catalogue: Catalogue,
     rng: np.random.Generator,
     progress: Progress,
@@ -239,7 +240,7 @@ def _laid(
         rng=rng,
         tier=settings.layout,
         learned=settings.learned,
-        table=_table(settings),
+        table=table,
         filler=_filler(palette, catalogue),
         progress=progress,
     )

@@ -19,7 +19,7 @@ from legorize_addon.core.progress import Progress
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.units import STUD
 from legorize_addon.properties import current_build
-from legorize_addon.scene import BUILD_KEY, builds, read_bricks
+from legorize_addon.scene import BUILD_KEY, builds, clear_build, read_bricks
 
 from .bricks import assert_same, content, instances
 
@@ -379,3 +379,119 @@ def test_picture_button(box, tmp_path) -> None:
     assert tuple(image.size) == (32, 16)
     with pytest.raises(RuntimeError, match="cannot be written"):
         bpy.ops.legorize.render_still(filepath=str(tmp_path / "nowhere" / "still.png"), samples=1)
+
+
+@pytest.fixture
+def twins(tmp_path) -> tuple[bpy.types.Object, bpy.types.Object]:
+    """Return a box of the file and a linked one of the same name, twice as long, at another place."""
+    for length, x in ((4, 20), (2, 0)):
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        bpy.ops.mesh.primitive_cube_add(size=1, location=(x, 0, 0), scale=(length, 1, 1))
+        bpy.context.object.name = "twin"
+        if x:
+            bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "library.blend"), copy=True)
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, wanted):
+        wanted.objects = ["twin"]
+    [linked] = wanted.objects
+    bpy.context.scene.collection.objects.link(linked)
+    bpy.context.scene.legorize.settings.size_by = "scale"
+    bpy.context.scene.legorize.settings.scale = 10 * 6 * STUD / 1000
+    local = next(thing for thing in bpy.data.objects if thing.library is None)
+    assert local.name == linked.name
+    return local, linked
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_twins_are_told_apart(twins, which: int) -> None:
+    """Of a linked object and one of the file with its name the chosen one is built, hidden, built again and shown."""
+    chosen, other = twins[which], twins[1 - which]
+    bpy.ops.object.select_all(action="DESELECT")
+    chosen.select_set(True)
+    for _ in range(2):
+        bpy.ops.legorize.build()
+        build = current_build(bpy.context.scene)
+        assert build[BUILD_KEY]["summary"]["studs_x"] == (12, 24)[which]
+        assert (chosen.hide_viewport, other.hide_viewport) == (True, False)
+        assert operators.chosen_sources(bpy.context) == [chosen]
+    bpy.ops.legorize.clear()
+    assert (chosen.hide_viewport, other.hide_viewport) == (False, False)
+
+
+def test_both_twins_are_one_model(twins) -> None:
+    """Both are built and hidden, in the same order every time."""
+    for twin in twins:
+        twin.select_set(True)
+    assert operators.chosen_sources(bpy.context) == list(twins)
+    bpy.ops.legorize.build()
+    assert current_build(bpy.context.scene).name == "Legorize twin + twin"
+    assert all(twin.hide_viewport for twin in twins)
+
+
+def while_building(monkeypatch, change) -> None:
+    """Let something happen between the reading of objects and the showing of bricks."""
+    legorize = pipeline.legorize
+
+    def changing(*arguments):
+        change()
+        return legorize(*arguments)
+
+    monkeypatch.setattr(pipeline, "legorize", changing)
+
+
+def test_renamed_while_building(box, monkeypatch) -> None:
+    """An object that gets another name meanwhile, and one that gets its old name, are told apart."""
+
+    def rename() -> None:
+        box.name = "renamed"
+        bpy.context.scene.collection.objects.link(bpy.data.objects.new("Cube", None))
+
+    while_building(monkeypatch, rename)
+    bpy.ops.legorize.build()
+    assert box.hide_viewport
+    assert not bpy.data.objects["Cube"].hide_viewport
+
+
+def test_deleted_while_building(box, monkeypatch) -> None:
+    """The model of an object that is deleted meanwhile is shown, and can be removed."""
+    while_building(monkeypatch, lambda: bpy.data.objects.remove(box))
+    bpy.ops.legorize.build()
+    assert instances()
+    assert operators.chosen_sources(bpy.context) == []
+    bpy.ops.legorize.clear()
+    assert not builds(bpy.context.scene)
+
+
+def test_scene_deleted_while_building(box, monkeypatch) -> None:
+    """A scene that is deleted meanwhile is missed in one sentence; the other scene gets nothing."""
+    bpy.data.scenes.new("other")
+    while_building(monkeypatch, lambda: bpy.data.scenes.remove(bpy.context.scene))
+    with pytest.raises(RuntimeError, match=r"^Error: The scene was deleted while [^\n]*\.\n?$"):
+        bpy.ops.legorize.build()
+    assert not [collection for collection in bpy.data.collections if BUILD_KEY in collection]
+
+
+def test_other_scene_while_building(box, monkeypatch) -> None:
+    """The model comes into the scene in which it was asked for, whatever scene is looked at meanwhile."""
+    first, second = bpy.context.scene, bpy.data.scenes.new("other")
+    while_building(monkeypatch, lambda: setattr(bpy.context.window, "scene", second))
+    bpy.ops.legorize.build()
+    assert [len(builds(scene)) for scene in (first, second)] == [1, 0]
+
+
+@pytest.mark.parametrize("first", [0, 1])
+@pytest.mark.parametrize("hidden", [True, False])
+def test_one_object_in_two_scenes(box, first: int, hidden: bool) -> None:
+    """An object built in two scenes is shown as it was before when both models are gone, whichever goes first."""
+    scenes = [bpy.context.scene, bpy.data.scenes.new("other")]
+    scenes[1].collection.objects.link(box)
+    box.hide_render = hidden
+    for scene in scenes:
+        with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0], selected_objects=[box]):
+            scene.legorize.settings.width = 6
+            bpy.ops.legorize.build()
+    assert [len(builds(scene)) for scene in scenes] == [1, 1]
+    for scene, gone in ((scenes[first], False), (scenes[1 - first], True)):
+        assert box.hide_viewport
+        clear_build(scene, builds(scene)[0])
+        assert box.hide_viewport != gone
+    assert box.hide_render == hidden

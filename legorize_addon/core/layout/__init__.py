@@ -18,6 +18,7 @@
 ``bound``           how few bricks there could be: a proven lower bound
 ``exchange``        fewer small bricks by exchanging a few against others
 ``svm``             which exchanges the fast tier tries: learned from samples
+``sample_file``     their text: read within limits, and checked line by line
 ``svm_training``    the samples and the training
 ``learning``        files of samples: the one chosen, and learning more from a user's own models
 ``table``           what lies on a sheet; the table of all bricks

@@ -15,10 +15,11 @@ from typing import Final
 import numpy as np
 
 from ..catalogue import ASSETS, Catalogue
-from ..errors import SettingsError
+from ..errors import BuildError, SettingsError
 from ..files.safe_text import one_line
 from ..model import Bricks, Mask, UnitGrid
-from .svm import Machine, Samples, read
+from .sample_file import MOST_MODELS, MOST_SAMPLES, PARAMETERS, SampleFileError, file_text, parameter, whole
+from .svm import Samples, read, table_of
 from .svm_training import samples_of, train, written
 
 SHIPPED_VERSION: Final = 1
@@ -27,7 +28,6 @@ EACH: Final = 60
 """Samples taken from each model."""
 
 _ADVICE: Final = "choose a file that learning from models wrote, or leave it empty."
-_NEEDED: Final = frozenset({"C", "gamma"})
 _KEPT: Final = 4
 """Machines of files that are kept."""
 
@@ -55,8 +55,7 @@ def learned_table(path: str) -> Mask:
 
 @lru_cache(maxsize=_KEPT)
 def _table(text: str) -> Mask:
-    samples, facts = read(text)
-    return Machine.of(samples, c=float(facts["C"]), gamma=float(facts["gamma"])).table()
+    return table_of(text)
 
 
 def samples_text(path: str) -> str:
@@ -78,20 +77,23 @@ def samples_text(path: str) -> str:
         It cannot be read, or is no file of samples.
     """
     try:
-        text = Path(path or ASSETS / "layout_svm.csv").read_text(encoding="utf-8")
-        samples, facts = read(text)
-    except (OSError, ValueError, IndexError) as error:
+        text = file_text(Path(path or ASSETS / "layout_svm.csv"))
+        _, facts = read(text)
+        for name in PARAMETERS:
+            parameter(facts, name)
+        version_of(text)
+    except OSError as error:
         raise SettingsError(
-            f"learned_from is {path!r}, which cannot be read as samples ({error}): {_ADVICE}"
+            f"learned_from is {path!r}, which cannot be opened ({error.strerror or error}): {_ADVICE}"
         ) from error
-    if not facts.keys() >= _NEEDED or len(np.unique(samples.pays)) < 2:
-        raise SettingsError(f"learned_from is {path!r}, which lacks C, gamma or samples of both kinds: {_ADVICE}")
+    except SampleFileError as fault:
+        raise SettingsError(f"learned_from is {path!r}, which {fault}: {_ADVICE}") from fault
     return text
 
 
 def version_of(text: str) -> int:
     """Return the version of a file of samples."""
-    return int(read(text)[1].get("version", SHIPPED_VERSION))
+    return whole(read(text)[1], "version", SHIPPED_VERSION)
 
 
 def learned_more(
@@ -130,16 +132,20 @@ def learned_more(
     Raises
     ------
     BuildError
-        The models give too few samples.
+        The models give too few samples, or with those before they are too many.
     """
     before, facts = read(text)
+    if len(before.pays) + EACH * len(models) > MOST_SAMPLES or before.model.max() + len(models) >= MOST_MODELS:
+        raise BuildError(
+            f"The file of samples is full with {len(before.pays)} samples: leave learned_from empty to begin anew."
+        )
     more = samples_of(models, catalogue, rng, EACH * len(models))
     samples = Samples(
         np.concatenate([before.levels, more.levels]),
         np.concatenate([before.pays, more.pays]),
         np.concatenate([before.model, more.model + before.model.max() + 1]),
     )
-    trained = train(samples, rng, costs=[float(facts["C"])], gammas=[float(facts["gamma"])])
+    trained = train(samples, rng, costs=[parameter(facts, "C")], gammas=[parameter(facts, "gamma")])
     # a name is one line's part here, whatever it is elsewhere
     learned = ", ".join(map(one_line, names))
     kept = {name: facts[name] for name in ("what", "formulation") if name in facts}

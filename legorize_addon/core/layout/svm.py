@@ -26,6 +26,7 @@ a library for support vector machines", ACM TIST 2(3), 2011 (in scikit-learn).
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -33,15 +34,18 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+from sklearn.exceptions import ConvergenceWarning
 from sklearn.svm import SVC
 
 from ..catalogue import ASSETS
 from ..connection import NOBODY
+from ..errors import BuildError
 from ..model import Floats, Mask
 from .exchange import exchange
 from .features import gauss_normalised
 from .placements import segment_sums
 from .problem import Problem
+from .sample_file import MOST_MODELS, check_both_kinds, facts_and_rows, parameter
 from .shapes import Index
 
 Levels = NDArray[np.int16]
@@ -49,6 +53,9 @@ Levels = NDArray[np.int16]
 NAMES: Final = ("units", "hold", "cuts", "area")
 LEVELS: Final = (4, 16, 16, 24)
 """Number of values of each change."""
+
+COLUMNS: Final = ("model", "pays", *NAMES)
+"""Of a file of samples."""
 
 _PER_BRICK: Final = 48
 """A brick in whole numbers: every number of cells that a part has divides it."""
@@ -71,6 +78,9 @@ _PASSES: Final = 2
 
 _TOLERANCE: Final = 1e-6
 """To which the machine is fitted: tight, so that no machine's rounding shows."""
+
+_MOST_STEPS: Final = 2_000_000
+"""Steps of the fitting: the shipped samples take 570,000 at the hardest C and gamma of the search (512 and 8)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,11 +136,25 @@ class Machine:
         Returns
         -------
         Machine
+
+        Raises
+        ------
+        BuildError
+            The fitting comes to no end.
         """
-        levels = samples.levels.astype(np.float64)
-        mean, deviation = levels.mean(axis=0), levels.std(axis=0)
-        svc = SVC(C=c, gamma=gamma, kernel="rbf", tol=_TOLERANCE)
-        svc.fit(gauss_normalised(levels, mean, deviation), samples.pays)
+        mean, deviation = (measure(samples.levels, axis=0, dtype=np.float64) for measure in (np.mean, np.std))
+        svc = SVC(C=c, gamma=gamma, kernel="rbf", tol=_TOLERANCE, max_iter=_MOST_STEPS)
+        # samples that are the same weigh as many as they are: the same machine, and faster
+        kind, weight = np.unique(np.column_stack([samples.levels, samples.pays]), axis=0, return_counts=True)
+        with warnings.catch_warnings():
+            # that it came to no end is told below
+            warnings.simplefilter("ignore", ConvergenceWarning)
+            svc.fit(gauss_normalised(kind[:, :-1].astype(np.float64), mean, deviation), kind[:, -1] == 1, weight)
+        if svc.fit_status_:
+            raise BuildError(
+                f"Learning from the samples comes to no end with C = {c:g} and gamma = {gamma:g}: choose a file with a "
+                "smaller C, or leave learned_from empty."
+            )
         return cls(mean, deviation, svc)
 
     def decision(self, levels: Levels) -> Floats:
@@ -251,9 +275,13 @@ def _same_brick(problem: Problem, owner: Index) -> NDArray[np.uint8]:
 @cache
 def shipped() -> Mask:
     """Return the table of the machine that is trained on the samples in ``assets/layout_svm.csv``."""
-    text = (ASSETS / "layout_svm.csv").read_text(encoding="utf-8")
+    return table_of((ASSETS / "layout_svm.csv").read_text(encoding="utf-8"))
+
+
+def table_of(text: str) -> Mask:
+    """Return what the machine of the text of a file of samples proposes, as :meth:`Machine.table`."""
     samples, facts = read(text)
-    return Machine.of(samples, c=float(facts["C"]), gamma=float(facts["gamma"])).table()
+    return Machine.of(samples, c=parameter(facts, "C"), gamma=parameter(facts, "gamma")).table()
 
 
 def read(text: str) -> tuple[Samples, Mapping[str, str]]:
@@ -267,10 +295,16 @@ def read(text: str) -> tuple[Samples, Mapping[str, str]]:
     Returns
     -------
     samples : Samples
+        Of both kinds.
     facts : mapping of str to str
         Where the samples are from, C and gamma.
+
+    Raises
+    ------
+    SampleFileError
+        It is no such text, or a machine cannot learn from it.
     """
-    lines = text.splitlines()
-    facts = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
-    rows = np.array([line.split(",") for line in lines if line[:1].isdigit()], dtype=np.int16)
-    return Samples(rows[:, 2:], rows[:, 1] == 1, rows[:, 0]), facts
+    facts, rows = facts_and_rows(text, COLUMNS, (MOST_MODELS, 2, *LEVELS))
+    samples = Samples(rows[:, 2:], rows[:, 1] == 1, rows[:, 0])
+    check_both_kinds(samples.levels, samples.pays)
+    return samples, facts

@@ -1,4 +1,4 @@
-"""Files of samples: none is changed, a new version has all before it, and what is no such file is refused."""
+"""Files of samples: none is changed, and a new version has all before it."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from legorize_addon.core.errors import BuildError, SettingsError
+from legorize_addon.core.errors import BuildError
 from legorize_addon.core.layout import lay
 from legorize_addon.core.layout.learning import EACH, learned_more, learned_table, samples_text, version_of
+from legorize_addon.core.layout.sample_file import MOST_SAMPLES
 from legorize_addon.core.layout.svm import LEVELS, read, shipped
+from legorize_addon.core.layout.svm_training import train
 from scripts.train_layout import built
 
 from .cells import CATALOGUE, brick_grid
@@ -71,30 +73,29 @@ def test_the_chosen_file_decides(more, model, tmp_path: Path):
     assert laid(table=table, learned=False) == laid(learned=False)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        (None, "cannot be read as samples"),
-        ("", "cannot be read as samples"),
-        ("# C\n", "cannot be read as samples"),
-        ("one,two\n1,x\n", "cannot be read as samples"),
-        ("# C: 1.0\n0,1,0,8,2,5\n0,0,0,8,2,5\n", "lacks C, gamma"),
-        ("# C: 1.0\n# gamma: 8.0\n0,1,0,8,2,5\n", "samples of both kinds"),
-    ],
-)
-def test_what_is_no_file_of_samples_is_refused(text: str | None, words: str, tmp_path: Path):
-    """A missing, empty or other file, and samples that nothing can be learned from, give a sentence."""
-    path = tmp_path / "samples.csv"
-    if text is not None:
-        path.write_text(text, encoding="utf-8")
-    with pytest.raises(SettingsError, match=words) as refused:
-        learned_table(str(path))
-    assert str(refused.value).endswith("or leave it empty.")
-
-
 def test_too_small_models_are_refused():
     """A model in which nothing can be saved teaches nothing, which is said."""
     grid = brick_grid(np.full((1, 2, 4), 4))
     bricks = lay(grid, CATALOGUE, rng=np.random.default_rng(0))
     with pytest.raises(BuildError, match="0 samples of 30"):
         learned_more(samples_text(""), [(grid, bricks)], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
+
+
+def test_a_full_file_is_not_learned_on(model):
+    """A file takes no more samples than may be read again, which is said before the work."""
+    table = samples_text("").splitlines()
+    rows = [line for line in table if line[:1].isdigit()]
+    full = "\n".join([*table, *(rows * 20)[: MOST_SAMPLES - len(rows)]])
+    with pytest.raises(BuildError, match=f"full with {MOST_SAMPLES} samples"):
+        learned_more(full, [model], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
+
+
+def test_folds_of_one_kind_can_be_judged(model):
+    """Where all samples that pay are from one model, the machine that never saw it takes nothing for paying."""
+    rows = [f"{number},{int(number == 0)},0,{number + 4},1,2" for number in range(5) for _ in range(4)]
+    text = "\n".join(["# C: 1.0", "# gamma: 1.0", *rows])
+    more = learned_more(text, [model], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
+    assert len(read(more)[0].pays) == len(rows) + EACH
+    samples = read(text)[0]
+    trained = train(samples, np.random.default_rng(0), costs=[1.0], gammas=[1.0])
+    assert trained.confusion.tolist() == [[16, 0], [4, 0]]
