@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Generic, TypeVar
 
 from .core.errors import Cancelled
-from .core.progress import Progress
+from .core.progress import Meter, Progress
 
 Result = TypeVar("Result")
 
@@ -24,11 +24,6 @@ class Job(threading.Thread, Generic[Result]):
     work : callable
         Called with a progress callback, which raises ``Cancelled`` once
         :meth:`cancel` was called.
-
-    Attributes
-    ----------
-    progress : tuple of str and float
-        Stage and share done, as last told by the work.
     """
 
     def __init__(self, work: Callable[[Progress], Result]) -> None:
@@ -37,7 +32,7 @@ class Job(threading.Thread, Generic[Result]):
         self._stop_request = threading.Event()
         self._results: list[Result] = []
         self._error: Exception | None = None
-        self.progress = ("Starting", 0.0)
+        self._meter = Meter()
 
     def run(self) -> None:
         """Do the work and keep what comes of it; called by :meth:`start`."""
@@ -49,6 +44,16 @@ class Job(threading.Thread, Generic[Result]):
     def cancel(self) -> None:
         """Ask the work to stop at its next word of progress."""
         self._stop_request.set()
+
+    @property
+    def progress(self) -> tuple[str, float]:
+        """Stage and share done of all the work, as last told by it."""
+        return self._meter.told
+
+    @property
+    def seconds_left(self) -> float | None:
+        """How long the rest takes at a guess, unknown (``None``) in the first stage."""
+        return self._meter.seconds_left
 
     @property
     def stopping(self) -> bool:
@@ -71,7 +76,7 @@ class Job(threading.Thread, Generic[Result]):
     def _tell(self, stage: str, share: float) -> None:
         if self.stopping:
             raise Cancelled
-        self.progress = (stage, share)
+        self._meter(stage, share)
 
 
 def running() -> Job[object] | None:

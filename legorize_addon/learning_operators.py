@@ -14,7 +14,7 @@ from .core.catalogue import load_catalogue
 from .core.errors import BuildError
 from .core.files.single import write_whole
 from .core.model import Bricks, UnitGrid
-from .core.progress import Progress
+from .core.progress import Progress, part
 from .core.settings import Settings
 from .operators import Reporting, Working, chosen_sources, order_of
 from .properties import settings_of
@@ -22,6 +22,9 @@ from .scene import BUILD_KEY, OWN_KEY, builds_of, sources_of
 
 if TYPE_CHECKING:
     from .core.mesh import TriangleMesh
+
+_LAYING: Final = 0.9
+"""Share of the time that laying the models takes, of laying and learning."""
 
 STEM: Final = "samples_v"
 """Beginning of the names of the files; the version follows."""
@@ -79,8 +82,9 @@ class Lessons:
         """Return the text of the next version; no Blender in here."""
         from .core.layout.learning import learned_more
 
-        laid = [model.laid(progress) for model in self.models]
-        progress("learning", 0.0)
+        turns, n = enumerate(self.models), len(self.models)
+        laid = [model.laid(part(progress, _LAYING * turn / n, _LAYING * (turn + 1) / n)) for turn, model in turns]
+        progress("learning", _LAYING)
         rng = np.random.default_rng(self.seed)
         names = [model.name for model in self.models]
         return learned_more(self.text, laid, load_catalogue(), rng, names=names, version=self.version)

@@ -185,6 +185,30 @@ def repair(mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs]:
     return _assembled(np.concatenate([vertices, new]), surface, mesh), repairs
 
 
+def checked_vertices(mesh: TriangleMesh) -> Floats:
+    """Return the vertices that faces use, or refuse a mesh that :func:`repair` refuses at first sight.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        As read.
+
+    Returns
+    -------
+    (n, 3) float64 array
+        In mm.
+
+    Raises
+    ------
+    MeshError
+        The mesh has no faces, too few triangles, no size, or coordinates that
+        are no finite numbers or too great.
+    """
+    vertices, _ = _referenced(mesh)
+    _frame(vertices)
+    return vertices
+
+
 def scaled(mesh: TriangleMesh, factor: float) -> TriangleMesh:
     """Return the mesh scaled about the origin by a positive factor."""
     return replace(mesh, vertices=mesh.vertices * factor)

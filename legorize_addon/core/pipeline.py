@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from .backing import with_backing
 from .build import Build, Cut
-from .building.proof import prove_steps
+from .building.proof import Proof, prove_steps
 from .building_remarks import remarks_on_building, remarks_on_proof
 from .catalogue import Catalogue, load_catalogue
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .connection import Connection, connect
 from .detail import Detail
+from .estimate import AGAIN, estimate
 from .facing import facing_of
 from .grid import Grid, fit_grid
 from .holding import held_together
@@ -30,7 +31,8 @@ from .marking import Marks, differing_layers
 from .mesh import Repairs, TriangleMesh, repair, scaled
 from .model import Bricks, Mask, UnitGrid
 from .offset_bricks import with_offset_bricks
-from .progress import Progress, silent
+from .overhangs import Offsets
+from .progress import Overall, Progress, silent
 from .remarks import remarks
 from .seen_filler import with_seen_coloured
 from .segmentation import Joint, segmented
@@ -53,7 +55,8 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
         As read, in world mm.
     settings : Settings
     progress : Progress
-        Told when a stage begins, and by some stages how far they are.
+        Told the stage at work, or what it is at, and the share of the whole run
+        that is done, which never goes back.
 
     Returns
     -------
@@ -68,7 +71,8 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     palette, table = chosen_palette(settings.palette, catalogue), _table(settings)
     rng = np.random.default_rng(settings.seed)
     timings: dict[str, float] = {}
-    stage = partial(_stage, progress=progress, timings=timings)
+    overall = Overall(estimate(mesh, settings).stages, progress)
+    stage = partial(_stage, overall, timings)
 
     with stage("mesh"):
         mesh, repairs = repair(mesh)
@@ -81,38 +85,41 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     with stage("trajectories"):
         trajectories = link_loops(mesh, cut.slices, surface, chord_deviation=settings.chord_deviation)
     with stage("unit bricks"):
-        grid = _unit_grid(mesh, repairs, trajectories, surface, frame, cut, settings, catalogue, progress)
+        grid = _unit_grid(mesh, repairs, trajectories, surface, frame, cut, settings, catalogue, overall)
     with stage("overhangs"):
-        grid, offsets = with_offset_bricks(
-            grid,
-            plates=_in_plates(settings),
-            critical_angle=settings.critical_angle,
-            literal=settings.cell_colour == "longest",
-        )
+        grid, offsets = _overhangs(grid, settings)
     with stage("hollowing"):
         shell = held_together(_hollowed(grid, settings), plates=_in_plates(settings))
     with stage("layout"):
-        shell, bricks = _laid(shell, settings, palette, table, catalogue, rng, progress)
+        shell, bricks = _laid(shell, settings, palette, table, catalogue, rng, overall)
     with stage("stability"):
-        bricks, connection, found = _standing(bricks, settings, catalogue, progress)
+        bricks, connection, found = _standing(bricks, settings, catalogue, overall)
     with stage("supports"):
-        supports, joints = _supported(bricks, connection, settings, catalogue, progress)
+        supports, joints = _supported(bricks, connection, settings, catalogue, overall)
     if len(supports.stays) > len(bricks):
-        with stage("stability"):
+        with stage("stability again"):
             connection = connect(supports.stays, catalogue)
-            found = stability(supports.stays, catalogue, connection, hold=settings.hold, progress=progress)
+            found = stability(supports.stays, catalogue, connection, hold=settings.hold, progress=overall)
     bricks, proof = supports.stays, None
     if settings.prove_steps:
         with stage("proof"):
-            proof = prove_steps(supports.moves, supports.bricks, catalogue, hold=settings.hold, progress=progress)
-    notes = (
+            proof = prove_steps(supports.moves, supports.bricks, catalogue, hold=settings.hold, progress=overall)
+    overall.finish()
+    made = (mesh, repairs, scale, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
+    notes = _notes(repairs, found, supports, proof, catalogue)
+    return Build(settings, *made, supports, joints, proof, notes, timings)
+
+
+def _notes(
+    repairs: Repairs, found: Stability, supports: Supports, proof: Proof | None, catalogue: Catalogue
+) -> tuple[str, ...]:
+    """Return what a user has to know about a build, a sentence each."""
+    return (
         *repairs.sentences(),
-        *remarks(bricks, found, catalogue),
+        *remarks(supports.stays, found, catalogue),
         *remarks_on_building(supports, catalogue),
         *remarks_on_proof(proof),
     )
-    made = (mesh, repairs, scale, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
-    return Build(settings, *made, supports, joints, proof, notes, timings)
 
 
 def _in_plates(settings: Settings) -> bool:
@@ -211,6 +218,16 @@ def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail
     return Detail(marked, settings.plate_gain, settings.fewer_parts)
 
 
+def _overhangs(grid: UnitGrid, settings: Settings) -> tuple[UnitGrid, Offsets]:
+    """Return the cells with the colours of offset bricks, and those."""
+    return with_offset_bricks(
+        grid,
+        plates=_in_plates(settings),
+        critical_angle=settings.critical_angle,
+        literal=settings.cell_colour == "longest",
+    )
+
+
 def _hollowed(grid: UnitGrid, settings: Settings) -> UnitGrid:
     """Return what must and what may be built."""
     # behind a picture, the first row or layer of its backing has to stay
@@ -292,10 +309,10 @@ def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:
 
 
 @contextmanager
-def _stage(name: str, progress: Progress, timings: dict[str, float]) -> Iterator[None]:
-    """Announce a stage and note its CPU seconds."""
-    progress(name, 0.0)
+def _stage(overall: Overall, timings: dict[str, float], name: str) -> Iterator[None]:
+    """Announce a stage and note its CPU seconds; what is done again counts to what it repeats."""
+    shown = name.removesuffix(AGAIN)
     start = time.process_time()
-    yield
-    timings[name] = timings.get(name, 0.0) + time.process_time() - start
-    progress(name, 1.0)
+    with overall.stage(name, shown=shown):
+        yield
+    timings[shown] = timings.get(shown, 0.0) + time.process_time() - start

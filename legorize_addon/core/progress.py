@@ -1,17 +1,144 @@
 """How a long computation tells how far it has come.
 
-A progress callback is called with the name of the stage and its share done in
+A progress callback is called with the name of the stage and a share done in
 [0, 1]. It may raise :class:`~legorize_addon.core.errors.Cancelled`; the core
 lets that through, so that a request to stop ends the run at the next call.
+
+Stages know their own share alone. :class:`Overall` makes of these the share of
+the whole run, which never goes back, and :class:`Meter` what is shown of it: the
+stage, the share, and the time left.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Final
 
 Progress = Callable[[str, float], None]
 """Called with (stage, share done); may raise ``Cancelled``."""
 
+_SOONEST: Final = 0.005
+"""Share from which a time left is told: the estimate of less may be wrong by its own size."""
+
 
 def silent(stage: str, share: float) -> None:
     """Ignore the progress, for runs that nobody watches."""
+
+
+def part(progress: Progress, low: float, high: float) -> Progress:
+    """Return the progress of a part of a stage.
+
+    Parameters
+    ----------
+    progress : Progress
+        Of the stage.
+    low, high : float
+        Shares of the stage at which the part begins and ends.
+
+    Returns
+    -------
+    Progress
+        Its shares from 0 to 1 become those from `low` to `high`.
+    """
+    return lambda stage, share: progress(stage, low + (high - low) * share)
+
+
+class Overall:
+    """The shares of stages, one after the other, as one share of the whole run.
+
+    Parameters
+    ----------
+    seconds : mapping of str to float
+        How long each stage takes, at a guess; only their proportions count.
+    progress : Progress
+        Called with the stage, and the share of the whole run, which never goes back.
+
+    Notes
+    -----
+    Within a stage an object of this class is itself the :data:`Progress` of that
+    stage. Stages may name their parts: the name is handed on.
+    """
+
+    def __init__(self, seconds: Mapping[str, float], progress: Progress) -> None:
+        self._seconds = dict(seconds)
+        self._total = sum(seconds.values())
+        self._progress = progress
+        self._before = self._now = self._share = 0.0
+        self._stage = ""
+
+    def __call__(self, stage: str, share: float) -> None:
+        """Tell the share of the stage at work that is done."""
+        done = (self._before + self._now * min(max(share, 0.0), 1.0)) / self._total if self._total else 0.0
+        # what nobody expected to take long may have ended a stage before
+        self._stage, self._share = stage, max(self._share, min(done, 1.0))
+        self._progress(stage, self._share)
+
+    @contextmanager
+    def stage(self, name: str, *, shown: str | None = None) -> Iterator[Overall]:
+        """Tell the beginning and the end of a stage.
+
+        Parameters
+        ----------
+        name : str
+            A name of `seconds`; any other stage counts as no time at all.
+        shown : str, optional
+            The name to tell, if it is another one.
+
+        Yields
+        ------
+        Overall
+            The progress of the stage.
+        """
+        self._now = self._seconds.pop(name, 0.0)
+        self(shown or name, 0.0)
+        yield self
+        self(shown or name, 1.0)
+        self._before, self._now = self._before + self._now, 0.0
+
+    def finish(self) -> None:
+        """Tell that all is done, whatever was expected to come."""
+        self._share = 1.0
+        self._progress(self._stage, 1.0)
+
+
+class Meter:
+    """What is shown of a run: a progress callback that keeps what it is told, and a clock.
+
+    Parameters
+    ----------
+    clock : callable, optional
+        Returns seconds.
+
+    Attributes
+    ----------
+    told : tuple of str and float
+        The stage and the share of the whole run that is done, as last told; in
+        one piece, as another thread may look.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock, self._start = clock, clock()
+        self._first: str | None = None
+        self.told = ("Starting", 0.0)
+
+    def __call__(self, stage: str, share: float) -> None:
+        """Keep what is told."""
+        self._first = self._first or stage
+        self.told = (stage, share)
+
+    @property
+    def seconds_left(self) -> float | None:
+        """How long the rest takes if it goes on as up to now; unknown (``None``) in the first stage."""
+        stage, share = self.told
+        if self._first in (stage, None) or share < _SOONEST:
+            return None
+        return (self._clock() - self._start) * (1 - share) / share
+
+
+def duration(seconds: float) -> str:
+    """Return a time in words that are short enough for a progress bar, as ``"45 s"`` or ``"3 min"``."""
+    if seconds < 60:
+        return f"{max(round(seconds), 1)} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"

@@ -18,6 +18,7 @@ from .ldraw import ldraw_matrix
 from .model import SUPPORTS, Cover, Mask, Role, UnitGrid
 from .overhangs import Offsets, OverhangKind, overhang_kinds
 from .pass_through import corner_windings, pass_through_types
+from .progress import Progress, silent
 from .regions import tally_cases
 from .remarks import remarks
 from .shopping import PartsList, count_parts, masses, not_made, pick_a_brick_csv
@@ -28,7 +29,15 @@ SCHEMA: Final = 1
 """Version of the keys; raised when one of them changes its meaning."""
 
 
-def report(build: Build, catalogue: Catalogue, *, version: str, mm_per_unit: float) -> dict[str, Any]:
+def report(
+    build: Build,
+    catalogue: Catalogue,
+    *,
+    version: str,
+    mm_per_unit: float,
+    with_bound: bool = False,
+    progress: Progress = silent,
+) -> dict[str, Any]:
     """Describe a build.
 
     Parameters
@@ -41,6 +50,11 @@ def report(build: Build, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         Version of the add-on.
     mm_per_unit : float
         World mm per unit of length in the scene the mesh came from.
+    with_bound : bool, optional
+        Whether to prove how few bricks any layout needs, which may take longer
+        than the layout itself.
+    progress : Progress, optional
+        Told how far that proof is.
 
     Returns
     -------
@@ -50,7 +64,10 @@ def report(build: Build, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         that scene to LDU; ``hollow_ratio`` the share of the model's cells that
         no brick fills, supports excluded. ``pass_through`` counts the paper's types
         of cells slice by slice, ``offsets`` and ``overhangs`` count by levels, of
-        plates or of bricks, ``hollowing`` by cells a plate high.
+        plates or of bricks, ``hollowing`` by cells a plate high. What was not
+        computed is None: in ``layout`` ``fewest_possible`` and
+        ``at_most_more_percent`` without the bound, in ``detail`` the marks of a
+        model without plates, in ``building`` the ``proof`` that was not asked for.
 
     Raises
     ------
@@ -77,7 +94,7 @@ def report(build: Build, catalogue: Catalogue, *, version: str, mm_per_unit: flo
         "counts": _counts(build, catalogue, parts),
         "mass_g": round(float(masses(parts, catalogue).sum()), 2),
         "hollow_ratio": round(hollow_ratio(build), 4),
-        "layout": _layout(build, catalogue),
+        "layout": _layout(build, catalogue, progress if with_bound else None),
         "bodies": free_bodies(build.hollow),
         "connection": _connection(build.connection),
         "stability": _stability(build, catalogue),
@@ -209,17 +226,17 @@ def _connection(connection: Connection) -> dict[str, int]:
     }
 
 
-def _layout(build: Build, catalogue: Catalogue) -> dict[str, Any]:
-    """Return how near the number of bricks is to the proven bound.
+def _layout(build: Build, catalogue: Catalogue, proving: Progress | None) -> dict[str, Any]:
+    """Return how near the number of bricks is to the proven bound, unless nobody waits for the proof.
 
     The bound holds for every layout of the same cells and colours, with the same
     columns laid in bricks and in plates.
     """
-    fewest = bound(build.hollow, catalogue)
+    fewest = None if proving is None else bound(build.hollow, catalogue, progress=proving)
     return {
         "tier": build.settings.layout,
         "fewest_possible": fewest,
-        "at_most_more_percent": round(100 * (len(build.bricks) / max(fewest, 1) - 1), 2),
+        "at_most_more_percent": None if fewest is None else round(100 * (len(build.bricks) / max(fewest, 1) - 1), 2),
     }
 
 

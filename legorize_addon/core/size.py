@@ -8,7 +8,7 @@ import numpy as np
 
 from .errors import SettingsError
 from .mesh import TriangleMesh
-from .model import UnitGrid
+from .model import Floats, UnitGrid
 from .units import BRICK, PLATES_PER_BRICK, STUD
 
 MOST_CELLS: Final = 60_000_000
@@ -48,16 +48,21 @@ def model_scale(mesh: TriangleMesh, *, size_by: str, width: int, height: int, sc
     ----------
     Paper, section 3: a factor k of 10 keeps the size.
     """
-    size = np.ptp(mesh.vertices, axis=0)
+    extent = np.ptp(mesh.vertices, axis=0)
+    return scale_of_extent(extent, size_by=size_by, width=width, height=height, scale=scale)
+
+
+def scale_of_extent(extent: Floats, *, size_by: str, width: int, height: int, scale: float) -> float:
+    """Return :func:`model_scale` of a mesh whose extent along x, y and z in mm is known."""
     if size_by == "scale":
         return scale / _ORIGINAL_SCALE
     if size_by == "width":
-        wanted, extent, word = width * STUD, size[:2].max(), "width"
+        wanted, along, word = width * STUD, extent[:2].max(), "width"
     else:
-        wanted, extent, word = height * BRICK, size[2], "height"
-    if extent <= 1e-9 * size.max():
-        raise SettingsError(f"The mesh has a {word} of {extent:g} mm: set the size by another measure than {word}.")
-    return float(wanted / extent)
+        wanted, along, word = height * BRICK, extent[2], "height"
+    if along <= 1e-9 * extent.max():
+        raise SettingsError(f"The mesh has a {word} of {along:g} mm: set the size by another measure than {word}.")
+    return float(wanted / along)
 
 
 def check_size(mesh: TriangleMesh, *, plates: bool) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import importlib.util
+import io
 import json
 import os
 import re
@@ -624,3 +625,53 @@ def run_process(argv: list[str], patch: str = "") -> subprocess.CompletedProcess
     return subprocess.run(
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=240, check=False
     )
+
+
+def test_progress_is_a_line_for_each_stage(
+    script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Without a terminal there is a line for each stage, with a share that never goes back; then the result."""
+    add_box(BOX)
+    source = save(tmp_path / "box.blend")
+    capsys.readouterr()
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "4"]) == 0
+    lines = [line for line in capsys.readouterr().out.splitlines() if line[:4].strip().endswith("%")]
+    stages = [line[5:].split(",")[0] for line in lines]
+    assert list(dict.fromkeys(stages))[:4] == ["import", "read", "mesh", "colours"]
+    assert list(dict.fromkeys(stages))[-2:] == ["report", "files"]
+    shares = [int(line[:3]) for line in lines]
+    assert shares == sorted(shares)
+    assert 90 < shares[-1] <= 100
+
+
+def test_progress_on_a_terminal_is_one_line(script: ModuleType) -> None:
+    """On a terminal the line is written over, by blanks where it was longer, and is gone in the end."""
+
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    screen = Terminal()
+    with script.Line(screen) as line:
+        for stage, share in (("trajectories", 0.2), ("trajectories", 0.201), ("layout", 0.5)):
+            line(stage, share)
+    written = screen.getvalue()
+    assert "\n" not in written
+    first, second, *wiped = written.split("\r")[1:]
+    assert first == " 20% trajectories"
+    assert second.startswith(" 50% layout")
+    assert len(second) >= len(first)
+    assert "".join(wiped).strip() == ""
+
+
+def test_bound_is_proven_on_request(script: ModuleType, tmp_path: Path) -> None:
+    """The fewest bricks that any layout needs are in the report if --bound asks for them, else null."""
+    add_box(BOX)
+    source = save(tmp_path / "box.blend")
+    found = []
+    for flags in ([], ["--bound"]):
+        assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "4", *flags]) == 0
+        found.append(report(tmp_path / "out"))
+    without, proven = (facts["layout"] for facts in found)
+    assert without["fewest_possible"] is without["at_most_more_percent"] is None
+    assert 1 <= proven["fewest_possible"] <= found[1]["counts"]["bricks"]

@@ -1,0 +1,200 @@
+"""What a build will come to, before it is made: its size, about how many bricks, how long, how much memory.
+
+All of it follows from the extent of the mesh, its area and its volume, which
+take milliseconds. The coefficients were fitted to builds of eight models at 24
+to 192 studs, non-negative and by least relative squares:
+``python scripts/benchmark.py budget`` repeats the measurement and says how far
+off the estimates are.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from types import MappingProxyType
+from typing import Final
+
+import numpy as np
+
+from .grid import ALPHA
+from .mesh import TriangleMesh, checked_vertices
+from .settings import Settings
+from .size import scale_of_extent
+from .units import BRICK, PLATES_PER_BRICK, STUD
+
+AGAIN: Final = " again"
+"""Ends the name of a stage that is done a second time."""
+
+_FACE: Final = np.array([STUD * BRICK, STUD * BRICK, STUD * STUD])
+"""Faces of a unit brick across x, y and z in mm^2."""
+
+_FLAT: Final = 0.999
+"""Cosine from which a triangle counts as one across an axis: large bricks cover it."""
+
+_MM_PER_CM: Final = 10.0
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """What a build will come to.
+
+    Attributes
+    ----------
+    studs : (float, float)
+        Extent along x and y.
+    layers : int
+        Height in bricks.
+    cm : (float, float, float)
+        Extent along x, y and z.
+    cells : float
+        Unit cells of the grid.
+    bricks : int
+        About how many bricks, without supports.
+    megabytes : float
+        About how much memory the process will have taken at most.
+    stages : mapping of str to float
+        About how many CPU seconds each stage takes, in their order.
+    """
+
+    studs: tuple[float, float]
+    layers: int
+    cm: tuple[float, float, float]
+    cells: float
+    bricks: int
+    megabytes: float
+    stages: Mapping[str, float]
+
+    @property
+    def seconds(self) -> float:
+        """About how many CPU seconds all stages take."""
+        return sum(self.stages.values())
+
+
+def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
+    """Estimate what a build will come to, without building anything.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        As read, in world mm.
+    settings : Settings
+
+    Returns
+    -------
+    Estimate
+
+    Raises
+    ------
+    MeshError
+        The mesh has no faces, too few triangles, no size, or coordinates that
+        are no finite numbers or too great.
+    SettingsError
+        The mesh has no extent along what shall have the asked size.
+    """
+    extent = np.ptp(checked_vertices(mesh), axis=0)
+    scale = scale_of_extent(
+        extent, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale
+    )
+    size = extent * scale
+    flat, curved, volume = _faces_and_volume(mesh, scale)
+    bricks = max(1.0, _FLAT_BRICKS * flat + _CURVED_BRICKS * curved)
+    if not settings.hollow:
+        bricks += _INSIDE_BRICKS * max(0.0, volume - flat - curved)
+    bricks_high = max(1, math.ceil(size[2] / BRICK - 1e-9))
+    columns = np.prod(np.ceil(np.maximum(ALPHA * size[:2] / STUD, size[:2] / STUD + 2)))
+    of_build = _Features(
+        triangles=len(mesh.faces),
+        texels=sum(image.shape[0] * image.shape[1] for image in mesh.images),
+        cells=float(columns) * bricks_high * PLATES_PER_BRICK,
+        faces=flat + curved,
+        bricks=bricks,
+        crowd=bricks**1.5,
+    )
+    return Estimate(
+        studs=(float(size[0] / STUD), float(size[1] / STUD)),
+        layers=bricks_high,
+        cm=(float(size[0] / _MM_PER_CM), float(size[1] / _MM_PER_CM), float(size[2] / _MM_PER_CM)),
+        cells=of_build.cells,
+        bricks=round(bricks),
+        megabytes=_MEGABYTES.of(of_build),
+        stages=_stages(of_build, settings),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Features:
+    """What costs depend on, or what each of these costs.
+
+    Attributes
+    ----------
+    constant, triangles, texels, cells : float
+    faces : float
+        Faces of unit bricks that the surface comes to.
+    bricks : float
+        About how many there will be.
+    crowd : float
+        Those to the power of 1.5: what grows faster than the model.
+    """
+
+    constant: float = 1.0
+    triangles: float = 0.0
+    texels: float = 0.0
+    cells: float = 0.0
+    faces: float = 0.0
+    bricks: float = 0.0
+    crowd: float = 0.0
+
+    def of(self, build: _Features) -> float:
+        """Return the sum over all features of a build, each at its cost."""
+        return sum(float(getattr(self, entry.name) * getattr(build, entry.name)) for entry in fields(self))
+
+
+_FLAT_BRICKS: Final = 0.148
+_CURVED_BRICKS: Final = 0.202
+_INSIDE_BRICKS: Final = 0.065
+"""Bricks to a face of a unit brick in flat and in other surfaces, and to a unit brick inside a solid model."""
+
+_MEGABYTES: Final = _Features(constant=130.0, texels=1.3e-5, cells=3.5e-5, bricks=0.021)
+"""Peak of the resident memory of a process."""
+
+_SECONDS: Final[Mapping[str, _Features]] = MappingProxyType({
+    "mesh": _Features(constant=0.007, triangles=2.1e-6),
+    "colours": _Features(constant=0.066, texels=1.5e-7),
+    "slicing": _Features(constant=0.006, triangles=1.4e-6, faces=7.6e-8),
+    "trajectories": _Features(constant=0.006, triangles=3.4e-7, faces=7.8e-8),
+    "unit bricks": _Features(constant=0.092, faces=4.2e-5, cells=1.3e-7),
+    "overhangs": _Features(constant=0.002, faces=1.3e-7, cells=4.7e-8),
+    "hollowing": _Features(constant=0.005, faces=2.6e-6, cells=2.7e-7),
+    "layout": _Features(constant=0.03, bricks=4.1e-4, crowd=3.4e-6),
+    "stability": _Features(constant=0.01, crowd=4.7e-6),
+    "supports": _Features(constant=0.079, bricks=2.9e-4, cells=2.6e-7),
+    f"stability{AGAIN}": _Features(crowd=1e-6),
+})  # fmt: skip
+"""CPU seconds of the stages."""
+
+_TIERS: Final = MappingProxyType({"fast": 0.3, "standard": 1.0, "exact": 6.0})
+"""How long each tier of the layout takes, of the standard one."""
+
+_PROOF: Final = 3.0
+"""How long the proof of all steps takes, of all the rest."""
+
+
+def _faces_and_volume(mesh: TriangleMesh, scale: float) -> tuple[float, float, float]:
+    """Return how many faces of unit bricks lie in flat and in other surfaces, and the unit bricks of the volume."""
+    a, b, c = (mesh.vertices[corner] - mesh.vertices[mesh.faces[0, 0]] for corner in mesh.faces.T)
+    normal = np.cross(b - a, c - a)
+    across = np.abs(normal)
+    flat = across.max(axis=1) ** 2 >= _FLAT**2 * np.einsum("ij,ij->i", normal, normal)
+    sums = across @ (scale**2 / 2 / _FACE)
+    volume = abs(float(np.einsum("ij,ij->", a, normal))) / 6 * scale**3
+    return float(sums[flat].sum()), float(sums[~flat].sum()), volume / (STUD * STUD * BRICK)
+
+
+def _stages(build: _Features, settings: Settings) -> dict[str, float]:
+    """Return the CPU seconds of the stages that there will be."""
+    seconds = {name: cost.of(build) for name, cost in _SECONDS.items()}
+    seconds["layout"] *= _TIERS[settings.layout]
+    if settings.prove_steps:
+        seconds["proof"] = _PROOF * sum(seconds.values())
+    return seconds
