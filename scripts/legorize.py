@@ -50,6 +50,7 @@ try:
     from legorize_addon.heat_map import show_heat_map
     from legorize_addon.read_mesh import read_rendered
     from legorize_addon.reading.importers import load
+    from legorize_addon.reading.quiet import quiet
     from legorize_addon.render import AZIMUTH, View, render_still
     from legorize_addon.result import show_result
     from legorize_addon.section import AXES, Section
@@ -262,7 +263,7 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
     with Line(sys.stdout) as line, ExitStack() as stack:
         with timed(seconds, "import", line):
             objects, left_out = load(taken.source, frame=taken.frame, names=taken.object)
-        with timed(seconds, "read", line):
+        with timed(seconds, "read", line), quiet():
             mesh, remarks = read_rendered(objects, bpy.context)
         folder = stack.enter_context(new_folder(out))
         # in builds: measured without a proof at 48 to 192 studs, guessed for the proof and the pictures

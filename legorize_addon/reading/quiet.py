@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import faulthandler
 import io
 import os
@@ -22,8 +23,7 @@ def quiet() -> Iterator[None]:
     Exceptions pass. Should a library end the process by a signal, the signal and
     the place in Python still go to standard error.
     """
-    sys.stdout.flush()
-    sys.stderr.flush()
+    _flush()
     with ExitStack() as stack:
         kept = [os.dup(stream) for stream in _STREAMS]
         for number in kept:
@@ -32,6 +32,8 @@ def quiet() -> Iterator[None]:
         for stream, number in zip(_STREAMS, kept, strict=True):
             os.dup2(hidden.fileno(), stream)
             stack.callback(os.dup2, number, stream)
+        # what libraries have printed leaves their buffers before the streams are shown again
+        stack.callback(_flush)
         if not faulthandler.is_enabled():
             faulthandler.enable(file=kept[1], all_threads=False)
             stack.callback(faulthandler.disable)
@@ -39,3 +41,10 @@ def quiet() -> Iterator[None]:
         stack.enter_context(redirect_stdout(io.StringIO()))
         stack.enter_context(redirect_stderr(io.StringIO()))
         yield
+
+
+def _flush() -> None:
+    """Empty the buffers of Python and those of C, in which a library's lines may wait until the program ends."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    ctypes.CDLL("ucrtbase" if os.name == "nt" else None).fflush(None)

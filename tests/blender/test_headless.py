@@ -622,8 +622,10 @@ def test_bug_keeps_its_traceback(tmp_path: Path) -> None:
 def run_process(argv: list[str], patch: str = "") -> subprocess.CompletedProcess[str]:
     """Run the script under the given command line in a process of its own."""
     code = f"import runpy, sys; {patch} sys.argv = {argv!r}; runpy.run_path({str(SCRIPT)!r}, run_name='__main__')"
+    # Blender sets it in this process, and says so in another one that finds it
+    env = {key: value for key, value in os.environ.items() if key != "OCIO"}
     return subprocess.run(
-        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=240, check=False
+        [sys.executable, "-c", code], cwd=ROOT, env=env, capture_output=True, text=True, timeout=240, check=False
     )
 
 
