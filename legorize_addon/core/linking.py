@@ -7,6 +7,9 @@ Paper, section "Colour trajectory" (linking of the segments).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
 from typing import Final
 
 import numpy as np
@@ -14,10 +17,17 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from .model import Floats, Ints, Mask
+from .ranges import ranges
 from .slicing import Slices
 
 _GAP: Final = 8.0
 """Open ends this near to each other, in mm, are joined before a chain is closed on itself."""
+
+_SHRINK: Final = 8
+"""A pass over all open ends is worth its while where it joins at least one of so many."""
+
+_ASKED: Final = 8
+"""Nearest places that are asked for at first, and each time all are taken twice as many."""
 
 _DIGIT: Final = 16
 """Bits of a digit: numpy sorts numbers of 16 bits in linear time."""
@@ -120,19 +130,116 @@ def matched_ends(slices: Slices, following: Ints) -> tuple[Ints, Ints]:
 
 def _match_nearest(ends: Floats, starts: Floats, match: Ints) -> None:
     """Join ends and starts that are nearest to each other, again and again until all are too far apart."""
+    places = _Places.of(ends), _Places.of(starts)
+    while (pairs := _nearest_pairs(*places)) is not None:
+        first, second, n_candidates = pairs
+        n_joined = _join(*places, first, second, match)
+        if n_joined * _SHRINK < n_candidates:
+            # few pairs a pass, as where gaps grow one after the other: the rest is taken in the order of distance
+            _match_one_by_one(*places, match)
+            return
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Places:
+    """Points that are all different, and what lies there.
+
+    Attributes
+    ----------
+    point : (k, d) float64 array
+        In the order of the first of their members.
+    member : (n,) int64 array
+        Members, place by place, rising.
+    first, left : (k,) int64 arrays
+        Where the members that are free begin, and how many they are; both change while they are joined.
+    """
+
+    point: Floats
+    member: Ints
+    first: Ints
+    left: Ints
+
+    @classmethod
+    def of(cls, points: Floats) -> _Places:
+        """Group points that are the same."""
+        _, row, place, size = np.unique(points, axis=0, return_index=True, return_inverse=True, return_counts=True)
+        order = np.argsort(row)
+        number = np.empty(len(order), dtype=np.int64)
+        number[order] = np.arange(len(order))
+        size = size[order].astype(np.int64)
+        member = np.argsort(number[place.reshape(-1)], kind="stable")
+        return cls(points[row[order]], member, np.cumsum(size) - size, size)
+
+    def take(self, place: int, size: int) -> Ints:
+        """Return some members of a place, which are free no longer."""
+        first = int(self.first[place])
+        self.first[place] += size
+        self.left[place] -= size
+        return self.member[first : first + size]
+
+
+def _nearest_pairs(ends: _Places, starts: _Places) -> tuple[Ints, Ints, int] | None:
+    """Return pairs of places that are nearest to each other, and how many ends there are near a free start."""
+    end, start = np.flatnonzero(ends.left), np.flatnonzero(starts.left)
+    if len(end) == 0:
+        return None
+    forth, near = cKDTree(starts.point[start]).query(ends.point[end], distance_upper_bound=_GAP)
+    back, _ = cKDTree(ends.point[end]).query(starts.point[start], distance_upper_bound=_GAP)
+    mutual = np.flatnonzero(np.isfinite(forth))
+    n_candidates = int(ends.left[end[mutual]].sum())
+    # by distance, not by number: of several ends equally near to a start the first one takes it
+    mutual = mutual[forth[mutual] == back[near[mutual]]]
+    if len(mutual) == 0:
+        return None
+    second, chosen = np.unique(near[mutual], return_index=True)
+    return end[mutual[chosen]], start[second], n_candidates
+
+
+def _join(ends: _Places, starts: _Places, first: Ints, second: Ints, match: Ints) -> int:
+    """Join the members of pairs of places one to one, as many as both have; return how many that is."""
+    size = np.minimum(ends.left[first], starts.left[second])
+    match[ends.member[ranges(ends.first[first], size)[1]]] = starts.member[ranges(starts.first[second], size)[1]]
+    for places, rows in ((ends, first), (starts, second)):
+        places.first[rows] += size
+        places.left[rows] -= size
+    return int(size.sum())
+
+
+def _match_one_by_one(ends: _Places, starts: _Places, match: Ints) -> None:
+    """Join places as :func:`_match_nearest`, the nearest pair of all first; each end knows the nearest free start."""
+    end, row = np.flatnonzero(ends.left), np.flatnonzero(starts.left)
+    tree = cKDTree(starts.point[row])
+    first = tree.query(ends.point[end], k=np.arange(_ASKED) + 1, distance_upper_bound=_GAP)
+    nearest = {
+        number: _by_distance(tree, row, point, starts.left, *known)
+        for number, point, *known in zip(end.tolist(), ends.point[end], *first, strict=True)
+    }
+    ahead = [(*found, number) for number in nearest if (found := next(nearest[number], None))]
+    heapify(ahead)
+    while ahead:
+        _, start, number = heappop(ahead)
+        if size := int(min(ends.left[number], starts.left[start])):
+            match[ends.take(number, size)] = starts.take(start, size)
+        if ends.left[number] and (found := next(nearest[number], None)):
+            heappush(ahead, (*found, number))
+
+
+def _by_distance(
+    tree: cKDTree, row: Ints, point: Floats, left: Ints, distance: Floats, found: Ints
+) -> Iterator[tuple[float, int]]:
+    """Yield distance and number of the places within the gap that are not taken yet, the nearest first.
+
+    Distance and row in the tree of the first of them are known.
+    """
+    n_known = 0
     while True:
-        open_end, open_start = np.flatnonzero(match < 0), np.flatnonzero(_unmatched(match))
-        if len(open_end) == 0:
+        near = np.flatnonzero(np.isfinite(distance))
+        free = near[left[row[found[near]]] > 0]
+        yield from zip(distance[free].tolist(), row[found[free]].tolist(), strict=True)
+        if len(near) < len(distance):
             return
-        forth, near = cKDTree(starts[open_start]).query(ends[open_end], distance_upper_bound=_GAP)
-        back, _ = cKDTree(ends[open_end]).query(starts[open_start], distance_upper_bound=_GAP)
-        mutual = np.flatnonzero(np.isfinite(forth))
-        # by distance, not by number: of several ends equally near to a start the first one takes it
-        mutual = mutual[forth[mutual] == back[near[mutual]]]
-        if len(mutual) == 0:
-            return
-        start, chosen = np.unique(near[mutual], return_index=True)
-        match[open_end[mutual[chosen]]] = open_start[start]
+        n_known += len(distance)
+        distance, found = tree.query(point, k=np.arange(n_known) + n_known + 1, distance_upper_bound=_GAP)
 
 
 def _unmatched(match: Ints) -> Mask:

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from legorize_addon.core import linking
 from legorize_addon.core.linking import matched_ends, successors
 from legorize_addon.core.mesh import repair
 from legorize_addon.core.slicing import slice_mesh
@@ -207,3 +208,73 @@ def test_torn_meshes_always_close(missing):
     np.testing.assert_array_equal(outline.ends[real], slices.ends(outline.segment[real]))
     same = np.repeat(outline.slice[outline.loop_start[:-1]], np.diff(outline.loop_start))
     np.testing.assert_array_equal(outline.slice, same)
+
+
+# ---------------------------------------------------------- many ends in one place, and in a row
+
+
+def pages(n: int):
+    """Triangles that all share one upright edge, like the pages of a book that stands open."""
+    angle = 2 * np.pi * np.arange(n) / n
+    tips = np.column_stack([40 * np.cos(angle), 40 * np.sin(angle), np.full(n, 20.0)])
+    number = np.arange(n)
+    return mesh_of(
+        np.vstack([[(0, 0, 0), (0, 0, 40)], tips]), np.column_stack([0 * number, 0 * number + 1, number + 2])
+    )
+
+
+def fence(n: int):
+    """Sheets side by side, every other one turned round, with gaps that grow from one to the next."""
+    place = np.cumsum(1 + np.arange(n) / n)
+    return walls(*([(x, 0.0), (x, 40.0)][:: 1 if i % 2 else -1] for i, x in enumerate(60 * place / place[-1])))
+
+
+def seen_points(mesh, monkeypatch) -> int:
+    """Link the middle slice of a mesh; return how many points were put into trees and looked up there."""
+    seen = [0]
+
+    class Tree(linking.cKDTree):
+        def __init__(self, data, *args, **options):
+            seen[0] += len(data)
+            super().__init__(data, *args, **options)
+
+        def query(self, x, k=1, **options):
+            seen[0] += np.atleast_2d(x).shape[0] * (1 if np.isscalar(k) else len(k))
+            return super().query(x, k, **options)
+
+    monkeypatch.setattr(linking, "cKDTree", Tree)
+    slices = slice_mesh(mesh, np.array([0.3]))
+    tail, head = matched_ends(slices, successors(mesh.faces, slices))
+    assert sorted(head.tolist()) == sorted(set(head.tolist()))
+    assert len(tail) >= len(mesh.faces) // 2
+    return seen[0]
+
+
+@pytest.mark.parametrize("made", [pages, fence])
+def test_work_grows_with_the_number_of_ends(made, monkeypatch):
+    """Where ends lie in one place, or gaps grow one after the other, four times the ends take four times the work."""
+    few, many = seen_points(made(200), monkeypatch), seen_points(made(800), monkeypatch)
+    assert many < 6 * few
+    assert many < 60 * 800
+
+
+@given(st.lists(st.tuples(st.integers(0, 6), st.integers(0, 6), st.booleans()), min_size=2, max_size=24))
+def test_nearest_pairs_are_joined_as_if_one_by_one(places):
+    """However many ends lie in one place, the nearest pairs are joined first."""
+    ends, starts = (np.array([(2.3 * x, 3.1 * y) for x, y, end in places if end is kind]) for kind in (True, False))
+    if not len(ends) or not len(starts):
+        return
+    match = np.full(len(ends), -1)
+    linking._match_nearest(ends.reshape(-1, 2), starts.reshape(-1, 2), match)
+    joined_now = match >= 0
+    gaps = np.linalg.norm(ends[joined_now] - starts[match[joined_now]], axis=1)
+    assert len(set(match[joined_now].tolist())) == joined_now.sum()
+    assert (gaps <= 8).all()
+    apart = np.linalg.norm(ends[:, None] - starts[None], axis=2)
+    own = np.full(len(ends), np.inf)
+    own[joined_now] = gaps
+    taken = np.full(len(starts), np.inf)
+    taken[match[joined_now]] = gaps
+    # no end and start are nearer to each other than both are to what they were joined with
+    nearer = (apart < own[:, None] - 1e-9) & (apart < taken[None] - 1e-9) & (apart <= 8)
+    assert not nearer.any()
