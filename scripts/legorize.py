@@ -262,17 +262,17 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
     # before there is a folder to clear away: a crash of an importer leaves nothing behind
     with Line(sys.stdout) as line, ExitStack() as stack:
         with timed(seconds, "import", line):
-            objects, left_out = load(taken.source, frame=taken.frame, names=taken.object)
+            objects, left_out, up = load(taken.source, frame=taken.frame, names=taken.object, up=settings.up)
         with timed(seconds, "read", line), quiet():
             mesh, remarks = read_rendered(objects, bpy.context)
         folder = stack.enter_context(new_folder(out))
         # in builds: measured without a proof at 48 to 192 studs, guessed for the proof and the pictures
         later = {"report": 0.03 + wanted.bound, "files": 0.03, "pictures": float(wanted.any_picture)}
         built = 1 / (1 + sum(later.values()))
-        build = legorize(mesh, settings, part(line, 0.0, built))
+        build = legorize(mesh, replace(settings, up=up), part(line, 0.0, built))
         build = replace(build, notes=(*left_out, *remarks, *build.notes), timings={**seconds, **build.timings})
         rest = Overall(later, part(line, built, 1.0))
-        facts = described(build, rest, with_bound=wanted.bound)
+        facts = described(replace(build, settings=settings), rest, with_bound=wanted.bound)
         with rest.stage("files"), writing(out):
             for name, text in texts(build, load_catalogue(), facts, taken.source.stem).items():
                 (folder / name).parent.mkdir(exist_ok=True)

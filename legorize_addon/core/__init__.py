@@ -3,6 +3,7 @@
 ======================  ====================================================================
 ``mesh``                a triangle mesh at the door: checked, repaired, oriented, scaled
                         (``mesh_repair``, ``mesh_orientation``, ``mesh_topology``)
+``geometry.upright``    which way is up: turning, and how a shape would stand
 ``colours``             dominant colours of the textures -> brick colours that can be bought
                         (``texels``, ``colour_difference``)
 ``grid``                where the cells of 8 x 8 x 9.6 mm lie, and the height of the first layer

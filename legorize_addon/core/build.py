@@ -13,7 +13,7 @@ from .colours import SurfaceColours
 from .connection import Connection
 from .marking import Marks
 from .mesh import Repairs, TriangleMesh
-from .model import Bricks, UnitGrid
+from .model import Bricks, Floats, UnitGrid
 from .overhangs import Offsets
 from .segmentation import Joint
 from .settings import Settings
@@ -58,6 +58,8 @@ class Build:
         What was mended.
     scale : float
         Model mm per world mm.
+    turn : (4, 4) float64 array
+        From world mm to those of the mesh that stands upright, before it is scaled.
     surface : SurfaceColours
         The brick colour of every texel.
     cut : Cut
@@ -93,6 +95,7 @@ class Build:
     mesh: TriangleMesh
     repairs: Repairs
     scale: float
+    turn: Floats
     surface: SurfaceColours
     cut: Cut
     trajectories: Trajectories

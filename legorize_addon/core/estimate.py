@@ -17,6 +17,7 @@ from typing import Final
 
 import numpy as np
 
+from .geometry.upright import turned
 from .grid import ALPHA
 from .mesh import TriangleMesh, checked_vertices
 from .settings import Settings
@@ -92,6 +93,7 @@ def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
     SettingsError
         The mesh has no extent along what shall have the asked size.
     """
+    mesh = turned(mesh, settings.up)
     extent = np.ptp(checked_vertices(mesh), axis=0)
     scale = scale_of_extent(
         extent, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale

@@ -20,6 +20,7 @@ from .connection import Connection, connect
 from .detail import Detail
 from .estimate import AGAIN, estimate
 from .facing import facing_of
+from .geometry.upright import turned_upright
 from .grid import Grid, fit_grid
 from .holding import held_together
 from .hollowing import hollow
@@ -29,7 +30,7 @@ from .layout.straps import strapped
 from .levels import levels_of
 from .marking import Marks, differing_layers
 from .mesh import Repairs, TriangleMesh, repair, scaled
-from .model import Bricks, Mask, UnitGrid
+from .model import Bricks, Floats, Mask, UnitGrid
 from .offset_bricks import with_offset_bricks
 from .overhangs import Offsets
 from .progress import Overall, Progress, silent
@@ -76,7 +77,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
 
     with stage("mesh"):
         mesh, repairs = repair(mesh)
-        mesh, scale = _sized(mesh, settings)
+        mesh, scale, turn = _sized(mesh, settings)
     with stage("colours"):
         surface = _surface(mesh, settings, palette, catalogue, rng)
     with stage("slicing"):
@@ -105,7 +106,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
         with stage("proof"):
             proof = prove_steps(supports.moves, supports.bricks, catalogue, hold=settings.hold, progress=overall)
     overall.finish()
-    made = (mesh, repairs, scale, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
+    made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
     notes = _notes(repairs, found, supports, proof, catalogue)
     return Build(settings, *made, supports, joints, proof, notes, timings)
 
@@ -126,14 +127,15 @@ def _in_plates(settings: Settings) -> bool:
     return settings.plates != "none"
 
 
-def _sized(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, float]:
-    """Return the mesh in the size of the model, and the scale."""
+def _sized(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, float, Floats]:
+    """Return the mesh upright in the size of the model, the scale, and the turn before it."""
+    mesh, turn = turned_upright(mesh, settings.up)
     scale = model_scale(
         mesh, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale
     )
     mesh = scaled(mesh, scale)
     check_size(mesh, plates=_in_plates(settings))
-    return mesh, scale
+    return mesh, scale, turn
 
 
 def _surface(

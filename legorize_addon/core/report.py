@@ -15,7 +15,7 @@ from .coverage import cut_at_grid
 from .joints import brick_columns
 from .layout import bound
 from .ldraw import ldraw_matrix
-from .model import SUPPORTS, Cover, Mask, Role, UnitGrid
+from .model import SUPPORTS, Cover, Floats, Mask, Role, UnitGrid
 from .overhangs import Offsets, OverhangKind, overhang_kinds
 from .pass_through import corner_windings, pass_through_types
 from .progress import Progress, silent
@@ -83,7 +83,7 @@ def report(
         "seed": build.settings.seed,
         "settings": asdict(build.settings),
         "input": _input(build),
-        "mesh_to_ldraw": ldraw_matrix(build.grid.origin, build.scale, mm_per_unit).tolist(),
+        "mesh_to_ldraw": _mesh_to_ldraw(build, mm_per_unit).tolist(),
         "scale": build.scale,
         "grid": _grid(build.grid),
         "pass_through": _pass_through(build),
@@ -121,6 +121,12 @@ def _input(build: Build) -> dict[str, Any]:
         "watertight": repairs.pop("watertight"),
         "repairs": repairs,
     }
+
+
+def _mesh_to_ldraw(build: Build, mm_per_unit: float) -> Floats:
+    turn = build.turn.copy()
+    turn[:3, 3] /= mm_per_unit
+    return ldraw_matrix(build.grid.origin, build.scale, mm_per_unit) @ turn
 
 
 def _grid(grid: UnitGrid) -> dict[str, int]:

@@ -51,6 +51,9 @@ class Settings:
     scale: float = setting(
         10.0, "Scale factor k of the paper: 10 keeps the object's own size, 5 halves it (section 3).",
         group="Size", low=1e-4, high=1e6)
+    up: Literal["auto", "x", "y", "z"] = setting(
+        "auto", "Axis of the object that points up; auto keeps what stands in Blender, and goes by the shape in files "
+        "that do not say (.obj, .ply, .stl).", group="Size")
 
     colours: int = setting(
         256, "Most dominant colours to look for in the textures; those alike become one brick colour (Algorithm 1).",

@@ -16,6 +16,7 @@ from .at_rest import ANIMATED, fbx_is_animated, without_animation
 from .gltf_importer import readable_extensions
 from .quiet import quiet
 from .shown import has_surface
+from .standing import AXES, stand
 
 GLTF: Final = (".glb", ".gltf")
 SHAPELESS: Final = ("CAMERA", "LIGHT", "LIGHT_PROBE", "SPEAKER")
@@ -33,13 +34,16 @@ class Loaded(NamedTuple):
         Those that renders of the view layer may show, or the chosen ones of them.
     remarks : tuple of str
         What was left out or changed, one sentence each.
+    up : {"auto", "x", "y", "z"}
+        The axis along which the core has to turn them still: that of the scene of a .blend, which stays as it is.
     """
 
     objects: list[bpy.types.Object]
     remarks: tuple[str, ...]
+    up: str
 
 
-def load(source: Path, *, frame: int | None = None, names: Sequence[str] = ()) -> Loaded:
+def load(source: Path, *, frame: int | None = None, names: Sequence[str] = (), up: str = "auto") -> Loaded:
     """Open or import a file into an empty Blender.
 
     An imported model is at rest: objects, bones and shape keys are as they are
@@ -54,6 +58,9 @@ def load(source: Path, *, frame: int | None = None, names: Sequence[str] = ()) -
         Frame, as Blender counts, whose pose is taken instead.
     names : sequence of str, optional
         Objects to take; one without a surface stands for what is parented to it. All if there are no names.
+    up : {"auto", "x", "y", "z"}, optional
+        The axis of the file that points up, for .fbx and .blend that of Blender. In the first case .obj, .ply and .stl
+        files are turned if their shape clearly says so, and others not at all.
 
     Returns
     -------
@@ -78,9 +85,13 @@ def load(source: Path, *, frame: int | None = None, names: Sequence[str] = ()) -
     # else the bricks would be legorized, as they have hidden what they were made of
     for build in list(builds(bpy.context.scene)):
         clear_build(bpy.context.scene, build)
-    remark = f"The animation in {source.name} was left out: --frame takes the pose of a frame."
-    objects = list(rendered(bpy.context.view_layer.layer_collection))
-    return Loaded(_chosen(objects, names), (*losses, remark) if animated else losses)
+    objects = _chosen(list(rendered(bpy.context.view_layer.layer_collection)), names)
+    remarks = list(losses)
+    if animated:
+        remarks.append(f"The animation in {source.name} was left out: --frame takes the pose of a frame.")
+    if kind in AXES:
+        remarks += stand(objects, source.name, usual=AXES[kind], up=up, by_shape=kind not in ANIMATED)
+    return Loaded(objects, tuple(remarks), "auto" if kind in AXES else up)
 
 
 def _import_at_rest(source: Path, kind: str) -> bool:

@@ -135,6 +135,38 @@ def test_every_kind_of_file(kind: str, script: ModuleType, tmp_path: Path) -> No
         assert place.min(axis=0).tolist() == [2, 1, 2 * 3]
 
 
+@pytest.mark.parametrize("up", ["auto", "x", "y", "z"])
+def test_up_is_told_and_in_the_matrix(up: str, script: ModuleType, tmp_path: Path) -> None:
+    """The axis of a .blend that points up is that of the model; the report says which, and how the mesh was turned."""
+    add_box((32, 16, 48), centre=(7, 8, 9))
+    bpy.context.scene.unit_settings.scale_length = 0.001
+    source = save(tmp_path / "box.blend")
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--scale", "10", "--up", up]) == 0
+    facts = report(tmp_path / "out")
+    assert facts["settings"]["up"] == up
+    assert facts["grid"] == {
+        "x": {"x": 6, "y": 4}.get(up, 4), "y": {"y": 6}.get(up, 2), "layers": {"x": 4, "y": 2}.get(up, 5)
+    }  # fmt: skip
+    corners = [np.add((7, 8, 9), np.multiply(side, (16, 8, 24))) for side in ((-1, -1, -1), (1, 1, 1))]
+    low, high = (np.array(facts["mesh_to_ldraw"]) @ (*corner, 1) for corner in corners)
+    size = {"x": (48, 16, 32), "y": (32, 48, 16)}.get(up, (32, 16, 48))
+    # x to x, z to -y, y to z; 20 LDU a stud of 8 mm
+    np.testing.assert_allclose(np.abs(high - low)[:3], np.array(size)[[0, 2, 1]] * 2.5)
+
+
+def test_lying_files_stand(script: ModuleType, tmp_path: Path) -> None:
+    """A table whose file lies stands on its legs; the report says that it was turned."""
+    add_box((1.4, 1.4, 0.2), centre=(0, 0, 1.9))
+    for x, y in ((-0.5, -0.5), (-0.5, 0.5), (0.5, -0.5), (0.5, 0.5)):
+        add_box((0.2, 0.2, 1.8), centre=(x, y, 0.9))
+    path = tmp_path / "table.stl"
+    bpy.ops.wm.stl_export(filepath=str(path), up_axis="Y", forward_axis="NEGATIVE_Z")
+    assert script.main([str(path), "--out", str(tmp_path / "out"), "--height", "10"]) in (0, 2)
+    facts = report(tmp_path / "out")
+    assert facts["grid"]["x"] == facts["grid"]["y"] < 10
+    assert [note for note in facts["notes"] if "turned to stand on its base, with its y axis up" in note]
+
+
 def test_matrix_leads_from_the_mesh_to_the_bricks(script: ModuleType, tmp_path: Path) -> None:
     """The report's matrix takes the box's corners to the corners of the model, also under another unit scale."""
     bpy.context.scene.unit_settings.scale_length = 0.01

@@ -45,7 +45,7 @@ def save(path: Path) -> Path:
 
 def heights(source: Path, **options: object) -> tuple[list[float], tuple[str, ...]]:
     """Return the lowest and highest z that is read of a file, in units, and the remarks."""
-    objects, remarks = load(source, **options)
+    objects, remarks, _ = load(source, **options)
     mesh, more = read_rendered(objects, bpy.context)
     z = mesh.vertices[:, 2] / 1000
     return [round(float(z.min()), 3), round(float(z.max()), 3)], (*remarks, *more)
@@ -193,6 +193,87 @@ def test_blend_with_tracks_drivers_and_constraints(tmp_path: Path) -> None:
     held.constraints.new("COPY_LOCATION").target = lid
     bpy.context.scene.frame_set(35)
     assert heights(save(tmp_path / "scene.blend")) == ([11.5, 12.5], ())
+
+
+def stool() -> bpy.types.Object:
+    """Add a stool 2 units high: a round seat of 1.4 units on three legs that stand closer, in one object."""
+    legs = [((0.5 * np.cos(i), 0.5 * np.sin(i), 0.9), (0.1, 0.1, 0.9)) for i in (0, 2, 4)]
+    for place, size in [((0, 0, 1.9), (0.7, 0.7, 0.1)), *legs]:
+        bpy.ops.mesh.primitive_cylinder_add(location=place, scale=size)
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.join()
+    bpy.ops.object.transform_apply()
+    return bpy.context.object
+
+
+def stands(source: Path, **options: object) -> bool:
+    """Return whether the stool in a file is read on its legs."""
+    objects, _, _ = load(source, **options)
+    vertices = read_rendered(objects, bpy.context)[0].vertices / 1000
+    high = vertices[vertices[:, 2] > vertices[:, 2].max() - 0.1]
+    return np.ptp(vertices[:, 2]) > 1.9 and np.ptp(high[:, 0]) > 1.3
+
+
+EXPORTERS = {".obj": "obj_export", ".ply": "ply_export", ".stl": "stl_export"}
+FORWARD = {"Y": "NEGATIVE_Z", "Z": "Y", "X": "Y"}
+
+
+def save_along(path: Path, axis: str) -> Path:
+    """Write the scene so that an axis of the file points up."""
+    export = getattr(bpy.ops.wm, EXPORTERS[path.suffix])
+    export(filepath=str(path), up_axis=axis, forward_axis=FORWARD[axis])
+    return path
+
+
+@pytest.mark.parametrize("kind", EXPORTERS)
+@pytest.mark.parametrize("axis", ["Y", "Z"])
+def test_shapes_stand_by_themselves(kind: str, axis: str, tmp_path: Path) -> None:
+    """A stool stands on its legs whichever way its file lies; where it was turned one remark says so."""
+    stool()
+    source = save_along(tmp_path / f"stool{kind}", axis)
+    assert stands(source)
+    found, remarks = heights(source)
+    assert found == pytest.approx([0, 2], abs=1e-4)
+    usual = "y" if kind == ".obj" else "z"
+    turned = f"stool{kind} was turned to stand on its base, with its {axis.lower()} axis up"
+    said = f"{turned}: --up {usual} leaves it as it was."
+    assert remarks == (() if axis.lower() == usual else (said,))
+
+
+@pytest.mark.parametrize("kind", EXPORTERS)
+@pytest.mark.parametrize("axis", "XYZ")
+@pytest.mark.parametrize("asked", "xyz")
+def test_axis_that_is_asked_for_points_up(kind: str, axis: str, asked: str, tmp_path: Path) -> None:
+    """The axis of the file that is named points up, whatever the shape says, and without a remark."""
+    stool()
+    source = save_along(tmp_path / f"stool{kind}", axis)
+    assert stands(source, up=asked) == (axis.lower() == asked)
+    assert heights(source, up=asked)[1] == ()
+
+
+@pytest.mark.parametrize("kind", EXPORTERS)
+@pytest.mark.parametrize("axis", ["Y", "Z"])
+def test_doubtful_shapes_keep_the_usual_axis(kind: str, axis: str, tmp_path: Path) -> None:
+    """A box could stand on all its sides: the importer's usual axis stays, without a remark."""
+    box("base", 0.5)
+    found, remarks = heights(save_along(tmp_path / f"box{kind}", axis))
+    usual = "Y" if kind == ".obj" else "Z"
+    assert (found[1] - found[0], remarks) == (pytest.approx(1 if axis == usual else 2), ())
+
+
+@pytest.mark.parametrize("kind", [".glb", ".fbx", ".blend"])
+@pytest.mark.parametrize("frame", [None, 1])
+def test_kinds_with_an_axis_keep_it(kind: str, frame: int | None, tmp_path: Path) -> None:
+    """A stool that lies in a file with an axis of its own stays lying, unless another axis is asked for."""
+    lying = stool()
+    # up in Blender along y, or along -y, which is z in a .glb
+    lying.rotation_euler.x = np.pi / 2 if kind == ".glb" else -np.pi / 2
+    lying.keyframe_insert("rotation_euler", frame=1)
+    bpy.context.scene.frame_set(1)
+    source, asked = save(tmp_path / f"stool{kind}"), "z" if kind == ".glb" else "y"
+    assert not stands(source, frame=frame)
+    assert stands(source, frame=frame, up=asked) == (kind != ".blend")
+    assert load(source, frame=frame, up=asked).up == ("y" if kind == ".blend" else "auto")
 
 
 def test_still_kinds_have_no_frames(tmp_path: Path) -> None:

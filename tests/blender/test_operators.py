@@ -93,6 +93,19 @@ def test_scale_of_the_scene_counts(box) -> None:
     np.testing.assert_allclose(corners()[:, 0], [-60, 60], atol=0.2)
 
 
+@pytest.mark.parametrize(("up", "size"), [("auto", (2, 1, 3)), ("y", (2, 3, 1)), ("x", (3, 1, 2))])
+def test_axis_that_points_up(box, up: str, size: tuple[float, float, float]) -> None:
+    """The model stands as the object is seen; with an axis chosen it is turned, on the same ground and middle."""
+    box.scale, box.location = (1, 1, 3), (10, -5, 1.5)
+    settings = bpy.context.scene.legorize.settings
+    settings.size_by, settings.scale, settings.up = "scale", 10 * 6 * STUD / 1000, up
+    bpy.ops.legorize.build()
+    low, high = corners()
+    stud = 1 / 6
+    np.testing.assert_allclose(high - low, size, atol=1.2 * stud)
+    np.testing.assert_allclose([*(low + high)[:2] / 2, low[2]], (10, -5, 0), atol=0.6 * stud)
+
+
 def test_again_takes_its_place(box) -> None:
     """With the model selected, and with nothing selected, the button builds the same source once more."""
     bpy.ops.legorize.build()

@@ -38,6 +38,13 @@ def test_size_is_that_of_the_settings():
     assert by_height.cm[2] == pytest.approx(9.6)
 
 
+def test_size_is_that_of_the_turned_mesh():
+    """Of a box of 30 x 20 x 25 the axis that points up gives the height."""
+    for up, cm in (("x", (25, 20, 30)), ("y", (30, 25, 20)), ("z", (30, 20, 25)), ("auto", (30, 20, 25))):
+        found = estimate(MESHES["box"], Settings(size_by="height", height=10, up=up))
+        assert found.cm == pytest.approx(np.array(cm) * 9.6 / cm[2])
+
+
 def test_everything_grows_with_the_size():
     """Twice the width is more of everything, and about four times the bricks."""
     small, large = (estimate(MESHES["ball"], Settings(width=width)) for width in (48, 96))

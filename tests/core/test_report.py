@@ -74,6 +74,7 @@ def build_of(rows):
         mesh=mesh,
         repairs=Repairs(**{entry.name: 0 for entry in fields(Repairs)} | {"watertight": True}),
         scale=0.5,
+        turn=np.eye(4),
         trajectories=cut.trajectories,
         cut=Cut(slices=slices, layer=np.array([0, 1], np.int32), plate=np.ones(2, np.int8), marks=None),
         offsets=offsets_of(grid_of(solid), plates=False),
@@ -152,6 +153,16 @@ def test_matrix_belongs_to_grid_scale_and_units(described):
     """The corner of the grid, taken back to scene units, is the origin of the LDraw file."""
     corner = np.array([-8.0, 16.0, 3.2]) / 0.5 / 1000.0
     np.testing.assert_allclose(np.array(described["mesh_to_ldraw"]) @ [*corner, 1], [0, 0, 0, 1], atol=1e-12)
+
+
+def test_matrix_turns_as_the_mesh_was_turned():
+    """Of a mesh that was turned about its foot the matrix begins with that turn, in units of the scene."""
+    build = build_of([("3001", 1, 1, 0, 4, Role.SHELL)])
+    build.turn = np.array([[1, 0, 0, 50], [0, 0, -1, 60], [0, 1, 0, 70], [0, 0, 0, 1]], dtype=float)
+    turned = np.array(report(build, CATALOGUE, version="", mm_per_unit=10.0)["mesh_to_ldraw"])
+    build.turn = np.eye(4)
+    plain = np.array(report(build, CATALOGUE, version="", mm_per_unit=10.0)["mesh_to_ldraw"])
+    np.testing.assert_allclose(turned @ [1, 2, 3, 1], plain @ [1 + 5, -3 + 6, 2 + 7, 1])
 
 
 def described_grid(grid, **changes):
