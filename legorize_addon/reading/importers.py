@@ -10,10 +10,11 @@ from typing import Any, Final, NamedTuple
 import bpy
 
 from ..core.errors import MeshError, SettingsError
-from ..core.files.sources import check_source
+from ..core.files.sources import check_source, unchanged
 from ..scene import builds, clear_build
 from .at_rest import ANIMATED, fbx_is_animated, without_animation
 from .gltf_importer import readable_extensions
+from .losses import told_losses
 from .quiet import quiet
 from .shown import has_surface
 from .standing import AXES, stand
@@ -72,54 +73,65 @@ def load(source: Path, *, frame: int | None = None, names: Sequence[str] = (), u
         The file cannot be read, or has no object of a name.
     """
     kind = source.suffix.lower()
-    losses = check_source(source, readable_extensions() if kind in GLTF else ())
-    if frame is not None and kind not in (".blend", *ANIMATED):
+    if frame is not None and kind in importers() and kind not in (".blend", *ANIMATED):
         raise SettingsError(f"{kind} files hold no animation: leave --frame out.")
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    at_rest = frame is None and kind in ANIMATED
-    animated = at_rest and _import_at_rest(source, kind)
-    if not at_rest:
-        _run(source, kind, source)
+    with unchanged(source):
+        losses = check_source(source, readable_extensions() if kind in GLTF else ())
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        at_rest = frame is None and kind in ANIMATED
+        losses += _import_at_rest(source, kind) if at_rest else _run(source, kind, source)
     if frame is not None:
         bpy.context.scene.frame_set(frame)
     # else the bricks would be legorized, as they have hidden what they were made of
     for build in list(builds(bpy.context.scene)):
         clear_build(bpy.context.scene, build)
     objects = _chosen(list(rendered(bpy.context.view_layer.layer_collection)), names)
-    remarks = list(losses)
-    if animated:
-        remarks.append(f"The animation in {source.name} was left out: --frame takes the pose of a frame.")
+    if kind == ".blend" and losses and not any(map(_may_show, objects)):
+        raise MeshError(losses[-1])
     if kind in AXES:
-        remarks += stand(objects, source.name, usual=AXES[kind], up=up, by_shape=kind not in ANIMATED)
-    return Loaded(objects, tuple(remarks), "auto" if kind in AXES else up)
+        losses += tuple(stand(objects, source.name, usual=AXES[kind], up=up, by_shape=kind not in ANIMATED))
+    return Loaded(objects, losses, "auto" if kind in AXES else up)
 
 
-def _import_at_rest(source: Path, kind: str) -> bool:
-    """Import a file without its animation; return whether it has any."""
+def _may_show(obj: bpy.types.Object) -> bool:
+    group = obj.instance_collection
+    return has_surface(obj) or (group is not None and not group.is_missing)
+
+
+def _import_at_rest(source: Path, kind: str) -> tuple[str, ...]:
+    """Import a file without its animation; return remarks on that and on other losses."""
     if kind == ".fbx":
-        _run(source, kind, source, use_anim=False)
+        losses = _run(source, kind, source, use_anim=False)
         animated = fbx_is_animated(source)
     else:
         with tempfile.TemporaryDirectory(prefix="legorize-") as folder:
             copy = without_animation(source, Path(folder))
-            _run(source, kind, copy or source)
+            losses = _run(source, kind, copy or source)
         animated = copy is not None
     for armature in bpy.data.armatures:
         armature.pose_position = "REST"
-    return animated
+    remark = f"The animation in {source.name} was left out: --frame takes the pose of a frame."
+    return (*losses, remark) if animated else losses
 
 
-def _run(source: Path, kind: str, path: Path, **more: Any) -> None:
-    """Run Blender's own operator for a file, or for a copy of it."""
+def _run(source: Path, kind: str, path: Path, **more: Any) -> tuple[str, ...]:
+    """Run Blender's own operator for a file, or for a copy of it; return remarks on what it passes over."""
     operator, options = importers()[kind]
     try:
-        with quiet():
+        with quiet() as said:
             operator(filepath=str(path.resolve()), **options, **more)
     except RuntimeError as error:
-        # an importer in Python hands on its traceback
-        lines = [line for line in str(error).strip().splitlines() if not line.startswith("Location:")]
-        reason = lines[-1].removeprefix("Error: ").rstrip(".")
-        raise MeshError(f"{source.name} cannot be read as {kind} ({reason}): export it again.") from error
+        raise MeshError(f"{source.name} cannot be read as {kind} ({_reason(path, error)}): export it again.") from error
+    return told_losses(source, bytes(said))
+
+
+def _reason(path: Path, error: RuntimeError) -> str:
+    """Return what an importer says of its failure, without places on this disk or in its code."""
+    text = str(error).strip()
+    lines = [line for line in text.splitlines() if not line.startswith("Location:")]
+    reason = lines[-1].removeprefix("Error: ").replace(str(path.resolve()), path.name).rstrip(".")
+    # an importer in Python hands on its traceback
+    return f"the importer has failed with {reason}" if "Traceback" in text else reason
 
 
 def _chosen(objects: list[bpy.types.Object], names: Sequence[str]) -> list[bpy.types.Object]:

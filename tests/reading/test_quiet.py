@@ -48,6 +48,13 @@ def test_nothing_is_printed_by_python_or_below_it() -> None:
     assert done.stderr.split() == ["error"]
 
 
+def test_what_was_printed_can_be_looked_at() -> None:
+    """Lines of libraries are there at the end."""
+    with quiet() as said:
+        os.write(2, b"ignoring face\n")
+    assert bytes(said) == b"ignoring face\n"
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals as exit status")
 def test_crash_keeps_its_cause() -> None:
     """A process that a library aborts says so, and where."""

@@ -10,6 +10,6 @@ Nothing here needs Blender.
 
 from __future__ import annotations
 
-from .preflight import check_source
+from .preflight import check_source, unchanged
 
-__all__ = ["check_source"]
+__all__ = ["check_source", "unchanged"]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
@@ -65,3 +66,21 @@ def _check_file(source: Path) -> None:
         raise MeshError(f"The name of {str(source)!a} is not UTF-8, which Blender needs: rename it.") from error
     if source.stat().st_size == 0:
         raise MeshError(f"{source.name} is empty: export it again.")
+
+
+@contextmanager
+def unchanged(source: Path) -> Iterator[None]:
+    """Refuse a file that is written to while it is read, such as one that is still being copied."""
+    before = _state(source)
+    yield
+    if _state(source) != before:
+        raise MeshError(f"{source.name} has changed while it was read: wait until it is complete.")
+
+
+def _state(source: Path) -> tuple[int, int] | None:
+    """Return the length of a file and when it was last written to; None if it is not there."""
+    try:
+        found = source.stat()
+    except OSError:
+        return None
+    return found.st_size, found.st_mtime_ns

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from legorize_addon.core.files.sources import check_source
+from legorize_addon.core.errors import MeshError
+from legorize_addon.core.files.sources import check_source, unchanged
 from tests.core.files.sources.written import TRIANGLES, box_data, box_document, glb, obj, ply, refusal, stl
 
 FACES = TRIANGLES.tolist()
@@ -79,3 +80,15 @@ def test_name_that_is_no_text(tmp_path: Path) -> None:
     except OSError:
         pytest.skip("this disk takes no such name")
     assert "UTF-8" in refusal(Path(name))
+
+
+def test_file_that_grows(tmp_path: Path) -> None:
+    """A file that is written to while it is read is refused; one that is only looked at is not."""
+    path = tmp_path / "box.obj"
+    path.write_bytes(WHOLE[".obj"])
+    with unchanged(path):
+        path.read_bytes()
+    with pytest.raises(MeshError, match="has changed while it was read"), unchanged(path):
+        path.write_bytes(WHOLE[".obj"] * 2)
+    with pytest.raises(MeshError, match="has changed while it was read"), unchanged(path):
+        path.unlink()
