@@ -17,7 +17,7 @@ from .core.units import MM_PER_METRE
 from .properties import current_build, label, settings_of
 from .reading.shown import has_surface
 from .result import show_result
-from .scene import BUILD_KEY, OWN_KEY, builds_of, clear_build, sources_of
+from .scene import BUILD_KEY, OWN_KEY, builds, builds_of, clear_build, show_sources, sources_of
 from .view import readable
 
 if TYPE_CHECKING:
@@ -308,18 +308,29 @@ def _stop_jobs(*arguments: Any) -> None:
     job.stop()
 
 
+@persistent
+def _hide_linked_sources(*arguments: Any) -> None:
+    """Hide the sources of builds again that belong to other files: this one cannot keep that they are hidden."""
+    for scene in bpy.data.scenes:
+        for build in builds(scene):
+            if not (scene.legorize.show_sources and build == current_build(scene)):
+                show_sources(build, visible=False, linked_only=True)
+
+
 classes = (LEGORIZE_OT_build, LEGORIZE_OT_clear)
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
 
 
 def register() -> None:
-    """Register the operators and what stops jobs when another file is opened."""
+    """Register the operators, what stops jobs when another file is opened, and what hides its linked sources."""
     _register_classes()
     bpy.app.handlers.load_pre.append(_stop_jobs)
+    bpy.app.handlers.load_post.append(_hide_linked_sources)
 
 
 def unregister() -> None:
     """Undo :func:`register`, after stopping what runs."""
     job.stop()
+    bpy.app.handlers.load_post.remove(_hide_linked_sources)
     bpy.app.handlers.load_pre.remove(_stop_jobs)
     _unregister_classes()

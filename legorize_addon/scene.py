@@ -218,10 +218,11 @@ def point_objects(build: bpy.types.Collection) -> list[bpy.types.Object]:
     return [thing for thing in build.all_objects if OWN_KEY in thing and thing.type == "MESH"]
 
 
-def show_sources(build: bpy.types.Collection, *, visible: bool) -> None:
-    """Show or hide the source objects of a build, in the viewport and in renders."""
+def show_sources(build: bpy.types.Collection, *, visible: bool, linked_only: bool = False) -> None:
+    """Show or hide the source objects of a build, or only those of other files, in the viewport and in renders."""
     for source in sources_of(build):
-        source.hide_viewport = source.hide_render = not visible
+        if source.library is not None or not linked_only:
+            source.hide_viewport = source.hide_render = not visible
 
 
 def _add_root(build: bpy.types.Collection, origin: Floats, unit_per_mm: float) -> bpy.types.Object:

@@ -82,9 +82,10 @@ def load(source: Path, *, frame: int | None = None, names: Sequence[str] = (), u
         losses += _import_at_rest(source, kind) if at_rest else _run(source, kind, source)
     if frame is not None:
         bpy.context.scene.frame_set(frame)
-    # else the bricks would be legorized, as they have hidden what they were made of
-    for build in list(builds(bpy.context.scene)):
-        clear_build(bpy.context.scene, build)
+    # else the bricks would be legorized, as they have hidden what they were made of, which other scenes may show too
+    for scene in bpy.data.scenes:
+        for build in builds(scene):
+            clear_build(scene, build)
     objects = _chosen(list(rendered(bpy.context.view_layer.layer_collection)), names)
     if kind == ".blend" and losses and not any(map(_may_show, objects)):
         raise MeshError(losses[-1])

@@ -391,6 +391,20 @@ def test_saved_scene_can_be_legorized_again(script: ModuleType, tmp_path: Path) 
     assert models[0] == models[1]
 
 
+def test_object_built_in_another_scene(script: ModuleType, tmp_path: Path) -> None:
+    """An object that a build in another scene hides is legorized in its own scene."""
+    add_box(BOX).name = "box"
+    source = save(tmp_path / "box.blend")
+    assert script.main([str(source), "--out", str(tmp_path / "first"), "--width", "4", "--save-blend"]) == 0
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "first" / "build.blend"))
+    other = bpy.data.scenes.new("other")
+    other.collection.objects.link(bpy.data.objects["box"])
+    bpy.context.window.scene = other
+    source = save(tmp_path / "two.blend")
+    assert script.main([str(source), "--out", str(tmp_path / "second"), "--width", "4"]) == 0
+    assert report(tmp_path / "second")["grid"] == report(tmp_path / "first")["grid"]
+
+
 def test_failed_check_is_a_two(script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Of two boxes with a gap between them the upper floats: all is written, the report and stderr say so."""
     add_box((1, 1, 1))

@@ -440,6 +440,23 @@ def test_both_twins_are_one_model(twins) -> None:
     assert all(twin.hide_viewport for twin in twins)
 
 
+@pytest.mark.parametrize("shown", [True, False])
+def test_linked_sources_stay_hidden_in_a_saved_file(twins, shown: bool, tmp_path) -> None:
+    """A file cannot keep that an object of another file is hidden: it is hidden again when the file is opened."""
+    twins[0].select_set(False)
+    twins[1].select_set(True)
+    bpy.ops.legorize.build()
+    bpy.context.scene.legorize.show_sources = shown
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
+    [linked] = [thing for thing in bpy.data.objects if thing.library is not None]
+    [local] = [thing for thing in bpy.data.objects if thing.name == linked.name and thing.library is None]
+    assert (linked.hide_viewport, linked.hide_render) == (not shown, not shown)
+    assert not local.hide_viewport
+    bpy.ops.legorize.clear()
+    assert not linked.hide_viewport
+
+
 def while_building(monkeypatch, change) -> None:
     """Let something happen between the reading of objects and the showing of bricks."""
     legorize = pipeline.legorize

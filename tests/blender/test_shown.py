@@ -158,6 +158,30 @@ def test_animated_hiding_counts() -> None:
         assert centres(in_viewport, *objects) == expected
 
 
+@pytest.mark.parametrize("mode", READERS)
+def test_the_current_frame_counts(mode: str) -> None:
+    """Poses of objects, bones and shape keys are those that are seen at the current frame."""
+    obj = cube(0)
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="away")
+    for point in key.data:
+        point.co.x += 10
+    bpy.ops.object.armature_add()
+    rig = bpy.context.object
+    obj.vertex_groups.new(name="Bone").add(range(8), 1.0, "REPLACE")
+    obj.modifiers.new("rig", "ARMATURE").object = rig
+    for frame in (1, 2):
+        for thing, path, value in (
+            (obj, "location", (100 * (frame - 1), 0, 0)), (key, "value", frame - 1),
+            (rig.pose.bones[0], "location", (1000 * (frame - 1), 0, 0)),
+        ):  # fmt: skip
+            setattr(thing, path, value)
+            thing.keyframe_insert(path, frame=frame)
+    for frame, place in ((1, 0), (2, 1110)):
+        bpy.context.scene.frame_set(frame)
+        assert centres(READERS[mode], obj) == [place]
+
+
 def test_objects_of_a_scene_that_renders_may_show() -> None:
     """Listed are the objects of collections that renders show, each once; lights are not among them."""
     twice, hidden = bpy.data.collections.new("twice"), bpy.data.collections.new("hidden")

@@ -36,11 +36,12 @@ _GAIN: Final = 5.0
 """Degrees: what stands less firmly than the first may be turned, to stand by the second at least, and the third more.
 
 Nine models and twenty shapes of boxes, balls, capsules and cones were tried, standing, on their faces and on their
-backs: with these numbers nothing that stood was turned, and all of the models that lay but one, which flies.
+backs: with these numbers nothing that stood was turned, and all of the models that lay but one, which flies. What is
+shaky is a column more than eight times as high as wide.
 """
 
 _FLATTER: Final = 8.0
-"""A picture stands and is not laid down because it lies more firmly: the new height is no less than this part of it."""
+"""Columns and pictures stand shakily and lie firmly: they are not laid down to less than this part of their height."""
 
 _BASE: Final = 0.003
 """Share of the diagonal within which points of the base lie: the soles of a figure, not the curve of its back."""

@@ -72,6 +72,16 @@ def picture() -> trimesh.Trimesh:
     return at(box((1, 0.04, 1.4)), 0, 0, 0.7)
 
 
+def candle() -> trimesh.Trimesh:
+    """Return a square column ten times as high as wide."""
+    return at(box((0.2, 0.2, 2)), 0, 0, 1)
+
+
+def pillar() -> trimesh.Trimesh:
+    """Return a square column six times as high as wide."""
+    return at(box((0.3, 0.3, 1.8)), 0, 0, 0.9)
+
+
 def ball() -> trimesh.Trimesh:
     """Return a ball."""
     return icosphere(radius=1)
@@ -102,6 +112,14 @@ def test_turns_are_rotations_to_z(axis: str) -> None:
 def test_what_lies_is_stood_up(make: Callable[[], trimesh.Trimesh], usual: str, other: str) -> None:
     """What was written along the other axis is told from its base; along the usual one it is left as it is."""
     assert stands_better(*along(make, other), usual, other)
+    assert not stands_better(*along(make, usual), usual, other)
+
+
+@pytest.mark.parametrize("make", [picture, candle, pillar])
+@pytest.mark.parametrize(("usual", "other"), [("y", "z"), ("z", "y")])
+def test_columns_and_pictures_are_not_laid_down(make: Callable[[], trimesh.Trimesh], usual: str, other: str) -> None:
+    """What is high and narrow stands on though it would lie more firmly."""
+    assert steadiness(*along(make, "z")) < steadiness(*along(make, "y"))
     assert not stands_better(*along(make, usual), usual, other)
 
 
