@@ -16,18 +16,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .brick_points import MARGIN, NO_MARGIN
+from .build_state import state_of
+from .builds import check_whole, point_objects
 from .core.catalogue import Part, load_catalogue
 from .core.errors import BuildError
 from .core.model import Floats
 from .core.verdict import UNSUPPORTED
-from .nodes import HEAT_MAP, HEAT_PARTS, bricks_modifier, plastic, set_input
+from .nodes import HEAT_KEY, HEAT_MAP, HEAT_PARTS, bricks_modifier, plastic, set_input
 from .part_meshes import detail_of, parts_collection, parts_in_use
-from .scene import BUILD_KEY, point_objects
+from .shared_parts import own_parts
 
 HEAT: Final = "heat"
-"""Attribute that chooses the instanced object while the map is on; also the key of its parts in the build."""
+"""Attribute that chooses the instanced object while the map is on."""
 
-HEAT_KEY: Final = "legorize_heat"
 LEGEND: Final = (
     "Friction left: green much, yellow half, red none; black: asked for more than it bears; magenta: hangs in the air; "
     "grey: a support, which is not checked"
@@ -65,7 +66,7 @@ def has_margins(build: bpy.types.Collection) -> bool:
 
 def heat_map_shown(build: bpy.types.Collection) -> bool:
     """Tell whether a build shows its heat map."""
-    return HEAT in build[BUILD_KEY]
+    return state_of(build).heat_parts is not None
 
 
 def show_heat_map(build: bpy.types.Collection, *, visible: bool) -> None:
@@ -81,28 +82,32 @@ def show_heat_map(build: bpy.types.Collection, *, visible: bool) -> None:
     Raises
     ------
     BuildError
-        The build does not know what its bricks have left.
+        The build does not know what its bricks have left, or is damaged.
     """
+    check_whole(build)
     if not has_margins(build):
         raise BuildError(f"{build.name!r} has 0 bricks that were checked: legorize the object again.")
-    if visible and not heat_map_shown(build):
+    if visible == heat_map_shown(build):
+        return
+    own_parts(state_of(build), point_objects(build))
+    if visible:
         _switch_on(build)
-    elif not visible and heat_map_shown(build):
+    else:
         _switch_off(build)
 
 
 def _switch_on(build: bpy.types.Collection) -> None:
-    state = build[BUILD_KEY]
-    found = point_objects(build)
+    state, found = state_of(build), point_objects(build)
     part = np.concatenate([_read(points, "part", np.int32) for points in found])
     margin = np.concatenate([_read(points, MARGIN, np.float32) for points in found])
     kinds, row = np.unique(np.stack([part, heat_of(margin)], axis=1), axis=0, return_inverse=True)
     ends = np.cumsum([len(points.data.vertices) for points in found])[:-1]
-    parts = [_part(state["part_numbers"][number]) for number in kinds[:, 0]]
+    numbers = state.part_numbers
+    parts = [_part(numbers[number]) for number in kinds[:, 0]]
     materials = [_material(heat) for heat in kinds[:, 1].tolist()]
-    heat_parts = parts_collection(list(zip(parts, materials, strict=True)), detail_of(state["parts"]), "heat map")
-    state["parts"].children.link(heat_parts)
-    state[HEAT] = heat_parts
+    heat_parts = parts_collection(list(zip(parts, materials, strict=True)), detail_of(state.parts), "heat map")
+    state.parts.children.link(heat_parts)
+    state.heat_parts = heat_parts
     for points, own_row in zip(found, np.split(row.reshape(-1), ends), strict=True):
         used = np.unique(own_row)
         picked = np.searchsorted(used, own_row).astype(np.int32)
@@ -112,11 +117,12 @@ def _switch_on(build: bpy.types.Collection) -> None:
 
 
 def _switch_off(build: bpy.types.Collection) -> None:
-    heat_parts = build[BUILD_KEY][HEAT]
+    state = state_of(build)
+    heat_parts = state.heat_parts
     for points in point_objects(build):
         set_input(bricks_modifier(points), HEAT_MAP, False)
         points.data.attributes.remove(points.data.attributes[HEAT])
-    del build[BUILD_KEY][HEAT]
+    state.heat_parts = None
     variants = list(heat_parts.objects)
     materials = {variant.material_slots[0].material for variant in variants}
     bpy.data.batch_remove([*variants, *heat_parts.children, heat_parts])

@@ -10,15 +10,17 @@ from typing import TYPE_CHECKING, Any, Final
 import bpy
 import numpy as np
 
+from .build_request import chosen_sources, order_of
+from .build_state import state_of
+from .builds import builds_of, is_own, sources_of
 from .core.catalogue import load_catalogue
 from .core.errors import BuildError
 from .core.files.single import write_whole
 from .core.model import Bricks, UnitGrid
 from .core.progress import Progress, part
 from .core.settings import Settings
-from .operators import Reporting, Working, chosen_sources, order_of
+from .operators import Reporting, Working
 from .properties import settings_of
-from .scene import BUILD_KEY, OWN_KEY, builds_of, sources_of
 
 if TYPE_CHECKING:
     from .core.mesh import TriangleMesh
@@ -172,9 +174,9 @@ def own_versions() -> list[int]:
 
 def _lessons(context: bpy.types.Context, settings: Settings) -> Iterator[Lesson]:
     """Yield a lesson for each brick model that is selected, and one for all other objects together."""
-    models = builds_of(context.scene, [thing for thing in context.selected_objects if OWN_KEY in thing])
+    models = builds_of(context.scene, [thing for thing in context.selected_objects if is_own(thing)])
     for model in models:
-        yield _lesson(context, sources_of(model), _known(model[BUILD_KEY]["settings"].to_dict()))
+        yield _lesson(context, sources_of(model), _known(state_of(model).settings))
     of_models = {source for model in models for source in sources_of(model)}
     others = [source for source in chosen_sources(context) if source not in of_models]
     if others:

@@ -27,6 +27,7 @@ TREE_NAME: Final = "Legorize Bricks"
 TREE_KEY: Final = "legorize_tree"
 TREE_VERSION: Final = 4
 MATERIAL_KEY: Final = "legorize_colour"
+HEAT_KEY: Final = "legorize_heat"
 MODIFIER_NAME: Final = "Bricks"
 PARTS: Final = "Parts"
 SECTION: Final = "Section"
@@ -191,10 +192,10 @@ def add_bricks_modifier(target: bpy.types.Object, parts: bpy.types.Collection, s
     set_input(modifier, SECTION, section)
 
 
-def bricks_modifier(target: bpy.types.Object) -> bpy.types.NodesModifier:
-    """Return the modifier that :func:`add_bricks_modifier` added, whatever it is called by now."""
-    modifiers = [modifier for modifier in target.modifiers if modifier.type == "NODES"]
-    return next(modifier for modifier in modifiers if modifier.node_group and TREE_KEY in modifier.node_group)
+def bricks_modifier(target: bpy.types.Object) -> bpy.types.NodesModifier | None:
+    """Return the modifier that :func:`add_bricks_modifier` added, whatever it is called by now; None without it."""
+    modifiers = (modifier for modifier in target.modifiers if modifier.type == "NODES")
+    return next((each for each in modifiers if each.node_group and TREE_KEY in each.node_group), None)
 
 
 def set_input(modifier: bpy.types.NodesModifier, name: str, value: Any) -> None:
@@ -203,13 +204,25 @@ def set_input(modifier: bpy.types.NodesModifier, name: str, value: Any) -> None:
     Blender 5.2 keeps the values behind ``properties.inputs``, earlier versions
     as custom properties of the modifier.
     """
-    sockets = modifier.node_group.interface.items_tree
-    identifier = next(socket.identifier for socket in sockets if socket.name == name and socket.in_out == "INPUT")
+    identifier = _identifier(modifier, name)
     if hasattr(modifier, "properties"):
         getattr(modifier.properties.inputs, identifier).value = value
     else:
         modifier[identifier] = value
     modifier.id_data.update_tag()
+
+
+def get_input(modifier: bpy.types.NodesModifier, name: str) -> Any:
+    """Return an input of a Geometry-Nodes modifier by the name that its tree shows."""
+    identifier = _identifier(modifier, name)
+    if hasattr(modifier, "properties"):
+        return getattr(modifier.properties.inputs, identifier).value
+    return modifier[identifier]
+
+
+def is_brick_material(material: bpy.types.Material) -> bool:
+    """Tell whether a material is one that :func:`plastic` made."""
+    return any(isinstance(material.get(key), int) for key in (MATERIAL_KEY, HEAT_KEY))
 
 
 def colour_material(colour: Colour) -> bpy.types.Material:
@@ -258,6 +271,11 @@ def plastic(name: str, rgb: Sequence[int], key: str, value: int) -> bpy.types.Ma
     shader.inputs["Base Color"].default_value = (red, green, blue, 1.0)
     shader.inputs["Roughness"].default_value = 0.25
     return material
+
+
+def _identifier(modifier: bpy.types.NodesModifier, name: str) -> str:
+    sockets = modifier.node_group.interface.items_tree
+    return str(next(socket.identifier for socket in sockets if socket.name == name and socket.in_out == "INPUT"))
 
 
 def _add_node(

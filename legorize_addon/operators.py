@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 import bpy
 from bpy.app.handlers import persistent
 
 from . import job
+from .build_request import Order, by_uid, chosen_sources, order_of
+from .build_state import state_of
+from .builds import builds, damage, show_sources
 from .core.errors import BuildError, Cancelled, LegorizeError
-from .core.progress import Progress
-from .core.settings import Settings
-from .core.units import MM_PER_METRE
-from .properties import current_build, label, settings_of
-from .reading.shown import has_surface
+from .hidden_sources import orphans, show_orphans
+from .progress_text import STOPPED, progress_text
+from .properties import current_build, settings_of
 from .result import show_result
-from .scene import BUILD_KEY, OWN_KEY, builds, builds_of, clear_build, show_sources, sources_of
-from .view import readable
+from .scene import clear_build
+from .shared_parts import sweep
 
 if TYPE_CHECKING:
     from .core.build import Build
-    from .core.mesh import TriangleMesh
 
 TICK: Final = 0.1
 """Seconds between two looks at a running job."""
@@ -31,59 +30,6 @@ NAVIGATION: Final = frozenset(
     {"MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM"}
 )
 """Events that pass while a job runs: one may look around, not change the scene under its feet."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Order:
-    """What a build is made of, read on the main thread.
-
-    Attributes
-    ----------
-    name : str
-        Of the model: the names of its source objects.
-    scene : int
-        Session identifier of the scene that gets the model.
-    sources : tuple of int
-        Session identifiers of the objects: references to them would not outlive an undo, and a linked object and one of
-        the file may have the same name.
-    mesh : TriangleMesh
-        Their surface.
-    remarks : tuple of str
-        What could not be read literally.
-    settings : Settings
-        The user's choices.
-    mm_per_unit : float
-        World mm per Blender unit.
-    """
-
-    name: str
-    scene: int
-    sources: tuple[int, ...]
-    mesh: TriangleMesh
-    remarks: tuple[str, ...]
-    settings: Settings
-    mm_per_unit: float
-
-    def work(self, progress: Progress) -> Build:
-        """Run the core; no Blender in here."""
-        from .core.pipeline import legorize
-
-        return legorize(self.mesh, self.settings, progress)
-
-
-def chosen_sources(context: bpy.types.Context) -> list[bpy.types.Object]:
-    """Return the objects to legorize, by name.
-
-    These are the selected objects with a surface, for a selected brick model
-    the objects it was made of, and with nothing selected those of the model
-    that the panel shows.
-    """
-    selected = [thing for thing in context.selected_objects if OWN_KEY not in thing and has_surface(thing)]
-    models = builds_of(context.scene, [thing for thing in context.selected_objects if OWN_KEY in thing])
-    if not selected and not models and current_build(context.scene):
-        models = [current_build(context.scene)]
-    again = [source for model in models for source in sources_of(model)]
-    return sorted({*selected, *again}, key=lambda thing: (thing.name, thing.library.filepath if thing.library else ""))
 
 
 class Reporting:
@@ -96,7 +42,8 @@ class Reporting:
         except LegorizeError as error:
             self.report({"ERROR"}, str(error))
         except Cancelled:
-            self.report({"INFO"}, "Stopped: nothing was changed.")
+            self.report({"INFO"}, STOPPED)
+            bpy.context.window_manager.legorize_said = STOPPED
         return {"CANCELLED"}
 
 
@@ -156,6 +103,7 @@ class Working(Reporting):
         return self._show(context, order, order.work(lambda stage, share: None))
 
     def _start(self, context: bpy.types.Context) -> set[str]:
+        context.window_manager.legorize_said = ""
         self._order = self._take_order(context)
         self._job = job.Job(self._order.work)
         self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
@@ -164,9 +112,8 @@ class Working(Reporting):
         return {"RUNNING_MODAL"}
 
     def _show_progress(self, context: bpy.types.Context) -> None:
-        stage, share = self._job.progress
-        text = "Stopping" if self._job.stopping else f"{label(stage)} {share:.0%} (Esc to stop)"
-        context.workspace.status_text_set(f"Legorize: {text}")
+        text = progress_text(*self._job.progress, self._job.seconds_left, stopping=self._job.stopping)
+        context.workspace.status_text_set(f"Legorize: {text}" + ("" if self._job.stopping else " (Esc stops)"))
         _redraw(context)
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
@@ -198,7 +145,7 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         return order_of(context, chosen_sources(context), settings_of(context.scene.legorize.settings))
 
     def _show(self, context: bpy.types.Context, order: Order, build: Build) -> set[str]:
-        [scene] = _by_uid(bpy.data.scenes, [order.scene]) or [None]
+        [scene] = by_uid(bpy.data.scenes, [order.scene]) or [None]
         if scene is None:
             raise BuildError("The scene was deleted while its model was being built: open another one and start again.")
         notes = (*order.remarks, *build.notes)
@@ -208,14 +155,15 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
             build,
             mm_per_unit=order.mm_per_unit,
             name=order.name,
-            sources=_by_uid(bpy.data.objects, order.sources),
+            sources=by_uid(bpy.data.objects, order.sources),
             notes=notes,
             detail=view.detail,
+            replaces=by_uid(bpy.data.collections, order.replaces),
         )
         view.build = collection
         view.show_sources = False
         if scene == context.scene:
-            _select_only(context, collection[BUILD_KEY]["root"])
+            _select_only(context, state_of(collection).root)
         self.report({"INFO"}, f"Built of {len(build.bricks)} bricks.")
         for note in notes:
             self.report({"WARNING"}, note)
@@ -223,7 +171,15 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
 
 
 class OnBuild(Reporting):
-    """What works on the build that the panel shows."""
+    """What works on the build that the panel shows.
+
+    Attributes
+    ----------
+    mends : bool
+        Whether it works on a damaged one, too.
+    """
+
+    mends = False
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -232,6 +188,8 @@ class OnBuild(Reporting):
             cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
         elif not current_build(context.scene):
             cls.poll_message_set("Legorize an object first.")
+        elif not cls.mends and damage(current_build(context.scene)):
+            cls.poll_message_set(damage(current_build(context.scene)).removesuffix("."))
         else:
             return True
         return False
@@ -244,6 +202,7 @@ class LEGORIZE_OT_clear(OnBuild, bpy.types.Operator):
     bl_label = "Remove Model"
     bl_description = "Remove the brick model and show the objects that it was made of again"
     bl_options = {"REGISTER", "UNDO"}
+    mends = True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Remove the build."""
@@ -251,49 +210,36 @@ class LEGORIZE_OT_clear(OnBuild, bpy.types.Operator):
         return {"FINISHED"}
 
 
-def order_of(context: bpy.types.Context, sources: Sequence[bpy.types.Object], settings: Settings) -> Order:
-    """Read objects, which may be hidden, for a build.
+class LEGORIZE_OT_show_originals(bpy.types.Operator):
+    """Show what a model hid that was deleted since."""
 
-    Parameters
-    ----------
-    context : bpy.types.Context
-        Its scene has the objects.
-    sources : sequence of bpy.types.Object
-        With a surface.
-    settings : Settings
-        Of the build.
+    bl_idname = "legorize.show_originals"
+    bl_label = "Show Originals"
+    bl_description = "Show the objects again whose brick model was deleted, as they were before it was built"
+    bl_options = {"REGISTER", "UNDO"}
 
-    Returns
-    -------
-    Order
-    """
-    from .read_mesh import read_objects
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there are such objects."""
+        cls.poll_message_set("No object is hidden for a model that was deleted.")
+        return bool(orphans(context.scene))
 
-    with readable(sources):
-        context.view_layer.update()
-        mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get())
-    return Order(
-        name=" + ".join(source.name for source in sources),
-        scene=context.scene.session_uid,
-        sources=tuple(source.session_uid for source in sources),
-        mesh=mesh,
-        remarks=remarks,
-        settings=settings,
-        mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
-    )
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Show and select them, and clear up what the model left behind."""
+        sources = show_orphans(context.scene)
+        sweep()
+        _select_only(context, *sources)
+        self.report({"INFO"}, f"Shown again: {', '.join(source.name for source in sources)}.")
+        return {"FINISHED"}
 
 
-def _by_uid(blocks: Iterable[bpy.types.ID], uids: Sequence[int]) -> list[Any]:
-    """Return the datablocks with some session identifiers, without those deleted since."""
-    there = {block.session_uid: block for block in blocks}
-    return [there[uid] for uid in uids if uid in there]
-
-
-def _select_only(context: bpy.types.Context, thing: bpy.types.Object) -> None:
+def _select_only(context: bpy.types.Context, *things: bpy.types.Object) -> None:
     for other in context.selected_objects:
         other.select_set(False)
-    thing.select_set(True)
-    context.view_layer.objects.active = thing
+    # what lies in an unticked collection cannot be selected
+    for thing in (thing for thing in things if thing.name in context.view_layer.objects):
+        thing.select_set(True)
+        context.view_layer.objects.active = thing
 
 
 def _redraw(context: bpy.types.Context) -> None:
@@ -317,7 +263,7 @@ def _hide_linked_sources(*arguments: Any) -> None:
                 show_sources(build, visible=False, linked_only=True)
 
 
-classes = (LEGORIZE_OT_build, LEGORIZE_OT_clear)
+classes = (LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals)
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
 
 

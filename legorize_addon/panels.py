@@ -11,15 +11,18 @@ from typing import Any, Final
 import bpy
 
 from . import job
+from .build_state import state_of
+from .builds import builds, damage
 from .check import check_lines
 from .core.settings import Settings, choices
 from .core.units import BRICK, STUD
 from .export_operators import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
 from .heat_map import LEGEND, has_margins
+from .hidden_sources import orphans
 from .learning_operators import LEGORIZE_OT_forget, LEGORIZE_OT_learn
-from .operators import LEGORIZE_OT_build, LEGORIZE_OT_clear
-from .properties import current_build, label
-from .scene import BUILD_KEY, builds
+from .operators import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
+from .progress_text import progress_text
+from .properties import current_build
 from .steps import n_pieces, n_steps
 from .view import roles_shown
 
@@ -49,14 +52,30 @@ class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
         running = job.running()
         if running:
             stage, share = running.progress
-            self.layout.progress(factor=share, type="BAR", text=label(stage))
-            self.layout.label(text="Stopping" if running.stopping else "Esc stops")
+            text = progress_text(stage, share, running.seconds_left, stopping=running.stopping)
+            self.layout.progress(factor=share, type="BAR", text=text)
+            self.layout.label(text="Esc stops; nothing is changed before the end")
             return
         button = self.layout.column()
         button.scale_y = 1.6
         button.operator(LEGORIZE_OT_build.bl_idname, icon="MOD_BUILD")
+        if context.window_manager.legorize_said:
+            self.layout.label(text=context.window_manager.legorize_said, icon="INFO")
         if len(builds(context.scene)) > 1:
             self.layout.prop(context.scene.legorize, "build")
+        self._draw_damage(context)
+
+    def _draw_damage(self, context: bpy.types.Context) -> None:
+        """Draw what was deleted by other ways than ours, and the button that mends it."""
+        lost = [entry.source.name for entry in orphans(context.scene)]
+        if lost:
+            _wrapped(context, self.layout, f"Hidden, and its model was deleted: {', '.join(lost)}", "ERROR")
+            self.layout.operator(LEGORIZE_OT_show_originals.bl_idname, icon="HIDE_OFF")
+        build = current_build(context.scene)
+        sentence = build and damage(build)
+        if sentence:
+            _wrapped(context, self.layout, sentence, "ERROR")
+            self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
 
 
 class _SettingsPanel(_Tab):
@@ -78,7 +97,8 @@ class _SettingsPanel(_Tab):
     buttons: tuple[type[bpy.types.Operator], ...] = ()
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the group's settings, without the numbers that its choice leaves unused."""
+        """Draw the group's settings, without the numbers that its choice leaves unused; locked while a job runs."""
+        self.layout.enabled = job.running() is None
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         group = context.scene.legorize.settings
@@ -118,8 +138,9 @@ class _BuildPanel(_Tab):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Tell whether there is a build."""
-        return current_build(context.scene) is not None
+        """Tell whether there is a whole build."""
+        build = current_build(context.scene)
+        return build is not None and damage(build) is None
 
 
 class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
@@ -129,11 +150,12 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the sliders of layers, steps and pieces, the cut, the roles, and what else may be shown."""
+        self.layout.enabled = job.running() is None
         view = context.scene.legorize
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         build = current_build(context.scene)
-        self.layout.prop(view, "top_layer", text=f"Top of {build[BUILD_KEY]['layers']}")
+        self.layout.prop(view, "top_layer", text=f"Top of {state_of(build).layers}")
         self._draw_building(view, build)
         self.layout.row().prop(view, "section_axis", expand=True)
         if view.section_axis != "none":
@@ -164,11 +186,11 @@ class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the figures of the build and its remarks."""
-        state = current_build(context.scene)[BUILD_KEY]
+        state = state_of(current_build(context.scene))
         column = self.layout.column(align=True)
-        for text in (*_figures(state["summary"]), *_building_figures(state.get("building"))):
+        for text in (*_figures(state.summary), *_building_figures(state.building)):
             column.label(text=text)
-        for note in state["notes"]:
+        for note in state.notes:
             _wrapped(context, self.layout, note, "ERROR")
         self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
 
@@ -181,11 +203,11 @@ class LEGORIZE_PT_stability(_BuildPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the verdict, what is weak, and the switch of the heat map."""
         build = current_build(context.scene)
-        for text, icon in check_lines(build[BUILD_KEY].get("check")):
+        for text, icon in check_lines(state_of(build).check):
             _wrapped(context, self.layout, text, icon)
         view = context.scene.legorize
         switch = self.layout.row()
-        switch.enabled = has_margins(build)
+        switch.enabled = has_margins(build) and job.running() is None
         switch.prop(view, "heat_map")
         if view.heat_map:
             _wrapped(context, self.layout, LEGEND, "INFO")

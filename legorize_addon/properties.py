@@ -14,13 +14,15 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
+from .build_state import state_of
+from .builds import builds, damage, point_objects, show_sources
 from .core.catalogue import load_catalogue
 from .core.model import Role
 from .core.settings import Settings, choices, setting_type
 from .heat_map import has_margins, heat_map_shown, show_heat_map
 from .part_meshes import set_detail
-from .scene import BUILD_KEY, builds, show_sources
 from .section import AXES, Section
+from .shared_parts import own_parts
 from .steps import explode, exploded, n_steps, steps_done
 from .view import cut_away, roles_shown, section_of, show_layers, show_role, show_steps
 
@@ -103,15 +105,21 @@ def _is_build(self: bpy.types.PropertyGroup, collection: bpy.types.Collection) -
     return collection in builds(self.id_data)
 
 
+def _whole_build(self: bpy.types.PropertyGroup) -> bpy.types.Collection | None:
+    """Return the build that the panel shows if there is one and it is not damaged."""
+    build = current_build(self.id_data)
+    return None if build is None or damage(build) else build
+
+
 def _top_layer(self: bpy.types.PropertyGroup) -> int:
     build = current_build(self.id_data)
-    return build[BUILD_KEY]["top_layer"] if build else 1
+    return state_of(build).top_layer if build else 1
 
 
 def _set_top_layer(self: bpy.types.PropertyGroup, value: int) -> None:
-    build = current_build(self.id_data)
+    build = _whole_build(self)
     if build:
-        show_layers(self.id_data, build, max(1, min(value, build[BUILD_KEY]["layers"])))
+        show_layers(self.id_data, build, max(1, min(value, state_of(build).layers)))
 
 
 def _section(self: bpy.types.PropertyGroup) -> Section:
@@ -120,7 +128,7 @@ def _section(self: bpy.types.PropertyGroup) -> Section:
 
 
 def _cut(self: bpy.types.PropertyGroup, **changes: Any) -> None:
-    build = current_build(self.id_data)
+    build = _whole_build(self)
     if build:
         cut_away(build, replace(section_of(build), **changes))
 
@@ -155,7 +163,7 @@ def _heat_map(self: bpy.types.PropertyGroup) -> bool:
 
 
 def _set_heat_map(self: bpy.types.PropertyGroup, value: bool) -> None:
-    build = current_build(self.id_data)
+    build = _whole_build(self)
     if build and has_margins(build):
         show_heat_map(build, visible=value)
 
@@ -166,7 +174,7 @@ def _exploded(self: bpy.types.PropertyGroup) -> float:
 
 
 def _set_exploded(self: bpy.types.PropertyGroup, value: float) -> None:
-    build = current_build(self.id_data)
+    build = _whole_build(self)
     if build and n_steps(build):
         explode(build, value)
 
@@ -177,7 +185,7 @@ def _step(self: bpy.types.PropertyGroup) -> int:
 
 
 def _set_step(self: bpy.types.PropertyGroup, value: int) -> None:
-    build = current_build(self.id_data)
+    build = _whole_build(self)
     if build and n_steps(build):
         show_steps(build, max(1, min(value, n_steps(build))))
 
@@ -188,7 +196,7 @@ def _by_steps(self: bpy.types.PropertyGroup) -> bool:
 
 
 def _set_by_steps(self: bpy.types.PropertyGroup, value: bool) -> None:
-    build = current_build(self.id_data)
+    build = _whole_build(self)
     if build and n_steps(build):
         show_steps(build, _step(self) if value else 0)
 
@@ -200,9 +208,10 @@ def _update_sources(self: bpy.types.PropertyGroup, context: bpy.types.Context) -
 
 
 def _update_detail(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    build = current_build(self.id_data)
+    build = _whole_build(self)
     if build:
-        set_detail(build[BUILD_KEY]["parts"], load_catalogue(), self.detail)
+        own_parts(state_of(build), point_objects(build))
+        set_detail(state_of(build).parts, load_catalogue(), self.detail)
 
 
 def _role_property(role: Role) -> Any:
@@ -215,7 +224,7 @@ def _role_property(role: Role) -> Any:
 
     def show(self: bpy.types.PropertyGroup, visible: bool) -> None:
         """Show or hide the role in the current build."""
-        build = current_build(self.id_data)
+        build = _whole_build(self)
         if build and role in roles_shown(build):
             show_role(build, role, visible=visible)
 
@@ -327,9 +336,12 @@ def register() -> None:
     """Register the property groups and hang them on the scene."""
     _register_classes()
     bpy.types.Scene.legorize = PointerProperty(type=LegorizeView)
+    # not of a scene: an undo leaves it, and no file keeps it
+    bpy.types.WindowManager.legorize_said = StringProperty(options={"SKIP_SAVE"})
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
+    del bpy.types.WindowManager.legorize_said
     del bpy.types.Scene.legorize
     _unregister_classes()

@@ -17,12 +17,13 @@ import bpy
 import numpy as np
 from mathutils import Euler, Vector
 
+from .build_state import state_of
+from .builds import builds, damage
 from .core.errors import BuildError
 from .core.files.single import replacing
 from .core.model import Floats
 from .core.units import PLATE
 from .outlines import outlined
-from .scene import BUILD_KEY, builds
 from .section import hidden_side
 from .view import corners_while_building, shown_corners
 
@@ -121,7 +122,7 @@ def _studio(scene: bpy.types.Scene) -> Iterator[bpy.types.Scene]:
     }
     studio = bpy.data.scenes.new("Legorize Still")
     try:
-        for build in builds(scene):
+        for build in (build for build in builds(scene) if damage(build) is None):
             studio.collection.children.link(build)
         studio.view_layers[0].update()
         yield studio
@@ -135,7 +136,7 @@ def _corners(studio: bpy.types.Scene, corners_of: Callable[[bpy.types.Collection
     """Return the corners of all bricks in world units, shape (n, 3)."""
     found = []
     for build in studio.collection.children:
-        matrix = np.array(build[BUILD_KEY]["root"].matrix_world)
+        matrix = np.array(state_of(build).root.matrix_world)
         found.append(corners_of(build) @ matrix[:3, :3].T + matrix[:3, 3])
     if not found:
         raise BuildError("The scene has 0 brick models to take a picture of: legorize an object first.")
@@ -146,7 +147,7 @@ def _place(studio: bpy.types.Scene, view: View) -> tuple[float, float]:
     """Return the azimuth and elevation of the camera in degrees."""
     if view != "section":
         return AZIMUTH[view], -ABOVE if view == "below" else ELEVATION
-    sides = [hidden_side(build[BUILD_KEY]["plane"]) for build in studio.collection.children]
+    sides = [hidden_side(state_of(build).plane) for build in studio.collection.children]
     side = next((side for side in sides if side is not None), None)
     if side is None:
         return AZIMUTH["front_right"], ELEVATION
@@ -250,7 +251,7 @@ def _add_camera(studio: bpy.types.Scene, corners: Floats, azimuth: float, elevat
 
 def _materials(studio: bpy.types.Scene) -> list[bpy.types.Material]:
     """Return the materials of all bricks, and of their heat maps."""
-    variants = [variant for build in studio.collection.children for variant in build[BUILD_KEY]["parts"].all_objects]
+    variants = [variant for build in studio.collection.children for variant in state_of(build).parts.all_objects]
     found = {slot.material.name: slot.material for variant in variants for slot in variant.material_slots}
     return [found[name] for name in sorted(found)]
 
@@ -260,7 +261,7 @@ def _line_width(studio: bpy.types.Scene, corners: Floats) -> float:
     camera, render = studio.camera, studio.render
     away = float(np.linalg.norm(corners.mean(axis=0) - np.array(camera.location)))
     pixel = away * camera.data.sensor_width / camera.data.lens / max(render.resolution_x, render.resolution_y)
-    plates = [float(build[BUILD_KEY]["root"].matrix_world.median_scale) for build in studio.collection.children]
+    plates = [float(state_of(build).root.matrix_world.median_scale) for build in studio.collection.children]
     return min(LINE_PIXELS * pixel, LINE_PLATES * PLATE * min(plates))
 
 

@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from .build_state import state_of
+from .builds import builds_of
 from .core.catalogue import load_catalogue
 from .core.model import Role
+from .kept_view import KeptView
 from .part_meshes import Detail
-from .scene import BUILD_KEY, show_build
+from .scene import show_build
 from .view import roles_shown, show_role
 
 if TYPE_CHECKING:
@@ -26,8 +29,12 @@ def show_result(
     sources: Sequence[bpy.types.Object],
     notes: Sequence[str],
     detail: Detail = "high",
+    replaces: Sequence[bpy.types.Collection] | None = None,
 ) -> bpy.types.Collection:
     """Put a model and its supports into a scene; supports that are taken out again are hidden at first.
+
+    What is shown of an earlier build that it replaces is shown of this one too:
+    roles, layers, section, steps, pieces apart, heat map.
 
     Parameters
     ----------
@@ -45,6 +52,9 @@ def show_result(
         Remarks to show beside the result.
     detail : {"low", "high"}, optional
         Detail of the part meshes.
+    replaces : sequence of bpy.types.Collection, optional
+        Builds that it takes the place of; all builds of the sources if it is
+        left out.
 
     Returns
     -------
@@ -57,6 +67,8 @@ def show_result(
         There are no bricks.
     """
     supports = build.supports
+    earlier = builds_of(scene, sources) if replaces is None else replaces
+    kept = KeptView.of(earlier)
     shown = show_build(
         scene,
         supports.bricks,
@@ -71,8 +83,11 @@ def show_result(
         stability=build.stability,
         moves=supports.moves,
         detail=detail,
+        replaces=earlier,
     )
-    shown[BUILD_KEY]["building"]["by_hand"] = len(supports.unsteady)
+    state_of(shown).add_building(by_hand=len(supports.unsteady))
     if Role.SUPPORT_OUTSIDE in roles_shown(shown):
         show_role(shown, Role.SUPPORT_OUTSIDE, visible=False)
+    if kept is not None:
+        kept.show(scene, shown)
     return shown

@@ -1,43 +1,58 @@
 """Bricks in the scene: a collection a layer, a point object a role, and back to the table.
 
-A build is a collection "Legorize <name>" with a custom property ``legorize``
-that holds all that re-export needs. The points are in model mm and carry the
+A build is a collection "Legorize <name>" that holds all that re-export needs,
+see :mod:`.build_state`. The points are in model mm and carry the
 columns of :class:`~legorize_addon.core.model.Bricks` as named attributes; an
 empty, their parent, brings them to the place and size of the source objects.
 The objects that are instanced stand in a collection of their own, outside of
-every scene.
+every scene, see :mod:`.shared_parts`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 from numpy.typing import NDArray
 
 from .assembly import Columns, assembly_columns
-from .brick_points import MARGIN, NO_MARGIN, box_corners, points_mesh, read_points
+from .brick_points import MARGIN, NO_MARGIN, box_corners, points_mesh
+from .build_state import BUILD_KEY as BUILD_KEY
+from .build_state import state_of, write_state
+from .builds import (
+    LAYER_KEY,
+    OWN_KEY,
+    ROLE_KEY,
+    all_builds,
+    bricks_of,
+    builds_of,
+    layers_of,
+    own_objects,
+    point_objects,
+    sources_of,
+)
+from .builds import builds as builds
+from .builds import show_sources as show_sources
 from .core.building.moves import Moves
-from .core.catalogue import Catalogue, load_catalogue
+from .core.catalogue import Catalogue
 from .core.errors import BuildError
-from .core.model import Bricks, Floats, Role
+from .core.model import Bricks, Role
 from .core.settings import Settings
 from .core.units import PLATES_PER_BRICK, STUD
 from .figures import figures, n_layers
-from .nodes import add_bricks_modifier, brick_trees, colour_material
+from .hidden_sources import as_before, forget, remember
+from .nodes import add_bricks_modifier, colour_material
 from .part_meshes import Detail, parts_collection, parts_in_use
+from .placing import Place, upright
 from .section import Section, add_plane
+from .shared_parts import POINTS_KEY, leave_plane, sweep
 
 if TYPE_CHECKING:
     from .core.stability import Stability
-
-BUILD_KEY: Final = "legorize"
-LAYER_KEY: Final = "legorize_layer"
-ROLE_KEY: Final = "legorize_role"
-OWN_KEY: Final = "legorize_own"
 
 
 def show_build(
@@ -55,8 +70,12 @@ def show_build(
     stability: Stability | None = None,
     moves: Moves | None = None,
     detail: Detail = "high",
+    replaces: Sequence[bpy.types.Collection] | None = None,
 ) -> bpy.types.Collection:
     """Put a brick model into a scene, in place of an earlier one of the same source objects.
+
+    It stands in the collection of the first one that it replaces, moved, turned
+    and scaled as that one was.
 
     Parameters
     ----------
@@ -88,6 +107,9 @@ def show_build(
         The order in which these bricks are built, for the panel and the steps.
     detail : {"low", "high"}, optional
         Detail of the part meshes.
+    replaces : sequence of bpy.types.Collection, optional
+        Builds that it takes the place of; all builds of the sources if it is
+        left out.
 
     Returns
     -------
@@ -103,33 +125,33 @@ def show_build(
         raise BuildError("The model has 0 bricks: make it larger or choose another object.")
     kinds, variant = np.unique(np.stack([bricks.part, bricks.colour], axis=1), axis=0, return_inverse=True)
     pairs = [(catalogue.parts[part], catalogue.colours[catalogue.colour_row(code)]) for part, code in kinds.tolist()]
-    for earlier in builds_of(scene, sources):
-        clear_build(scene, earlier)
+    earlier = builds_of(scene, sources) if replaces is None else replaces
+    place = Place.after(scene, earlier)
+    for each in earlier:
+        clear_build(scene, each)
     build = bpy.data.collections.new(f"Legorize {name}")
-    scene.collection.children.link(build)
-    root = _add_root(build, np.asarray(origin, dtype=np.float64), 1.0 / (scale * mm_per_unit))
+    place.collection.children.link(build)
+    root = _add_root(build, place.moved @ upright(origin, 1.0 / (scale * mm_per_unit)), place.parent)
     plane = _own(build, add_plane(build.name, root))
     parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, name)
     _add_layers(build, bricks, variant.reshape(-1), _more(bricks, stability, moves, catalogue), catalogue, plane, parts)
-    corners = box_corners(bricks, catalogue)
-    build[BUILD_KEY] = {
-        "origin": [float(value) for value in origin],
-        "scale": scale,
-        "mm_per_unit": mm_per_unit,
-        "root": root,
-        "plane": plane,
-        "parts": parts,
-        "part_numbers": [part.number for part in catalogue.parts],
-        "layers": n_layers(bricks),
-        "top_layer": n_layers(bricks),
-        "extent": {"low": corners.min(axis=0).tolist(), "high": corners.max(axis=0).tolist()},
-        "section": asdict(Section()),
-        "roles": {Role(role).name: True for role in np.unique(bricks.role).tolist()},
-        "sources": {str(i): _hidden_state(source) for i, source in enumerate(sources)},
-        "settings": {} if settings is None else asdict(settings),
-        "notes": list(notes),
+    hidden = [as_before(scene, source) for source in sources]
+    write_state(
+        build,
+        origin=origin,
+        sources=hidden,
+        section=Section(),
+        scale=float(scale),
+        mm_per_unit=float(mm_per_unit),
+        root=root,
+        plane=plane,
+        parts=parts,
+        settings={} if settings is None else asdict(settings),
+        notes=list(notes),
+        **_table_facts(bricks, catalogue),
         **figures(bricks, stability, moves, catalogue),
-    }
+    )
+    remember(scene, hidden)
     show_sources(build, visible=False)
     return build
 
@@ -155,15 +177,10 @@ def read_bricks(build: bpy.types.Collection) -> Bricks:
     return bricks_of(build, point_objects(build))
 
 
-def bricks_of(build: bpy.types.Collection, found: Sequence[bpy.types.Object]) -> Bricks:
-    """Return the table of the bricks that some point objects of a build hold, as :func:`read_bricks` does."""
-    if not found:
-        raise BuildError(f"The collection {build.name!r} has 0 bricks to show: legorize the object again.")
-    return read_points([points.data for points in found], build[BUILD_KEY]["part_numbers"], load_catalogue())
-
-
 def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
-    """Remove a build and all that nothing else uses; show its source objects as they were before.
+    """Remove a build, damaged or not, and all that nothing else uses; show its source objects as they were before.
+
+    Sources of another build, such as a copy or one in another scene, stay hidden.
 
     Parameters
     ----------
@@ -173,64 +190,48 @@ def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
     build : bpy.types.Collection
         Collection made by :func:`show_build`.
     """
-    state = build[BUILD_KEY]
-    for entry in state["sources"].values():
-        # a build in another scene may have hidden it too
-        if entry["object"] is not None and len(_entries_of(entry["object"])) == 1:
-            entry["object"].hide_viewport, entry["object"].hide_render = entry["hide_viewport"], entry["hide_render"]
-    own = [thing for thing in build.all_objects if OWN_KEY in thing]
-    for guest in [thing for thing in build.all_objects if OWN_KEY not in thing and len(thing.users_collection) == 1]:
-        scene.collection.objects.link(guest)
-    variants = list(state["parts"].all_objects)
-    meshes = {thing.data for thing in [*own, *variants] if thing.data is not None}
-    materials = {slot.material for thing in variants for slot in thing.material_slots if slot.material is not None}
-    bpy.data.batch_remove(
-        [*own, *variants, *state["parts"].children_recursive, state["parts"], *layers_of(build), build]
-    )
-    _remove_unused([*meshes, *materials])
-    _remove_unused(brick_trees())
+    held = {source for other in all_builds() if other != build for source in sources_of(other)}
+    freed = [entry for entry in state_of(build).sources if entry.source not in held]
+    for entry in freed:
+        entry.restore()
+    forget(scene, [entry.source for entry in freed])
+    own, layers = own_objects(build), layers_of(build)
+    if state_of(build).plane in own:
+        leave_plane(scene, state_of(build).plane, own)
+    for mesh in {thing.data for thing in own if thing.data is not None}:
+        # those of version 0.1.0 are not marked
+        mesh[POINTS_KEY] = True
+    _move_out(scene, [build, *layers], own)
+    bpy.data.batch_remove([*own, *layers, build])
+    sweep()
 
 
-def builds(scene: bpy.types.Scene) -> list[bpy.types.Collection]:
-    """Return the builds of a scene."""
-    return [collection for collection in scene.collection.children_recursive if BUILD_KEY in collection]
-
-
-def builds_of(scene: bpy.types.Scene, objects: Sequence[bpy.types.Object]) -> list[bpy.types.Collection]:
-    """Return the builds that were made of one of the objects or that contain one of them."""
-    wanted = set(objects)
-    return [build for build in builds(scene) if wanted and wanted & {*sources_of(build), *build.all_objects}]
-
-
-def sources_of(build: bpy.types.Collection) -> list[bpy.types.Object]:
-    """Return the objects that a build was made of, without those deleted since."""
-    entries = build[BUILD_KEY]["sources"].values()
-    return [entry["object"] for entry in entries if entry["object"] is not None]
-
-
-def layers_of(build: bpy.types.Collection) -> list[bpy.types.Collection]:
-    """Return the collections of the layers that have bricks, from the lowest."""
-    return sorted((child for child in build.children if LAYER_KEY in child), key=lambda child: child[LAYER_KEY])
-
-
-def point_objects(build: bpy.types.Collection) -> list[bpy.types.Object]:
-    """Return the objects whose points are the bricks of a build."""
-    return [thing for thing in build.all_objects if OWN_KEY in thing and thing.type == "MESH"]
-
-
-def show_sources(build: bpy.types.Collection, *, visible: bool, linked_only: bool = False) -> None:
-    """Show or hide the source objects of a build, or only those of other files, in the viewport and in renders."""
-    for source in sources_of(build):
-        if source.library is not None or not linked_only:
-            source.hide_viewport = source.hide_render = not visible
-
-
-def _add_root(build: bpy.types.Collection, origin: Floats, unit_per_mm: float) -> bpy.types.Object:
+def _add_root(
+    build: bpy.types.Collection, place: Matrix, parent: tuple[bpy.types.Object, Matrix] | None
+) -> bpy.types.Object:
     root = _own(build, bpy.data.objects.new(build.name, None))
     root.empty_display_size = STUD
-    root.location = origin * unit_per_mm
-    root.scale = (unit_per_mm, unit_per_mm, unit_per_mm)
+    if parent is not None:
+        root.parent, root.matrix_parent_inverse = parent
+    root.matrix_basis = place
     return root
+
+
+def _move_out(
+    scene: bpy.types.Scene, collections: Sequence[bpy.types.Collection], own: Sequence[bpy.types.Object]
+) -> None:
+    """Bring what a user put into collections, or hung on a build's objects, into the scene's own collection."""
+    leaving, going = set(collections), set(own)
+    for collection in collections:
+        for child in set(collection.children) - leaving:
+            scene.collection.children.link(child)
+        for guest in set(collection.objects) - going:
+            if set(guest.users_collection) <= leaving:
+                scene.collection.objects.link(guest)
+    for guest in [thing for thing in scene.objects if thing.parent in going and thing not in going]:
+        world = guest.matrix_world.copy()
+        guest.parent = None
+        guest.matrix_world = world
 
 
 def _own(collection: bpy.types.Collection, thing: bpy.types.Object) -> bpy.types.Object:
@@ -260,8 +261,21 @@ def _add_layers(
             mesh = points_mesh(name, bricks.take(rows), catalogue, np.searchsorted(used, variant[rows]), rows, own)
             points = _own(collection, bpy.data.objects.new(name, mesh))
             points[ROLE_KEY] = int(role)
+            mesh[POINTS_KEY] = True
             points.parent = plane.parent
             add_bricks_modifier(points, own_parts, plane)
+
+
+def _table_facts(bricks: Bricks, catalogue: Catalogue) -> dict[str, Any]:
+    """Return the fields of a state that follow from the table of bricks."""
+    corners = box_corners(bricks, catalogue)
+    return {
+        "roles": [Role(role) for role in np.unique(bricks.role).tolist()],
+        "part_numbers": [part.number for part in catalogue.parts],
+        "layers": n_layers(bricks),
+        "top_layer": n_layers(bricks),
+        "extent": {"low": corners.min(axis=0).tolist(), "high": corners.max(axis=0).tolist()},
+    }
 
 
 def _more(bricks: Bricks, stability: Stability | None, moves: Moves | None, catalogue: Catalogue) -> Columns:
@@ -281,21 +295,3 @@ def _rows_by_layer(bricks: Bricks) -> Iterator[tuple[int, list[tuple[Role, NDArr
     for rows in np.split(order, np.flatnonzero(np.diff(layer[order])) + 1):
         groups = np.split(rows, np.flatnonzero(np.diff(bricks.role[rows])) + 1)
         yield int(layer[rows[0]]), [(Role(bricks.role[group[0]]), group) for group in groups]
-
-
-def _hidden_state(source: bpy.types.Object) -> dict[str, Any]:
-    """Return how a user had hidden an object, which builds in other scenes may have hidden since."""
-    own = {"hide_viewport": source.hide_viewport, "hide_render": source.hide_render}
-    [state, *_] = [*_entries_of(source), own]
-    return {"object": source, **{key: bool(state[key]) for key in own}}
-
-
-def _entries_of(source: bpy.types.Object) -> list[Any]:
-    """Return what the builds of all scenes keep of a source object."""
-    all_builds = [collection for collection in bpy.data.collections if BUILD_KEY in collection]
-    entries = [entry for build in all_builds for entry in build[BUILD_KEY]["sources"].values()]
-    return [entry for entry in entries if entry["object"] == source]
-
-
-def _remove_unused(datablocks: Iterable[bpy.types.ID]) -> None:
-    bpy.data.batch_remove([datablock for datablock in datablocks if datablock.users == 0])

@@ -13,20 +13,21 @@ import numpy as np
 
 from .assembly import ASIDE, JOINED, REMOVED, TIER, there_after, way_after
 from .brick_points import read_columns
+from .build_state import state_of
+from .builds import check_whole, point_objects
 from .core.errors import BuildError
 from .core.model import Floats, Mask
 from .nodes import EXPLODE, STEPS, bricks_modifier, set_input
-from .scene import BUILD_KEY, point_objects
 
 
 def n_steps(build: bpy.types.Collection) -> int:
     """Return the building steps of a build; 0 where they are not known, as in those of earlier versions."""
-    return int(build[BUILD_KEY].get("building", {}).get("steps", 0))
+    return int(state_of(build).building.get("steps", 0))
 
 
 def n_pieces(build: bpy.types.Collection) -> int:
     """Return the pieces in which a build is put together, 1 where they are not known."""
-    return int(build[BUILD_KEY].get("building", {}).get("pieces", 1))
+    return int(state_of(build).building.get("pieces", 1))
 
 
 def explode(build: bpy.types.Collection, share: float) -> None:
@@ -46,14 +47,14 @@ def explode(build: bpy.types.Collection, share: float) -> None:
         The build does not know its pieces.
     """
     check_steps(build)
-    build[BUILD_KEY]["exploded"] = share
+    state_of(build).exploded = share
     above = [points for points in point_objects(build) if read_columns([points.data], [TIER])[TIER].any()]
     _set(above, EXPLODE, _lift(build))
 
 
 def exploded(build: bpy.types.Collection) -> float:
     """Return how far apart the pieces of a build are shown, as :func:`explode` did it."""
-    return float(build[BUILD_KEY].get("exploded", 0.0))
+    return state_of(build).exploded
 
 
 def do_steps(build: bpy.types.Collection, steps: int) -> None:
@@ -67,7 +68,7 @@ def do_steps(build: bpy.types.Collection, steps: int) -> None:
         Steps that are done; 0 shows all bricks.
     """
     before = steps_done(build)
-    build[BUILD_KEY]["steps_done"] = steps
+    state_of(build).steps_done = steps
     objects = point_objects(build)
     if before and steps:
         low, high = sorted((before, steps))
@@ -77,7 +78,7 @@ def do_steps(build: bpy.types.Collection, steps: int) -> None:
 
 def steps_done(build: bpy.types.Collection) -> int:
     """Return the steps after which a build is shown, 0 if it is shown whole."""
-    return int(build[BUILD_KEY].get("steps_done", 0))
+    return state_of(build).steps_done
 
 
 def check_steps(build: bpy.types.Collection) -> None:
@@ -86,8 +87,9 @@ def check_steps(build: bpy.types.Collection) -> None:
     Raises
     ------
     BuildError
-        It is of an earlier version.
+        It is of an earlier version, or damaged.
     """
+    check_whole(build)
     if not n_steps(build):
         raise BuildError(f"{build.name!r} has 0 building steps: legorize the object again.")
 
@@ -115,8 +117,8 @@ def _changes(points: bpy.types.Object, low: int, high: int) -> bool:
 
 def _lift(build: bpy.types.Collection) -> float:
     """Return how far in mm each piece is lifted off the one below it."""
-    extent = build[BUILD_KEY]["extent"]
-    return exploded(build) * (extent["high"][2] - extent["low"][2])
+    low, high = state_of(build).extent
+    return exploded(build) * (high[2] - low[2])
 
 
 def _set(objects: Iterable[bpy.types.Object], name: str, value: float) -> None:

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict
 from typing import Final
 
 import bpy
 import numpy as np
 
 from .brick_points import box_corners, middles
+from .build_state import state_of
+from .builds import LAYER_KEY, ROLE_KEY, bricks_of, check_whole, layers_of, point_objects
 from .core.catalogue import load_catalogue
 from .core.errors import BuildError
 from .core.model import Bricks, Floats, Mask, Role
-from .scene import BUILD_KEY, LAYER_KEY, ROLE_KEY, bricks_of, layers_of, point_objects
+from .placing import layer_collections
 from .section import Section, beyond, place_plane
 from .steps import bricks_there, check_steps, do_steps, steps_done, ways
 
@@ -37,13 +38,13 @@ def show_layers(scene: bpy.types.Scene, build: bpy.types.Collection, top: int) -
     top : int
         Number of layers to show, from the lowest.
     """
-    build[BUILD_KEY]["top_layer"] = top
+    state_of(build).top_layer = top
     hidden = {layer: layer[LAYER_KEY] >= top for layer in layers_of(build)}
     # renders look at the whole scene anew. Setting the flags one by one would make the viewport do so too, at once,
     # and the eyes of the outliner, unlike Collection.hide_viewport, do without
     build.children.foreach_set("hide_render", [hidden.get(child, child.hide_render) for child in build.children])
     for view_layer in scene.view_layers:
-        for entry in _layer_collections(view_layer.layer_collection):
+        for entry in layer_collections(view_layer.layer_collection):
             if entry.collection in hidden:
                 entry.hide_viewport = hidden[entry.collection]
 
@@ -63,7 +64,7 @@ def show_role(build: bpy.types.Collection, role: Role, *, visible: bool) -> None
     visible : bool
         Whether to show it.
     """
-    build[BUILD_KEY]["roles"][role.name] = visible
+    state_of(build).show_role(role, visible=visible)
     for points in point_objects(build):
         if points.get(ROLE_KEY) != role or (HIDDEN_KEY in points) != visible:
             continue
@@ -77,8 +78,7 @@ def show_role(build: bpy.types.Collection, role: Role, *, visible: bool) -> None
 
 def roles_shown(build: bpy.types.Collection) -> dict[Role, bool]:
     """Return the roles that occur in a build, in their order, and whether each is shown."""
-    state = build[BUILD_KEY]["roles"]
-    return {role: bool(state[role.name]) for role in Role if role.name in state}
+    return state_of(build).roles
 
 
 def cut_away(build: bpy.types.Collection, section: Section) -> None:
@@ -90,16 +90,21 @@ def cut_away(build: bpy.types.Collection, section: Section) -> None:
         The build.
     section : Section
         The cut.
+
+    Raises
+    ------
+    BuildError
+        The build is damaged.
     """
-    state = build[BUILD_KEY]
-    state["section"] = asdict(section)
-    place_plane(state["plane"], section, (state["extent"]["low"], state["extent"]["high"]))
+    check_whole(build)
+    state = state_of(build)
+    state.section = section
+    place_plane(state.plane, section, state.extent)
 
 
 def section_of(build: bpy.types.Collection) -> Section:
     """Return the cut through a build, as :func:`cut_away` made it."""
-    state = build[BUILD_KEY]["section"]
-    return Section(axis=state["axis"], at=state["at"], flip=bool(state["flip"]))
+    return state_of(build).section
 
 
 def show_steps(build: bpy.types.Collection, steps: int) -> None:
@@ -122,10 +127,10 @@ def show_steps(build: bpy.types.Collection, steps: int) -> None:
     """
     check_steps(build)
     if bool(steps) != bool(steps_done(build)) and Role.SUPPORT_OUTSIDE in roles_shown(build):
-        state = build[BUILD_KEY]
+        state = state_of(build)
         if steps:
-            state["supports_shown"] = roles_shown(build)[Role.SUPPORT_OUTSIDE]
-        show_role(build, Role.SUPPORT_OUTSIDE, visible=bool(steps) or bool(state["supports_shown"]))
+            state.supports_shown = roles_shown(build)[Role.SUPPORT_OUTSIDE]
+        show_role(build, Role.SUPPORT_OUTSIDE, visible=bool(steps) or state.supports_shown)
     do_steps(build, steps)
 
 
@@ -183,36 +188,48 @@ def corners_while_building(build: bpy.types.Collection) -> Floats:
 
 
 @contextmanager
-def readable(objects: Sequence[bpy.types.Object]) -> Iterator[None]:
+def readable(context: bpy.types.Context, objects: Sequence[bpy.types.Object]) -> Iterator[None]:
     """Show objects while they are read: Blender evaluates no modifiers of hidden ones.
+
+    Objects may be hidden themselves, in renders or by the eye, or lie in
+    collections that are hidden or unticked.
 
     Parameters
     ----------
+    context : bpy.types.Context
+        Whose scene and view layer are to be read.
     objects : sequence of bpy.types.Object
-        Hidden again at the end of the context where they were hidden before.
+        As they were again at the end of the context.
     """
-    before = [thing.hide_viewport for thing in objects]
-    for thing in objects:
+    layer = context.view_layer
+    hidden = [thing for thing in objects if thing.hide_viewport]
+    for thing in hidden:
         thing.hide_viewport = False
+    closed = [thing for thing in objects if thing.name in layer.objects and thing.hide_get(view_layer=layer)]
+    for thing in closed:
+        thing.hide_set(False, view_layer=layer)
+    shelf = bpy.data.collections.new("Legorize reading")
+    context.scene.collection.children.link(shelf)
     try:
+        for thing in objects:
+            if not thing.visible_get(view_layer=layer):
+                shelf.objects.link(thing)
         yield
     finally:
-        for thing, hidden in zip(objects, before, strict=True):
-            thing.hide_viewport = hidden
-
-
-def _layer_collections(entry: bpy.types.LayerCollection) -> Iterator[bpy.types.LayerCollection]:
-    yield entry
-    for child in entry.children:
-        yield from _layer_collections(child)
+        for thing in closed:
+            thing.hide_set(True, view_layer=layer)
+        bpy.data.collections.remove(shelf)
+        for thing in hidden:
+            thing.hide_viewport = True
 
 
 def _in_renders(build: bpy.types.Collection) -> tuple[Bricks, Mask, list[bpy.types.Object]]:
     """Return the bricks of the objects that renders show, which of them are seen, and the objects."""
+    check_whole(build)
     hidden = {points for layer in layers_of(build) if layer.hide_render for points in layer.objects}
     found = [points for points in point_objects(build) if not points.hide_render and points not in hidden]
     bricks = bricks_of(build, found)
-    shown = ~beyond(build[BUILD_KEY]["plane"], middles(bricks, load_catalogue())) & bricks_there(build, found)
+    shown = ~beyond(state_of(build).plane, middles(bricks, load_catalogue())) & bricks_there(build, found)
     if not shown.any():
         raise BuildError(f"The cut leaves 0 bricks of {build.name!r} to show: move the section.")
     return bricks, shown, found

@@ -6,14 +6,15 @@
     python3 scripts/run.py test       run the tests (more arguments go to pytest)
     python3 scripts/run.py check      look over the source with ruff and mypy
     python3 scripts/run.py zip        build the extension into dist (more arguments: --platform)
+    python3 scripts/run.py window     set up what the tests in a window need (root on Debian, once, 1.3 GB)
     python3 scripts/run.py setup      only make the environment
 
 The first use makes an environment in ``.venv`` with the packages pinned in
 pyproject.toml, Blender among them, and later uses find it there. ``--blender``
 chooses between the Blenders; without it the running Python decides. Only the
 standard library is used here. Exit status: 3 where no fitting Python is
-installed, 1 where something else is missing or a command took too long, else
-that of the command.
+installed, 4 where no window can be set up, 1 where something else is missing or
+a command took too long, else that of the command.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import os
+import platform
 import re
 import shlex
 import shutil
@@ -34,6 +36,8 @@ ROOT = Path(__file__).resolve().parents[1]
 PYTHONS = {"4.5": "3.11", "5.2": "3.13", "4.2": "3.11"}  # Blender: its Python; the favourite first
 LIMIT = 40 * 60  # seconds
 NO_PYTHON = 3
+NO_WINDOW = 4
+TREE = Path(os.environ.get("LEGORIZE_BLENDER_TREE", "/opt/blender-trixie"))  # a Debian with a real Blender
 # Blender 4.5's module hangs at exit once its glTF exporter was used, so pytest's run ends without an exit of Blender
 PYTEST = "import os, sys, pytest; status = pytest.main(sys.argv[1:]); sys.stdout.flush(); os._exit(status)"
 
@@ -49,7 +53,7 @@ class Missing(Exception):  # noqa: N818 - a state of the machine, told in one se
 def main() -> int:
     """Run one command in its environment and return the exit status."""
     parser = argparse.ArgumentParser(description="Set up and run Legorize.")
-    parser.add_argument("command", choices=("sample", "test", "check", "zip", "setup"))
+    parser.add_argument("command", choices=("sample", "test", "check", "zip", "window", "setup"))
     parser.add_argument("--blender", choices=PYTHONS, help="Blender version to use")
     chosen, rest = parser.parse_known_args()
     try:
@@ -57,6 +61,8 @@ def main() -> int:
         if python != sys.executable:
             os.execv(python, [python, *sys.argv])  # the running Python may be too old for what follows
         own = _environment(blender, python)
+        if chosen.command == "window":
+            _make_tree()
         return max((_run([str(own), *line]) for line in _lines(chosen.command, rest)), default=0)
     except Missing as missing:
         print(missing, file=sys.stderr)
@@ -69,7 +75,7 @@ def _lines(command: str, rest: list[str]) -> Iterator[list[str]]:
         yield ["scripts/legorize.py", "assets/sample.glb", "--out", "out/sample", "--render", *rest]
     elif command == "test":
         yield ["-c", PYTEST, *rest]
-    elif command == "zip":
+    elif command in ("zip", "window"):  # the window gets the extension, whose wheels are downloaded once
         yield ["scripts/build_extension.py", *rest]
     elif command == "check":
         yield ["-m", "ruff", "check", *rest]
@@ -128,6 +134,18 @@ def _environment(blender: str, python: str) -> Path:
         _try_blender(own)
         starts.touch()
     return own
+
+
+def _make_tree() -> None:
+    """Lay the Debian with the real Blender in which the tests of the window run, if it is not there."""
+    if platform.machine() != "x86_64" or os.geteuid() != 0 or not Path("/etc/debian_version").exists():
+        raise Missing(
+            "The tests in a window need a Debian tree with Blender, which only root on Debian (x86_64) can make.",
+            NO_WINDOW,
+        )
+    print(f"Setting up {TREE} (once; about two minutes, 1.3 GB) ...", flush=True)
+    if _run(["sh", "tests/gui/make_blender.sh", str(TREE)]):
+        raise Missing(f"The tree {TREE} could not be made: see above.")
 
 
 def _make(python: str, folder: Path) -> None:

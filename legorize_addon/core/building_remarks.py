@@ -11,6 +11,7 @@ from .building.proof import Proof
 from .catalogue import Catalogue
 from .model import Role
 from .remarks import brick_name, counted, layer_of
+from .segmentation import SAVING
 from .supports import Supports
 
 SHOWN: Final = 5
@@ -34,6 +35,29 @@ def remarks_on_building(supports: Supports, catalogue: Catalogue) -> tuple[str, 
         out, and nothing has to stay or to be held.
     """
     return (*_staying(supports), *_by_hand(supports), *_faults(supports, catalogue))
+
+
+def remarks_on_split(supports: Supports, *, most: int) -> tuple[str, ...]:
+    """Say why a model that might be built in pieces is in one.
+
+    Parameters
+    ----------
+    supports : Supports
+        The model with its supports and its order.
+    most : int
+        Pieces at most that were asked for.
+
+    Returns
+    -------
+    tuple of str
+        One sentence, or none if it has pieces or nobody asked for any.
+    """
+    if most == 1 or len(supports.pieces) > 1:
+        return ()
+    hanging = any(len(piece.need.bricks) for piece in supports.pieces)
+    cuts = f"no cut between parts that hold together would save {SAVING:.0%} of its supports"
+    saving = cuts if hanging else "it needs no supports that a cut could save"
+    return (f"The model stays in one piece, though split allows {most}: {saving}.",)
 
 
 def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:

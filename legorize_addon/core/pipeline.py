@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from .backing import with_backing
 from .build import Build, Cut
 from .building.proof import Proof, prove_steps
-from .building_remarks import remarks_on_building, remarks_on_proof
+from .building_remarks import remarks_on_building, remarks_on_proof, remarks_on_split
 from .catalogue import Catalogue, load_catalogue
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .connection import Connection, connect
@@ -107,18 +107,24 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
             proof = prove_steps(supports.moves, supports.bricks, catalogue, hold=settings.hold, progress=overall)
     overall.finish()
     made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
-    notes = _notes(repairs, found, supports, proof, catalogue)
+    notes = _notes(repairs, found, supports, proof, settings, catalogue)
     return Build(settings, *made, supports, joints, proof, notes, timings)
 
 
 def _notes(
-    repairs: Repairs, found: Stability, supports: Supports, proof: Proof | None, catalogue: Catalogue
+    repairs: Repairs,
+    found: Stability,
+    supports: Supports,
+    proof: Proof | None,
+    settings: Settings,
+    catalogue: Catalogue,
 ) -> tuple[str, ...]:
     """Return what a user has to know about a build, a sentence each."""
     return (
         *repairs.sentences(),
         *remarks(supports.stays, found, catalogue),
         *remarks_on_building(supports, catalogue),
+        *remarks_on_split(supports, most=settings.split),
         *remarks_on_proof(proof),
     )
 

@@ -265,10 +265,10 @@ def test_hidden_objects_are_readable_for_a_while() -> None:
     """Hidden sources are evaluated inside the context and hidden again after it, whatever happens."""
     cube = add_cube()
     cube.hide_viewport = True
-    with readable([cube]):
+    with readable(bpy.context, [cube]):
         assert not cube.hide_viewport
     assert cube.hide_viewport
-    with pytest.raises(ReferenceError), readable([cube]):
+    with pytest.raises(ReferenceError), readable(bpy.context, [cube]):
         raise ReferenceError
     assert cube.hide_viewport
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from legorize_addon.core.building_remarks import remarks_on_building
+from legorize_addon.core.building_remarks import remarks_on_building, remarks_on_split
 from legorize_addon.core.connection import connect
 from legorize_addon.core.supports import supported, with_floating_carried
 from tests.core.standing import CATALOGUE, table
@@ -65,3 +65,31 @@ def test_deep_hanging_is_told():
     floor = [("3007", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 6), ("3003", 0, 0, 9)]
     sentences = told(*floor, ("3007", 0, 0, 12), ("3003", 6, 0, 9), ("3003", 6, 0, 6), deepest=0)
     assert any("2 bricks hang deeper than the limit" in sentence for sentence in sentences)
+
+
+def in_one_piece(*rows):
+    """Return what is told of a model in one piece that might have three."""
+    return remarks_on_split(supported(table(*rows), CATALOGUE, deepest=0), most=3)
+
+
+def test_model_that_stays_in_one_piece_says_why():
+    """Whoever asks for pieces and gets one reads why: no supports, or none worth a cut."""
+    [tower] = in_one_piece(("3003", 0, 0, 0), ("3003", 0, 0, 3))
+    assert tower == "The model stays in one piece, though split allows 3: it needs no supports that a cut could save."
+    [gate] = in_one_piece(
+        ("3003", 0, 0, 0),
+        ("3003", 6, 0, 0),
+        ("3003", 0, 0, 3),
+        ("3003", 6, 0, 3),
+        ("3005", 4, 0, 3),
+        ("3007", 0, 0, 6),
+    )
+    assert gate.startswith("The model stays in one piece, though split allows 3: no cut ")
+    assert gate.endswith(" would save 20% of its supports.")
+
+
+def test_split_that_was_made_or_not_asked_for_needs_no_words():
+    """Two pieces are an answer, and one piece is what was asked for by default."""
+    bricks = replace(table(("3003", 0, 0, 0), ("3003", 0, 0, 3)), piece=np.array([0, 1], np.int16))
+    assert remarks_on_split(supported(bricks, CATALOGUE, deepest=0), most=3) == ()
+    assert remarks_on_split(supported(table(("3003", 0, 0, 0)), CATALOGUE, deepest=0), most=1) == ()

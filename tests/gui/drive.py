@@ -20,7 +20,7 @@ import bpy
 SAMPLE, FOLDER = sys.argv[sys.argv.index("--") + 1 :]
 TAB = "Legorize"
 BUTTON = "LEGORIZE_OT_build"
-LIMIT = 120.0  # seconds that any one wait may take
+LIMIT = 600.0  # seconds that any one wait may take
 
 Wait = Iterator[float]  # seconds in which Blender goes on by itself
 
@@ -28,6 +28,14 @@ Wait = Iterator[float]  # seconds in which Blender goes on by itself
 def play(seen: dict[str, Any]) -> Wait:
     """Do all steps one after another and note what is to be seen after each."""
     sample = import_sample()
+    yield from build_undo_cancel(sample, seen)
+    yield from copy_and_remove(sample, seen)
+    yield from delete_and_show(sample, seen)
+    yield from move_and_rebuild(seen)
+
+
+def build_undo_cancel(sample: str, seen: dict[str, Any]) -> Wait:
+    """Build, look, take it back, begin a big model and stop it."""
     area = view_area()
     area.spaces.active.show_region_ui = True
     yield 1.0
@@ -43,7 +51,8 @@ def play(seen: dict[str, Any]) -> Wait:
     bpy.context.scene.legorize.settings.width = 48
     yield from click_button(seen)
     started = time.monotonic()
-    yield from wait_until(lambda: not running())
+    seen["told"] = []
+    yield from wait_until(lambda: not listening(seen["told"]))
     seen["seconds"] = time.monotonic() - started
     yield 1.0
     frame_all(area)
@@ -68,15 +77,150 @@ def play(seen: dict[str, Any]) -> Wait:
     assert camera.wait(60) == 0
     yield 0.5
     seen["cancelled"] = scene_content(sample)
+    seen["said"] = bpy.context.window_manager.legorize_said
     screenshot("5-cancelled")
+
+
+def copy_and_remove(sample: str, seen: dict[str, Any]) -> Wait:
+    """Build a small model, duplicate its collection in the outliner, and remove the copy."""
+    yield from build_small(seen)
+    seen["small"] = scene_content(sample)
+    [build] = builds()
+    yield from select_in_outliner(build.name)
+    in_outliner("collection_duplicate")
+    yield 1.0
+    seen["copied"] = scene_content(sample)
+    [copy] = [each for each in builds() if each != build]
+    root = copy["legorize"]["root"]
+    root.location.x += 1.5 * max(root.location.length, 1.0)
+    frame_all(view_area())
+    yield 1.0
+    screenshot("6-copied")
+    bpy.context.scene.legorize.build = copy
+    in_view("clear")
+    yield 1.0
+    frame_all(view_area())
+    yield 1.0
+    seen["copy_removed"] = scene_content(sample)
+    screenshot("7-copy-removed")
+
+
+def delete_and_show(sample: str, seen: dict[str, Any]) -> Wait:
+    """Delete the model with its hierarchy in the outliner, and click the button that shows its original."""
+    [build] = builds()
+    seen["hidden"] = bpy.data.objects[sample].hide_viewport
+    yield from select_in_outliner(build.name)
+    in_outliner("collection_hierarchy_delete")
+    yield 1.0
+    seen["deleted"] = scene_content(sample)
+    screenshot("8-deleted")
+    yield from click_until(lambda: not bpy.data.objects[sample].hide_viewport, seen["button"][1] - 24)
+    yield 1.0
+    seen["shown_again"] = scene_content(sample)
+    seen["selected"] = [each.name for each in bpy.context.view_layer.objects if each.select_get()]
+    screenshot("9-shown-again")
+
+
+def move_and_rebuild(seen: dict[str, Any]) -> Wait:
+    """Build, move the model with the keyboard, turn the heat map on, and click the button again."""
+    yield from build_small(seen)
+    [build] = builds()
+    seen["unmoved"] = list(build["legorize"]["root"].location)
+    yield from press("G")
+    for key in ("X", "ONE", "ZERO", "RET"):
+        yield from press(key)
+    yield 0.5
+    bpy.context.scene.legorize.heat_map = True
+    frame_all(view_area())
+    yield 1.0
+    seen["moved"] = list(build["legorize"]["root"].location)
+    screenshot("10-moved")
+    yield from click_button(seen)
+    yield from wait_until(lambda: not running())
+    yield 1.0
+    [build] = builds()
+    seen["rebuilt"] = list(build["legorize"]["root"].location)
+    seen["heat_map"] = bpy.context.scene.legorize.heat_map
+    screenshot("11-rebuilt")
+
+
+def build_small(seen: dict[str, Any]) -> Wait:
+    """Click the button for a small model and wait for it."""
+    bpy.context.scene.legorize.settings.width = 12
+    yield from click_button(seen)
+    yield from wait_until(lambda: not running())
+    yield 1.0
+
+
+def builds() -> list[Any]:
+    """Return the collections that say of themselves that they are models."""
+    return [each for each in bpy.context.scene.collection.children_recursive if "legorize" in each]
+
+
+def listening(told: list[Any]) -> bool:
+    """Note how far the job says that it is; return whether it goes on."""
+    from bl_ext.user_default.legorize.legorize_addon import job
+
+    at_work = job.running()
+    if at_work:
+        told.append([*at_work.progress, at_work.seconds_left])
+    return running()
+
+
+def select_in_outliner(name: str) -> Wait:
+    """Click down the rows of the outliner until a collection of a name is selected."""
+    area = area_of("OUTLINER")
+    region = region_of(area, "WINDOW")
+    x = region.x + 120
+    for below_top in range(8, region.height, 10):
+        y = region.y + region.height - below_top
+        simulate("MOUSEMOVE", "NOTHING", x, y)
+        yield 0.1
+        simulate("LEFTMOUSE", "PRESS", x, y)
+        simulate("LEFTMOUSE", "RELEASE", x, y)
+        yield 0.2
+        with bpy.context.temp_override(window=window(), area=area, region=region):
+            chosen = [each for each in bpy.context.selected_ids if isinstance(each, bpy.types.Collection)]
+        if [each.name for each in chosen] == [name]:
+            return
+    screenshot("not-in-outliner")
+    raise AssertionError(f"no row of the outliner selects {name}")
+
+
+def click_until(condition: Any, top: int) -> Wait:
+    """Click down the tab's rows from a height on until something holds."""
+    region = region_of(view_area(), "UI")
+    x = region.x + int(region.width * 0.4)
+    for y in range(top, region.y, -8):
+        simulate("MOUSEMOVE", "NOTHING", x, y)
+        yield 0.2
+        simulate("LEFTMOUSE", "PRESS", x, y)
+        simulate("LEFTMOUSE", "RELEASE", x, y)
+        yield 0.4
+        if condition():
+            return
+    screenshot("no-click")
+    raise AssertionError("no click in the tab did it")
+
+
+def in_outliner(operator: str) -> None:
+    """Choose an entry of the menu on the selected row of the outliner."""
+    area = area_of("OUTLINER")
+    with bpy.context.temp_override(window=window(), area=area, region=region_of(area, "WINDOW")):
+        getattr(bpy.ops.outliner, operator)("INVOKE_DEFAULT", True)
+
+
+def in_view(operator: str) -> None:
+    """Use one of our operators in the 3D viewport."""
+    with bpy.context.temp_override(window=window(), area=view_area(), region=region_of(view_area(), "WINDOW")):
+        getattr(bpy.ops.legorize, operator)("INVOKE_DEFAULT", True)
 
 
 def import_sample() -> str:
     """Empty the scene, import the sample, select it, and return its name."""
     for each in list(bpy.data.objects):
         bpy.data.objects.remove(each)
-    window = bpy.context.window_manager.windows[0]
-    with bpy.context.temp_override(window=window, area=view_area()):
+    with bpy.context.temp_override(window=window(), area=view_area()):
         bpy.ops.import_scene.gltf(filepath=SAMPLE)
         bpy.ops.ed.undo_push(message="Import")
     [mesh] = [each for each in bpy.context.scene.objects if each.type == "MESH"]
@@ -85,17 +229,22 @@ def import_sample() -> str:
 
 def scene_content(sample: str) -> dict[str, Any]:
     """Return what the scene holds: bricks, layers, and the sample as it was."""
-    builds = [each for each in bpy.context.scene.collection.children_recursive if "legorize" in each]
-    points = [each for build in builds for each in build.all_objects if each.type == "MESH"]
+    points = [each for build in builds() for each in build.all_objects if each.type == "MESH"]
     mesh = bpy.data.objects[sample].data
     return {
-        "builds": len(builds),
+        "builds": len(builds()),
         "bricks": sum(len(each.data.vertices) for each in points),
-        "layers": sum(len(build.children) for build in builds),
+        "layers": sum(len(build.children) for build in builds()),
         "objects": len(bpy.context.scene.objects),
         "vertices": len(mesh.vertices),
         "polygons": len(mesh.polygons),
+        "instances": n_instances(),
     }
+
+
+def n_instances() -> int:
+    """Return how many bricks the viewport shows."""
+    return sum(each.is_instance for each in bpy.context.evaluated_depsgraph_get().object_instances)
 
 
 def click_button(seen: dict[str, Any]) -> Wait:
@@ -123,7 +272,7 @@ def press(key: str, *, ctrl: bool = False) -> Wait:
     simulate("MOUSEMOVE", "NOTHING", x, y)
     yield 0.2
     for value in ("PRESS", "RELEASE"):
-        bpy.context.window_manager.windows[0].event_simulate(type=key, value=value, x=x, y=y, ctrl=ctrl)
+        window().event_simulate(type=key, value=value, x=x, y=y, ctrl=ctrl)
     yield 0.1
 
 
@@ -137,12 +286,22 @@ def wait_until(condition: Any) -> Wait:
 
 def running() -> bool:
     """Whether the operator waits for its end or for Esc."""
-    return any(each.bl_idname == BUTTON for each in bpy.context.window_manager.windows[0].modal_operators)
+    return any(each.bl_idname == BUTTON for each in window().modal_operators)
 
 
 def view_area() -> Any:
     """Return the 3D viewport."""
-    return next(area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == "VIEW_3D")
+    return area_of("VIEW_3D")
+
+
+def area_of(kind: str) -> Any:
+    """Return an area of the window."""
+    return next(area for area in window().screen.areas if area.type == kind)
+
+
+def window() -> Any:
+    """Return the window."""
+    return bpy.context.window_manager.windows[0]
 
 
 def region_of(area: Any, kind: str) -> Any:
@@ -152,15 +311,14 @@ def region_of(area: Any, kind: str) -> Any:
 
 def frame_all(area: Any) -> None:
     """Bring everything into view."""
-    window = bpy.context.window_manager.windows[0]
-    with bpy.context.temp_override(window=window, area=area, region=region_of(area, "WINDOW")):
+    with bpy.context.temp_override(window=window(), area=area, region=region_of(area, "WINDOW")):
         bpy.ops.view3d.view_all()
     area.tag_redraw()
 
 
 def simulate(kind: str, value: str, x: int, y: int) -> None:
     """Send an event as mouse and keyboard would; y counts from the bottom."""
-    bpy.context.window_manager.windows[0].event_simulate(type=kind, value=value, x=x, y=y)
+    window().event_simulate(type=kind, value=value, x=x, y=y)
 
 
 def screenshot(name: str) -> None:

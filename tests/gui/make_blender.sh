@@ -19,6 +19,9 @@ fi
 mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Component: main' |
     grep -v security | head -n 1)
 
+step() { printf '\n=== %s\n' "$*"; }
+
+step "1 of 3: a bare Debian"
 rm -rf --one-file-system "$root"
 debootstrap --variant=minbase --include=ca-certificates "$suite" "$root" "$mirror"
 printf '#!/bin/sh\nexit 101\n' >"$root/usr/sbin/policy-rc.d" # no service is to start in there
@@ -34,7 +37,9 @@ path-exclude=/usr/share/man/*
 path-exclude=/usr/share/locale/*
 force-unsafe-io
 CONF
+step "2 of 3: what there is to install"
 chroot "$root" apt-get update -q
+step "3 of 3: Blender and a virtual screen"
 # shellcheck disable=SC2086
 chroot "$root" apt-get install -y -q $packages
 chroot "$root" apt-get clean
