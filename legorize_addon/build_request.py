@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -55,6 +55,18 @@ class Order:
     settings: Settings
     mm_per_unit: float
     replaces: tuple[int, ...]
+
+    def check_limits(self) -> None:
+        """Raise ``LimitError`` if the model would be larger than the limits of the settings."""
+        from .core.estimate import check_limits, estimate
+
+        check_limits(estimate(self.mesh, self.settings), self.settings)
+
+    def within_limits(self) -> Order:
+        """Return the same with limits that allow it."""
+        from .core.estimate import estimate, within_limits
+
+        return replace(self, settings=within_limits(estimate(self.mesh, self.settings), self.settings))
 
     def work(self, progress: Progress) -> Build:
         """Run the core; no Blender in here."""

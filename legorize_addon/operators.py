@@ -12,13 +12,14 @@ from . import job
 from .build_request import Order, by_uid, chosen_sources, order_of
 from .build_state import state_of
 from .builds import builds, damage, show_sources
-from .core.errors import BuildError, Cancelled, LegorizeError
+from .core.errors import BuildError, Cancelled, LegorizeError, LimitError, enough_memory
 from .hidden_sources import orphans, show_orphans
 from .progress_text import STOPPED, progress_text
 from .properties import current_build, settings_of
 from .result import show_result
 from .scene import clear_build
 from .shared_parts import sweep
+from .ui.build_larger import ask
 
 if TYPE_CHECKING:
     from .core.build import Build
@@ -38,7 +39,8 @@ class Reporting:
     def reported(self, work: Callable[..., set[str]], *arguments: Any) -> set[str]:
         """Call a function; report its failure and cancel if it has one that the user can mend."""
         try:
-            return work(*arguments)
+            with enough_memory():
+                return work(*arguments)
         except LegorizeError as error:
             self.report({"ERROR"}, str(error))
         except Cancelled:
@@ -103,8 +105,11 @@ class Working(Reporting):
         return self._show(context, order, order.work(lambda stage, share: None))
 
     def _start(self, context: bpy.types.Context) -> set[str]:
+        return self._begin(context, self._take_order(context))
+
+    def _begin(self, context: bpy.types.Context, order: Any) -> set[str]:
         context.window_manager.legorize_said = ""
-        self._order = self._take_order(context)
+        self._order = order
         self._job = job.Job(self._order.work)
         self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
         context.window_manager.modal_handler_add(self)
@@ -141,8 +146,23 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
 
     nothing_chosen = "Select an object with a surface."
 
+    larger: bpy.props.BoolProperty(
+        name="Larger Than the Limits",
+        description="Build also what is larger than the limits of the settings",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+
     def _take_order(self, context: bpy.types.Context) -> Order:
-        return order_of(context, chosen_sources(context), settings_of(context.scene.legorize.settings))
+        order = order_of(context, chosen_sources(context), settings_of(context.scene.legorize.settings))
+        return order.within_limits() if self.larger else order
+
+    def _begin(self, context: bpy.types.Context, order: Order) -> set[str]:
+        try:
+            order.check_limits()
+        except LimitError as reason:
+            ask(str(reason))
+            return {"CANCELLED"}
+        return super()._begin(context, order)
 
     def _show(self, context: bpy.types.Context, order: Order, build: Build) -> set[str]:
         [scene] = by_uid(bpy.data.scenes, [order.scene]) or [None]

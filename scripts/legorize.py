@@ -38,7 +38,7 @@ try:
     from legorize_addon.core.build import Build
     from legorize_addon.core.catalogue import load_catalogue
     from legorize_addon.core.checks import failed_checks
-    from legorize_addon.core.errors import BuildError, LegorizeError, SettingsError
+    from legorize_addon.core.errors import BuildError, LegorizeError, SettingsError, enough_memory
     from legorize_addon.core.files.folder import new_folder, writing
     from legorize_addon.core.files.outputs import texts
     from legorize_addon.core.model import Role
@@ -124,7 +124,8 @@ def main(arguments: Sequence[str]) -> int:
         out, taken = options.pop("out"), Taken(**{name: options.pop(name) for name in Taken._fields})
         wanted = Wanted(**{name: options.pop(name) for name in Wanted._fields})
         wanted.check()
-        return run(taken, out, settings_of(options), wanted)
+        with enough_memory():
+            return run(taken, out, settings_of(options), wanted)
     except LegorizeError as error:
         print(error, file=sys.stderr)
         return 1

@@ -133,13 +133,13 @@ def test_only_the_pipeline_knows_the_order() -> None:
 
 
 def test_every_setting_is_used() -> None:
-    """No setting that the pipeline never reads."""
+    """No setting that neither the pipeline nor the estimate before it reads."""
     [(_, settings)] = trees([CORE / "settings.py"])
-    [(_, pipeline)] = trees([CORE / "pipeline.py"])
+    readers = [tree for _, tree in trees([CORE / "pipeline.py", CORE / "estimate.py"])]
     [fields] = [node.body for node in settings.body if isinstance(node, ast.ClassDef) and node.name == "Settings"]
     names = {node.target.id for node in fields if isinstance(node, ast.AnnAssign)}
     assert names
-    assert names <= {node.attr for node in ast.walk(pipeline) if isinstance(node, ast.Attribute)}
+    assert names <= {node.attr for tree in readers for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
 
 
 def test_package_has_no_forbidden_calls() -> None:

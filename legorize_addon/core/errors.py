@@ -11,11 +11,15 @@ traceback.
     LegorizeError
     ├── MeshError        the mesh or its images cannot be used
     ├── SettingsError    a setting, or a combination of settings, is impossible
+    │   └── LimitError   the model would be larger than a limit that the user can raise
     └── BuildError       the model cannot be built or written
     Cancelled            the user asked to stop (not a failure)
 """
 
 from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 
 class LegorizeError(Exception):
@@ -30,9 +34,30 @@ class SettingsError(LegorizeError):
     """A setting is out of range or contradicts another one."""
 
 
+class LimitError(SettingsError):
+    """The model would pass a limit. Where somebody can be asked, they may want it all the same."""
+
+
 class BuildError(LegorizeError):
     """The model cannot be built, or its files cannot be written."""
 
 
 class Cancelled(Exception):  # noqa: N818 - a request, not an error
     """Raised by a progress callback when the user asked to stop; never caught in the core."""
+
+
+@contextmanager
+def enough_memory() -> Iterator[None]:
+    """Turn the end of the memory into a sentence; also a decorator.
+
+    Raises
+    ------
+    BuildError
+        Instead of ``MemoryError``, from wherever it came.
+    """
+    try:
+        yield
+    except MemoryError as error:
+        raise BuildError(
+            "The memory does not suffice for a model of this size: choose a smaller size, or close other programs."
+        ) from error

@@ -18,7 +18,8 @@ from .catalogue import Catalogue, load_catalogue
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .connection import Connection, connect
 from .detail import Detail
-from .estimate import AGAIN, estimate
+from .errors import enough_memory
+from .estimate import AGAIN, check_limits, estimate
 from .facing import facing_of
 from .geometry.upright import turned_upright
 from .grid import Grid, fit_grid
@@ -38,7 +39,7 @@ from .remarks import remarks
 from .seen_filler import with_seen_coloured
 from .segmentation import Joint, segmented
 from .settings import Settings
-from .size import check_any, check_size, model_scale
+from .size import check_any, model_scale
 from .slicing import adaptive_heights, slice_mesh
 from .stability import Stability, stability
 from .supports import Supports, supported, with_falling_propped, with_floating_carried
@@ -47,6 +48,7 @@ from .unit_bricks import unit_bricks
 from .units import PLATES_PER_BRICK
 
 
+@enough_memory()
 def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent) -> Build:
     """Turn a textured mesh into a brick model.
 
@@ -72,7 +74,9 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     palette, table = chosen_palette(settings.palette, catalogue), _table(settings)
     rng = np.random.default_rng(settings.seed)
     timings: dict[str, float] = {}
-    overall = Overall(estimate(mesh, settings).stages, progress)
+    expected = estimate(mesh, settings)
+    check_limits(expected, settings)
+    overall = Overall(expected.stages, progress)
     stage = partial(_stage, overall, timings)
 
     with stage("mesh"):
@@ -140,7 +144,6 @@ def _sized(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, float,
         mesh, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale
     )
     mesh = scaled(mesh, scale)
-    check_size(mesh, plates=_in_plates(settings))
     return mesh, scale, turn
 
 

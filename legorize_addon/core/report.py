@@ -12,6 +12,7 @@ from .build import Build, Cut
 from .catalogue import Catalogue
 from .connection import NOBODY, Connection
 from .coverage import cut_at_grid
+from .errors import enough_memory
 from .joints import brick_columns
 from .layout import bound
 from .ldraw import ldraw_matrix
@@ -29,6 +30,7 @@ SCHEMA: Final = 1
 """Version of the keys; raised when one of them changes its meaning."""
 
 
+@enough_memory()
 def report(
     build: Build,
     catalogue: Catalogue,

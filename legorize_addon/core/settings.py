@@ -142,6 +142,16 @@ class Settings:
         False, "Test by forces after every building step whether what is in place stands, supports included; it "
         "takes several times as long as all the rest.", group="Check")
 
+    limit_size: int = setting(
+        300, "Longest side in cm up to which a model is built without asking; larger ones are refused where nobody "
+        "can be asked.", group="Limits", low=1, high=1_000_000)
+    limit_bricks: int = setting(
+        50_000, "Bricks, at a guess, up to which a model is built without asking.", group="Limits",
+        low=1, high=100_000_000)
+    limit_memory: int = setting(
+        6000, "Memory in MB, at a guess, up to which a model is built without asking.", group="Limits",
+        low=200, high=10_000_000)
+
     seed: int = setting(
         0, "Seed of everything random: the same seed gives the same model.", group="Run", low=0, high=2**31 - 1)
     # fmt: on

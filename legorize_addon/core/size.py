@@ -9,10 +9,7 @@ import numpy as np
 from .errors import SettingsError
 from .mesh import TriangleMesh
 from .model import Floats, UnitGrid
-from .units import BRICK, PLATES_PER_BRICK, STUD
-
-MOST_CELLS: Final = 60_000_000
-"""Unit cells that a grid may have: beyond, the arrays of a run outgrow 16 GB."""
+from .units import BRICK, STUD
 
 _ORIGINAL_SCALE: Final = 10.0
 """Scale factor k at which an object keeps its size (paper, section 3)."""
@@ -63,30 +60,6 @@ def scale_of_extent(extent: Floats, *, size_by: str, width: int, height: int, sc
     if along <= 1e-9 * extent.max():
         raise SettingsError(f"The mesh has a {word} of {along:g} mm: set the size by another measure than {word}.")
     return float(wanted / along)
-
-
-def check_size(mesh: TriangleMesh, *, plates: bool) -> None:
-    """Refuse a model that would not fit in memory.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        In its final size.
-    plates : bool
-        Whether the grid is one of plates.
-
-    Raises
-    ------
-    SettingsError
-        The grid would have more than ``MOST_CELLS`` cells.
-    """
-    studs, layers = np.ptp(mesh.vertices, axis=0)[:2] / STUD, np.ptp(mesh.vertices[:, 2]) / BRICK
-    cells = float(np.prod(np.ceil(1.1 * studs) + 2) * (np.ceil(layers) + 1)) * (PLATES_PER_BRICK if plates else 1)
-    if cells > MOST_CELLS:
-        raise SettingsError(
-            f"The model would be {studs[0]:.0f} x {studs[1]:.0f} studs and {layers:.0f} bricks high, {cells:.2g} cells "
-            f"of at most {MOST_CELLS:.2g}: choose a smaller size."
-        )
 
 
 def check_any(grid: UnitGrid, mesh: TriangleMesh, *, keep_thin: bool) -> None:

@@ -725,3 +725,32 @@ def test_bound_is_proven_on_request(script: ModuleType, tmp_path: Path) -> None:
     without, proven = (facts["layout"] for facts in found)
     assert without["fewest_possible"] is without["at_most_more_percent"] is None
     assert 1 <= proven["fewest_possible"] <= found[1]["counts"]["bricks"]
+
+
+def test_a_giant_is_refused_before_the_work(
+    script: ModuleType, out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A thin pole, 48 studs wide, is refused with its height; with the limit raised, it is built."""
+    add_box((0.05, 0.05, 2))
+    source = save(tmp_path / "pole.blend")
+    assert_refused(script, source, out, "15 m high (1,600 layers)", capsys, [])
+    assert_refused(script, source, out, "raise limit_size to 39", capsys, ["--width", "1", "--limit-size", "20"])
+    assert script.main([str(source), "--out", str(out), "--width", "1", "--limit-size", "39"]) in (0, 2)
+    assert report(out)["settings"]["limit_size"] == 39
+
+
+def test_end_of_the_memory_is_a_sentence_everywhere(
+    script: ModuleType, out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whether reading, building or showing the model meets the end of the memory, the folder stays as it was."""
+
+    def full(*_: object, **__: object) -> None:
+        raise MemoryError
+
+    add_box(BOX)
+    source = save(tmp_path / "box.blend")
+    for step in ("read_rendered", "legorize", "report", "texts", "show"):
+        with monkeypatch.context() as patch:
+            patch.setattr(script, step, full)
+            flags = ["--width", "4", "--save-blend"]
+            assert_refused(script, source, out, "The memory does not suffice", capsys, flags)

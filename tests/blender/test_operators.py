@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -525,3 +526,40 @@ def test_one_object_in_two_scenes(box, first: int, hidden: bool) -> None:
         clear_build(scene, builds(scene)[0])
         assert box.hide_viewport != gone
     assert box.hide_render == hidden
+
+
+def test_a_giant_is_refused_without_a_window(box) -> None:
+    """What is larger than the limits is refused, and built if it is wanted all the same; the settings stay."""
+    settings = bpy.context.scene.legorize.settings
+    settings.limit_size = 5
+    before = content()
+    with pytest.raises(RuntimeError, match=r"^Error: The model would be [^\n]*raise limit_size to 10\.\n?$"):
+        bpy.ops.legorize.build()
+    assert content() == before
+    assert bpy.ops.legorize.build(larger=True) == {"FINISHED"}
+    assert settings.limit_size == 5
+
+
+def test_a_giant_is_a_question_in_a_window(box, monkeypatch) -> None:
+    """Before a job begins, the same sentence is asked; the answer builds the model."""
+    bpy.context.scene.legorize.settings.limit_size = 5
+    asked: list[str] = []
+    monkeypatch.setattr(operators, "ask", asked.append)
+    order = operators.LEGORIZE_OT_build._take_order(SimpleNamespace(larger=False), bpy.context)
+    assert operators.LEGORIZE_OT_build._begin(None, bpy.context, order) == {"CANCELLED"}
+    [sentence] = asked
+    assert sentence.endswith("raise limit_size to 10.")
+    assert job.running() is None
+    assert bpy.ops.legorize.build_larger("EXEC_DEFAULT", reason=sentence) == {"FINISHED"}
+    assert current_build(bpy.context.scene) is not None
+
+
+def test_end_of_the_memory_is_one_sentence(box, monkeypatch) -> None:
+    """A scene that does not get its model for want of memory says so in a sentence."""
+
+    def full(*_: object, **__: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(operators, "show_result", full)
+    with pytest.raises(RuntimeError, match=r"^Error: The memory does not suffice[^\n]*\.\n?$"):
+        bpy.ops.legorize.build()

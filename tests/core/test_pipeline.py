@@ -10,12 +10,12 @@ from scipy import ndimage
 
 from legorize_addon.core.build import Build
 from legorize_addon.core.catalogue import footprint, load_catalogue
-from legorize_addon.core.errors import Cancelled, LegorizeError, MeshError, SettingsError
+from legorize_addon.core.errors import BuildError, Cancelled, LegorizeError, LimitError, MeshError, SettingsError
 from legorize_addon.core.mesh import TriangleMesh
 from legorize_addon.core.model import COLOUR_ANY, Cover, Role
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.size import MOST_CELLS, check_size, model_scale
+from legorize_addon.core.size import model_scale
 from tests.core.light import holes
 from tests.core.solids import box, joined, mesh_of, moebius, reversed_mesh, sheet, sphere, tube, without
 from tests.core.textured import blob, cylinder, hollow_box, painted, rgb_of, split_at_x, table, torus
@@ -190,9 +190,9 @@ BAD = {
     "height of a flat sheet": (sheet(), {"size_by": "height"}, SettingsError, "height of 0 mm"),
     "too small": (box(), {"size_by": "scale", "scale": 0.1}, SettingsError, "too small for one brick"),
     "far too small": (box(), {"size_by": "scale", "scale": 1e-4}, SettingsError, "too small for one brick"),
-    "far too large": (box((0, 0, 0), (1e6, 1e6, 1e6)), {"size_by": "scale"}, SettingsError, "choose a smaller size"),
+    "far too large": (box((0, 0, 0), (1e6, 1e6, 1e6)), {"size_by": "scale"}, LimitError, "choose a scale of 0.03 or less"),
     "beyond all bounds": (
-        box((0, 0, 0), (1e11, 1e11, 1e11)), {"size_by": "scale", "scale": 1e6}, SettingsError, "choose a smaller size"
+        box((0, 0, 0), (1e11, 1e11, 1e11)), {"size_by": "scale", "scale": 1e6}, LimitError, "choose a scale of"
     ),
 }  # fmt: skip
 
@@ -211,14 +211,23 @@ def test_bad_input_is_refused_in_one_sentence(name):
 
 
 def test_size_is_checked_before_the_work():
-    """A model just within the bounds passes the check, one just beyond does not."""
-    # n studs wide and n bricks high
-    n = round((MOST_CELLS / 1.21) ** (1 / 3))
-    check_size(box((0, 0, 0), (8 * n * 0.95, 8 * n * 0.95, 9.6 * n * 0.95)), plates=False)
-    with pytest.raises(SettingsError, match=f"{n} x {n} studs and {n} bricks high"):
-        check_size(box((0, 0, 0), (8 * n, 8 * n, 9.6 * n)), plates=False)
-    with pytest.raises(SettingsError, match="cells of at most"):
-        check_size(box((0, 0, 0), (8 * n * 0.95, 8 * n * 0.95, 9.6 * n * 0.95)), plates=True)
+    """What is too large is refused before any stage begins, and so is what outgrows the memory in one, in a sentence."""
+    told: list[str] = []
+    with pytest.raises(LimitError, match="choose a height of 62 or less, or raise limit_size to 480"):
+        legorize(box((0, 0, 0), (1, 1, 8)), Settings(size_by="height", height=500, limit_size=60), told.append)
+    assert told == []
+
+
+def test_end_of_the_memory_is_a_sentence():
+    """Whichever stage asks for more memory than there is, the user learns what to do."""
+
+    def greedy(stage: str, share: float) -> None:
+        if stage == "layout":
+            np.empty(1 << 62, dtype=np.uint8)
+
+    with pytest.raises(BuildError, match=r"^The memory does not suffice .*: choose a smaller size.*\.$") as refusal:
+        legorize(sphere(6, 10.0), SMALL, greedy)
+    assert isinstance(refusal.value.__cause__, MemoryError)
 
 
 def test_extent_that_is_missing_is_told():

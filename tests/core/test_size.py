@@ -7,17 +7,8 @@ import pytest
 
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.model import COLOUR_EMPTY, Cover, Role, UnitGrid
-from legorize_addon.core.size import MOST_CELLS, check_any, check_size
+from legorize_addon.core.size import check_any
 from tests.core.solids import box
-
-
-def test_plates_count_three_times():
-    """A box that just fits in bricks does not fit in plates."""
-    n = round((MOST_CELLS / 1.21) ** (1 / 3))
-    mesh = box((0, 0, 0), (8 * n * 0.9, 8 * n * 0.9, 9.6 * n * 0.9))
-    check_size(mesh, plates=False)
-    with pytest.raises(SettingsError, match=r"of at most .*: choose a smaller size\.$"):
-        check_size(mesh, plates=True)
 
 
 def test_nothing_to_build():

@@ -9,11 +9,13 @@ from .. import ldraw, shopping
 from ..build import Build
 from ..building.order_file import build_order_csv
 from ..catalogue import Catalogue
+from ..errors import enough_memory
 from ..ldraw_document import write_mpd
 from ..shopping import PartsList
 from ..tables import paper_tables
 
 
+@enough_memory()
 def texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:
     """Return the contents of the text files by name.
 

@@ -1,0 +1,1 @@
+"""What people press and are asked: operators by feature."""
