@@ -221,8 +221,9 @@ def _smaller(settings: Settings, passed: Mapping[str, float]) -> str:
     name = settings.size_by
     fitting = getattr(settings, name) * share
     if name == "scale":
-        return f"a scale of {fitting:.2g} or less"
-    return f"a {name} of {fitting:.0f} or less" if fitting >= 1 else f"another size than by {name}"
+        step = 10.0 ** (math.floor(math.log10(fitting)) - 1)
+        return f"a scale of {math.floor(fitting / step) * step:g} or less"
+    return f"a {name} of {math.floor(fitting)} or less" if fitting >= 1 else f"another size than by {name}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -136,7 +136,7 @@ def test_a_lying_pole_is_refused_by_its_length():
         ({"limit_bricks": 100}, "raise limit_bricks to"),
         ({"limit_memory": 200, "width": 150}, "raise limit_memory to"),
         ({"limit_size": 10, "limit_bricks": 100}, "raise limit_size to 39 and limit_bricks to"),
-        ({"size_by": "scale", "scale": 1e5, "limit_size": 100}, "choose a scale of"),
+        ({"size_by": "scale", "scale": 1e3, "limit_size": 100}, "choose a scale of"),
     ],
     ids=str,
 )
