@@ -734,9 +734,9 @@ def test_a_giant_is_refused_before_the_work(
     add_box((0.05, 0.05, 2))
     source = save(tmp_path / "pole.blend")
     assert_refused(script, source, out, "15 m high (1,600 layers)", capsys, [])
-    assert_refused(script, source, out, "raise limit_size to 39", capsys, ["--width", "1", "--limit-size", "20"])
-    assert script.main([str(source), "--out", str(out), "--width", "1", "--limit-size", "39"]) in (0, 2)
-    assert report(out)["settings"]["limit_size"] == 39
+    assert_refused(script, source, out, "raise limit_size to 32", capsys, ["--width", "1", "--limit-size", "20"])
+    assert script.main([str(source), "--out", str(out), "--width", "1", "--limit-size", "32"]) in (0, 2)
+    assert report(out)["settings"]["limit_size"] == 32
 
 
 def test_end_of_the_memory_is_a_sentence_everywhere(
