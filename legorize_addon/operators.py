@@ -105,10 +105,10 @@ class Working(Reporting):
         return self._show(context, order, order.work(lambda stage, share: None))
 
     def _start(self, context: bpy.types.Context) -> set[str]:
+        context.window_manager.legorize_said = ""
         return self._begin(context, self._take_order(context))
 
     def _begin(self, context: bpy.types.Context, order: Any) -> set[str]:
-        context.window_manager.legorize_said = ""
         self._order = order
         self._job = job.Job(self._order.work)
         self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
