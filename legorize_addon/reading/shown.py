@@ -22,7 +22,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.errors import LegorizeError
+from ..core.errors import LegorizeError, MeshError
 
 Found = TypeVar("Found")
 
@@ -31,14 +31,19 @@ SURFACES: Final = frozenset({"MESH", "CURVE", "SURFACE", "FONT", "META"})
 
 _ENGINE: Final = "LEGORIZE_READ"
 _RESULT: Final = "Render Result"
+_PENCILS: Final = ("GPENCIL", "GREASEPENCIL")
 
 _QUICK: Final = MappingProxyType(
     {
         "engine": _ENGINE,
         "resolution_x": 4,
         "resolution_y": 4,
+        "resolution_percentage": 100,
         "use_border": False,
         "use_compositing": False,
+        # crashes, as this engine leaves it no picture to draw on
+        "use_freestyle": False,
+        "use_motion_blur": False,
         "use_sequencer": False,
         "use_multiview": False,
         "use_persistent_data": False,
@@ -116,23 +121,30 @@ def when_rendered(context: bpy.types.Context, read: Callable[[bpy.types.Depsgrap
     Raises
     ------
     LegorizeError
-        The function's own.
+        The function's own, or Blender refuses to render.
     """
-    reading = _Reading(read)
-    with _engine(reading), _quick(context.scene):
-        bpy.ops.render.render(scene=context.scene.name, layer=context.view_layer.name)
+    reading = _Reading(read, context.view_layer)
+    with _engine(reading), _quick(context.scene, context.view_layer):
+        try:
+            bpy.ops.render.render(scene=context.scene.name, layer=context.view_layer.name)
+        except RuntimeError as error:
+            reason = str(error).strip().removeprefix("Error: ").rstrip(".")
+            raise MeshError(f"Blender refuses to render the scene ({reason}): mend its render settings.") from error
     return reading.result()
 
 
 class _Reading:
     """A function that is called by a render, and what came of it."""
 
-    def __init__(self, read: Callable[[bpy.types.Depsgraph], Any]) -> None:
-        self._read = read
+    def __init__(self, read: Callable[[bpy.types.Depsgraph], Any], layer: bpy.types.ViewLayer) -> None:
+        self._read, self._layer = read, layer
         self._found: list[Any] = []
         self._failure: BaseException | None = None
 
     def __call__(self, depsgraph: bpy.types.Depsgraph) -> None:
+        # all layers that are in use are rendered, one after the other
+        if depsgraph.view_layer.name != self._layer.name:
+            return
         try:
             self._found.append(self._read(depsgraph))
         except LegorizeError as error:
@@ -181,22 +193,30 @@ def _engine(reading: _Reading) -> Iterator[None]:
 
 
 @contextmanager
-def _quick(scene: bpy.types.Scene) -> Iterator[None]:
+def _quick(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[None]:
     """Set a scene up for a render that draws nothing; leave it as it was."""
     with ExitStack() as undo:
         if _RESULT not in bpy.data.images:
             undo.callback(_remove_result)
         for name, value in _QUICK.items():
-            undo.callback(setattr, scene.render, name, getattr(scene.render, name))
-            setattr(scene.render, name, value)
+            _set(undo, scene.render, name, value)
+        _set(undo, layer, "use", True)
+        # would be drawn over the picture by the graphics card, which there may be none of
+        for pencil in [obj for obj in bpy.data.objects if obj.type in _PENCILS]:
+            _set(undo, pencil, "hide_render", True)
         # no render begins without a camera
         camera = bpy.data.cameras.new("legorize read")
         undo.callback(bpy.data.cameras.remove, camera)
         view = bpy.data.objects.new("legorize read", camera)
         undo.callback(bpy.data.objects.remove, view)
-        undo.callback(setattr, scene, "camera", scene.camera)
-        scene.camera = view
+        _set(undo, scene, "camera", view)
         yield
+
+
+def _set(undo: ExitStack, owner: Any, name: str, value: Any) -> None:
+    """Set a property for a while."""
+    undo.callback(setattr, owner, name, getattr(owner, name))
+    setattr(owner, name, value)
 
 
 def _remove_result() -> None:

@@ -10,6 +10,7 @@ import pytest
 
 from legorize_addon.core.errors import MeshError
 from legorize_addon.read_mesh import read_objects, read_rendered
+from legorize_addon.reading import shown
 from legorize_addon.reading.importers import rendered
 from legorize_addon.reading.shown import when_rendered
 from tests.blender.builders import add_object
@@ -212,6 +213,58 @@ def test_reading_what_renders_show_leaves_the_scene() -> None:
     with pytest.raises(MeshError, match="scale of zero"):
         in_renders([obj])
     assert state() == before
+
+
+def other_layers(scene: bpy.types.Scene) -> None:
+    """Have a second view layer, which renders show too."""
+    scene.view_layers.new("second")
+
+
+def single_layer(scene: bpy.types.Scene) -> None:
+    """Render only one of two layers."""
+    scene.view_layers.new("second")
+    scene.render.use_single_layer = True
+
+
+def layer_not_in_use(scene: bpy.types.Scene) -> None:
+    """Leave the layer out of renders of the whole scene."""
+    scene.view_layers[0].use = False
+
+
+def tiny_pictures(scene: bpy.types.Scene) -> None:
+    """Render thumbnails."""
+    scene.render.resolution_percentage = 1
+
+
+def everything_on(scene: bpy.types.Scene) -> None:
+    """Switch on what renders can do beside drawing."""
+    for name in ("motion_blur", "freestyle", "border", "crop_to_border", "simplify", "multiview"):
+        setattr(scene.render, f"use_{name}", True)
+
+
+@pytest.mark.parametrize("change", [other_layers, single_layer, layer_not_in_use, tiny_pictures, everything_on])
+def test_any_settings_of_renders(change: Callable[[bpy.types.Scene], None]) -> None:
+    """Whatever a scene's renders are set to, its shown objects are read, once."""
+    objects = [cube(0), cube(10)]
+    change(bpy.context.scene)
+    used = bpy.context.view_layer.use
+    assert len(in_renders(objects)) == 16
+    assert bpy.context.view_layer.use == used
+
+
+def test_no_drawing_on_the_graphics_card() -> None:
+    """Strokes of grease pencil, which a render would draw, are not in the one that reads, and in renders afterwards."""
+    bpy.ops.object.grease_pencil_add(type="STROKE")
+    pencil = bpy.context.object
+    assert pencil.type not in when_rendered(bpy.context, lambda graph: [obj.type for obj in graph.objects])
+    assert not pencil.hide_render
+
+
+def test_a_refusal_to_render_is_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Should Blender refuse to render, the reason is told."""
+    monkeypatch.setattr(shown, "_QUICK", {**shown._QUICK, "resolution_percentage": 1})
+    with pytest.raises(MeshError, match=r"^Blender refuses to render the scene \(.*\): mend its render settings\.$"):
+        in_renders([cube(0)])
 
 
 def test_a_bug_while_reading_is_raised() -> None:
