@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mmap
 import re
 from pathlib import Path
 from typing import Final
@@ -18,14 +19,16 @@ _LONGEST: Final = 4096
 
 def check_fbx(source: Path) -> tuple[str, ...]:
     """Refuse what is no FBX file, and one whose textures are no files."""
-    data = source.read_bytes()
-    if not data.startswith(_BINARY) and not _TEXT.search(data[:4096]):
-        raise MeshError(f"{source.name} is no FBX file, whatever its name says: export it again.")
-    check_regular(source, named_files(data))
+    with source.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+        start = data[:4096]
+        if not start.startswith(_BINARY) and not _TEXT.search(start):
+            raise MeshError(f"{source.name} is no FBX file, whatever its name says: export it again.")
+        names = named_files(data)
+    check_regular(source, names)
     return ()
 
 
-def named_files(data: bytes) -> set[str]:
+def named_files(data: bytes | mmap.mmap) -> set[str]:
     """Return the names of files in an FBX file, binary or text."""
     names = set()
     for match in _NAMED.finditer(data):

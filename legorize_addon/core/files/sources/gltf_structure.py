@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, Final, TypeAlias
 
@@ -96,16 +96,20 @@ def _values(part: Any, path: list[str], place: str = "") -> Iterator[tuple[str, 
     if not path:
         yield place.lstrip("/"), part
         return
-    for key, value in _members(part):
-        if path[0] == "*" or key == path[0] or (path[0][0] == "*" and key.endswith(path[0][1:])):
-            yield from _values(value, path[1:], f"{place}/{key}")
+    first, *rest = path
+    for key, value in _members(part, first):
+        yield from _values(value, rest, f"{place}/{key}")
 
 
-def _members(part: Any) -> Iterator[tuple[str, Any]]:
-    if isinstance(part, dict):
-        yield from part.items()
-    elif isinstance(part, list):
-        yield from ((str(number), value) for number, value in enumerate(part))
+def _members(part: Any, name: str) -> Iterable[tuple[Any, Any]]:
+    """Return the members of a part whose name is given, or ends with what follows ``*``."""
+    if isinstance(part, list) and name == "*":
+        return enumerate(part)
+    if not isinstance(part, dict):
+        return ()
+    if name[0] == "*":
+        return [(key, value) for key, value in part.items() if key.endswith(name[1:])]
+    return [(name, part[name])] if name in part else ()
 
 
 def _is_row(number: Any, rows: Any) -> bool:

@@ -161,14 +161,15 @@ def _check_text(source: Path, body: Bytes, header: Header, vertices: int) -> Non
 def _numbers(source: Path, element: Element, rows: list[bytes]) -> Ints:
     """Return the indices of vertices in the rows of a table."""
     found: list[bytes] = []
+    columns = [(each, _is_index(element, each)) for each in element.properties]
     for row in rows:
         words, at = row.split(), 0
-        for each in element.properties:
+        for each, is_index in columns:
             length = 1
             if each.count_kind:
                 length = int(words[at]) if at < len(words) and words[at].isdigit() else len(words)
                 at += 1
-            if _is_index(element, each):
+            if is_index:
                 found += words[at : at + length]
             at += length
         if at > len(words):
@@ -183,8 +184,10 @@ def _numbers(source: Path, element: Element, rows: list[bytes]) -> Ints:
 
 
 def _is_index(element: Element, each: Property) -> bool:
-    """Return whether a column holds numbers of vertices."""
-    return each.kind[-2] != "f" and each.name in _INDICES.get(element.name, ())
+    """Return whether a column holds numbers of vertices: by its name, or as the only list of a face."""
+    lists = [each for each in element.properties if each.count_kind]
+    named = each.name in _INDICES.get(element.name, ())
+    return each.kind[-2] != "f" and (named or (element.name == "face" and lists == [each]))
 
 
 def _check_indices(source: Path, element: Element, indices: NDArray[Any], vertices: int) -> None:

@@ -56,6 +56,13 @@ def test_vertex_that_is_not_there(form: str, faces: list[list[int]], path: Path)
     assert "there are 8 from 0 on" in refusal(path)
 
 
+@pytest.mark.parametrize("form", FORMS)
+def test_only_list_of_a_face(form: str, path: Path) -> None:
+    """Blender takes it for the corners, whatever it is called."""
+    path.write_bytes(ply(form, [*FACES, (0, 1, 8)]).replace(b"vertex_indices", b"corners"))
+    assert "names vertex 8" in refusal(path)
+
+
 @pytest.mark.parametrize("form", FORMS[1:])
 def test_length_of_a_list(form: str, path: Path) -> None:
     """A list that is longer than what is left of the file."""
