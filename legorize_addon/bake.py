@@ -1,16 +1,17 @@
 """Colours that no image holds, baked to one: procedural textures, mixed shaders, generated coordinates.
 
 A copy of the mesh is unwrapped by xatlas, its materials are replaced by copies
-that emit their base colour, and Cycles bakes what they emit. All of it happens
-in a scene of its own; scene, copies and image are removed afterwards, also when
+that emit their base colour, and Cycles bakes what they emit; once more with
+copies that emit how much of them is seen, unless all is. All of it happens in a
+scene of its own; scene, copies and image are removed afterwards, also when
 something fails.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import bmesh
@@ -20,16 +21,18 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from .core.errors import MeshError
-from .node_links import SEE_THROUGH, colour_input
+from .node_links import SEE_THROUGH, NotAProduct, Place, colour_input, follow, surface_output
 from .read_colours import Floats
-from .read_materials import Paint, Texture
+from .read_materials import Paint
+from .reading.emitting import PASSED_ON, emit_opacity, fix_missing_images, fix_object_values, replace_by_emission
+from .reading.expressions import Expression
+from .reading.object_values import ObjectValues
+from .reading.opacity import opacity
+from .reading.textures import Texture
 
 Mask = NDArray[np.bool_]
 
 _NAME: Final = "legorize bake"
-_PASSED_ON: Final = ("ShaderNodeMixShader", "ShaderNodeAddShader", "ShaderNodeGroup", "NodeGroupInput", "NodeReroute")
-"""Nodes that hand on shaders of other nodes."""
-
 _TEXELS_ACROSS: Final = 512
 """Texels along the longest side of the object: more than ten a stud at the default size."""
 
@@ -61,6 +64,8 @@ class Bakeable:
         Original material of each slot.
     render_layers : two str
         UV map and colour attribute that are active for render; empty if there is none.
+    values : ObjectValues
+        What the object tells its materials.
     """
 
     name: str
@@ -69,6 +74,7 @@ class Bakeable:
     paints: tuple[Paint | None, ...]
     materials: tuple[bpy.types.Material | None, ...]
     render_layers: tuple[str, str]
+    values: ObjectValues
 
     @staticmethod
     def of(
@@ -77,6 +83,7 @@ class Bakeable:
         matrix: Floats,
         paints: tuple[Paint | None, ...],
         materials: list[bpy.types.Material | None],
+        values: ObjectValues,
     ) -> Bakeable:
         """Copy an evaluated mesh; nothing of it is needed afterwards."""
         copy = bmesh.new()
@@ -91,6 +98,7 @@ class Bakeable:
             paints=paints,
             materials=tuple(material and material.original for material in materials),
             render_layers=(uv_map, mesh.color_attributes[colour].name if colour >= 0 else ""),
+            values=values,
         )
 
 
@@ -119,14 +127,56 @@ def baked(source: Bakeable) -> Iterator[tuple[bpy.types.Mesh, tuple[Paint, ...]]
         undo.callback(source.mesh.free)
         mesh = _temporary(undo, bpy.data.meshes, bpy.data.meshes.new(_NAME))
         source.mesh.to_mesh(mesh)
-        width, height = _unwrap(mesh, source)
-        image = bpy.data.images.new(_NAME, width, height, float_buffer=True)
-        _temporary(undo, bpy.data.images, image)
-        for material, paint in zip(source.materials, source.paints, strict=True):
-            mesh.materials.append(_emitting(undo, material if paint is None else None, image))
-        _bake(undo, mesh, source.matrix)
-        own = Paint(texture=Texture(image, wrap="EXTEND", uv_map=_NAME))
-        yield mesh, tuple(own if paint is None else paint for paint in source.paints)
+        for _ in source.paints:
+            mesh.materials.append(None)
+        size = _unwrap(mesh, source)
+        seen = [
+            1.0 if paint is not None else _opacity(material, source.values)
+            for material, paint in zip(source.materials, source.paints, strict=True)
+        ]
+        # what images alone decide is baked too, as the image baked lies elsewhere
+        alpha = (
+            None if all(isinstance(each, float) for each in seen) else _baked(undo, mesh, source, size, emit_opacity)
+        )
+        image = _baked(undo, mesh, source, size, _emit_colours)
+        yield (
+            mesh,
+            tuple(
+                _own_paint(image, alpha, each) if paint is None else paint
+                for paint, each in zip(source.paints, seen, strict=True)
+            ),
+        )
+
+
+def _own_paint(image: bpy.types.Image, alpha: bpy.types.Image | None, seen: Expression | None) -> Paint:
+    """Return what paints a slot that was baked; its opacity is a number or was baked."""
+    texture = Texture(image, wrap="EXTEND", uv_map=_NAME)
+    if isinstance(seen, float):
+        return Paint(texture=texture, opacity=seen)
+    return Paint(texture=texture, opacity=("image", replace(texture, image=alpha), "brightness"))
+
+
+def _opacity(material: bpy.types.Material | None, values: ObjectValues) -> Expression | None:
+    """Return how much of a material is seen, None where only a renderer can tell."""
+    output = None if material is None else surface_output(material)
+    if output is None:
+        return 1.0
+    try:
+        surface, _ = follow(Place(output.inputs["Surface"], values=values))
+        return 1.0 if surface is None else opacity(surface)
+    except NotAProduct:
+        return None
+
+
+def _baked(
+    undo: ExitStack, mesh: bpy.types.Mesh, source: Bakeable, size: tuple[int, int], emit: Callable[..., None]
+) -> bpy.types.Image:
+    """Bake what copies of the materials emit into a new image."""
+    image = _temporary(undo, bpy.data.images, bpy.data.images.new(_NAME, *size, float_buffer=True))
+    for slot, (material, paint) in enumerate(zip(source.materials, source.paints, strict=True)):
+        mesh.materials[slot] = _emitting(undo, material if paint is None else None, image, source.values, emit)
+    _bake(undo, mesh, source)
+    return image
 
 
 def _temporary(undo: ExitStack, collection: Any, block: Any) -> Any:
@@ -191,44 +241,51 @@ def _texels_per_unit(triangles: NDArray[np.float32]) -> float:
     return float(min(_TEXELS_ACROSS, np.sqrt(_MOST_TEXELS / max(area.sum() / 2, 1e-12))))
 
 
-def _emitting(undo: ExitStack, material: bpy.types.Material | None, image: bpy.types.Image) -> bpy.types.Material:
-    """Return a temporary material that emits the base colour of another one and receives the bake."""
+def _emitting(
+    undo: ExitStack,
+    material: bpy.types.Material | None,
+    image: bpy.types.Image,
+    values: ObjectValues,
+    emit: Callable[..., None],
+) -> bpy.types.Material:
+    """Return a temporary material that emits something of another one and receives the bake."""
     copy = bpy.data.materials.new(_NAME) if material is None else material.copy()
     _temporary(undo, bpy.data.materials, copy)
     if bpy.app.version < (5, 0, 0):
         copy.use_nodes = True
-    _emit_colours(undo, copy.node_tree)
+    for tree in _own_trees(undo, copy.node_tree):
+        fix_object_values(tree, values)
+        fix_missing_images(tree)
+        emit(tree)
     target = copy.node_tree.nodes.new("ShaderNodeTexImage")
     target.image = image
     copy.node_tree.nodes.active = target
     return copy
 
 
-def _emit_colours(undo: ExitStack, tree: bpy.types.NodeTree) -> None:
-    """Put an emission in the place of every shader, in this tree and in copies of its groups."""
+def _own_trees(undo: ExitStack, tree: bpy.types.NodeTree) -> Iterator[bpy.types.NodeTree]:
+    """Put copies in the place of the groups of a tree, at any depth; yield the copies and the tree."""
     for node in list(tree.nodes):
         if node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None:
             node.node_tree = _temporary(undo, bpy.data.node_groups, node.node_tree.copy())
-            _emit_colours(undo, node.node_tree)
-        elif node.bl_idname == "ShaderNodeMixShader":
+            yield from _own_trees(undo, node.node_tree)
+    yield tree
+
+
+def _emit_colours(tree: bpy.types.NodeTree) -> None:
+    """Put an emission of its colour in the place of every shader of a tree."""
+    for node in list(tree.nodes):
+        if node.bl_idname == "ShaderNodeMixShader":
             _skip_transparent(tree, node)
         elif node.bl_idname == "ShaderNodeOutputMaterial":
             for name in ("Volume", "Displacement"):
                 _unlink(tree, node.inputs[name])
     for node in list(tree.nodes):
         shown = [output for output in node.outputs if output.type == "SHADER" and output.is_linked]
-        colour = colour_input(node) if shown and node.bl_idname not in _PASSED_ON else None
+        colour = colour_input(node) if shown and node.bl_idname not in PASSED_ON else None
         if colour is not None:
-            _replace_by_emission(tree, colour, shown[0])
-
-
-def _replace_by_emission(tree: bpy.types.NodeTree, colour: Any, shown: Any) -> None:
-    emission = tree.nodes.new("ShaderNodeEmission")
-    emission.inputs["Color"].default_value = colour.default_value
-    if colour.is_linked:
-        tree.links.new(colour.links[0].from_socket, emission.inputs["Color"])
-    for link in list(shown.links):
-        tree.links.new(emission.outputs[0], link.to_socket)
+            value = colour.links[0].from_socket if colour.is_linked else tuple(colour.default_value)
+            replace_by_emission(tree, value, shown[0])
 
 
 def _skip_transparent(tree: bpy.types.NodeTree, mix: Any) -> None:
@@ -245,10 +302,10 @@ def _unlink(tree: bpy.types.NodeTree, socket: Any) -> None:
         tree.links.remove(link)
 
 
-def _bake(undo: ExitStack, mesh: bpy.types.Mesh, matrix: Floats) -> None:
+def _bake(undo: ExitStack, mesh: bpy.types.Mesh, source: Bakeable) -> None:
     """Bake what the mesh emits, in a scene of its own."""
     obj = _temporary(undo, bpy.data.objects, bpy.data.objects.new(_NAME, mesh))
-    obj.matrix_world = Matrix(matrix)
+    obj.matrix_world = Matrix(source.matrix)
     scene = _temporary(undo, bpy.data.scenes, bpy.data.scenes.new(_NAME))
     scene.collection.objects.link(obj)
     try:

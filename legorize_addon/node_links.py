@@ -18,27 +18,29 @@ class NotAProduct(Exception):  # noqa: N818 - a finding, not an error
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """An input socket, and the group nodes that were entered on the way to it."""
+    """An input socket, the group nodes that were entered on the way to it, and what the object tells its materials."""
 
     socket: Any
     groups: tuple[Any, ...] = ()
+    values: Any = None
 
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """The node and its output that feed a place, and the groups entered by then."""
+    """The node and its output that feed a place, the groups entered by then, and what the object tells."""
 
     node: Any
     output: Any
     groups: tuple[Any, ...]
+    values: Any = None
 
     def input(self, identifier: str) -> Place:
         """Return an input of the node."""
-        return Place(socket_by_identifier(self.node.inputs, identifier), self.groups)
+        return Place(socket_by_identifier(self.node.inputs, identifier), self.groups, self.values)
 
     def inputs(self) -> list[Place]:
         """Return all inputs of the node."""
-        return [Place(socket, self.groups) for socket in self.node.inputs]
+        return [Place(socket, self.groups, self.values) for socket in self.node.inputs]
 
 
 def follow(place: Place) -> tuple[Source | None, Any]:
@@ -73,7 +75,7 @@ def follow(place: Place) -> tuple[Source | None, Any]:
         elif node.bl_idname == "ShaderNodeGroup" and node.node_tree is not None:
             socket, groups = socket_by_identifier(_group_output(node).inputs, output.identifier), (*groups, node)
         else:
-            return Source(node, output, groups), socket
+            return Source(node, output, groups, place.values), socket
     return None, socket
 
 
@@ -97,7 +99,7 @@ def sources_above(place: Place) -> Iterator[Source]:
         yield source
         shades = any(output.type == "SHADER" for output in source.node.outputs)
         colour = colour_input(source.node) if shades else None
-        waiting += source.inputs() if colour is None else [Place(colour, source.groups)]
+        waiting += source.inputs() if colour is None else [Place(colour, source.groups, source.values)]
 
 
 def socket_by_identifier(sockets: Sequence[Any], identifier: str) -> Any:

@@ -19,6 +19,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from .core.colour_difference import srgb_from_linear
+
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 
@@ -26,42 +28,41 @@ _MOST_TEXELS: Final = 4_000_000
 _LARGEST_PATCH: Final = 64
 
 
-def srgb_from_linear(linear: NDArray[np.floating]) -> Bytes:
-    """Return sRGB bytes of linear colours, cut to [0, 1]; any shape."""
-    share = np.clip(linear, 0.0, 1.0)
-    curve = np.where(share <= 0.0031308, 12.92 * share, 1.055 * share ** (1 / 2.4) - 0.055)
-    return np.rint(curve * 255.0).astype(np.uint8)
-
-
 def colour_patches(corners: Floats) -> tuple[Bytes, Bytes, NDArray[np.bool_], Floats]:
     """Paint triangles by the colours of their corners.
 
     Parameters
     ----------
-    corners : (n_f, 3, 3) float64 array
-        Linear RGB of the three corners of every triangle.
+    corners : (n_f, 3, 4) float64 array
+        Linear RGB and alpha of the three corners of every triangle.
 
     Returns
     -------
-    shared : (h, w, 3) uint8 array
-        sRGB image of the distinct colours of the triangles of one colour.
-    patches : (h, w, 3) uint8 array
-        sRGB image of the patches of the others.
+    shared : (h, w, 4) uint8 array
+        Image, sRGB and alpha, of the distinct colours of the triangles of one colour.
+    patches : (h, w, 4) uint8 array
+        Image of the patches of the others.
     plain : (n_f,) bool array
         Which triangles lie in ``shared``; the rest lie in ``patches``.
     uvs : (n_f, 3, 2) float64 array
         Coordinates in the image that holds the triangle.
     """
-    encoded = srgb_from_linear(corners)
+    encoded = _encoded(corners)
     plain = (encoded == encoded[:, :1]).all(axis=(1, 2))
     uvs = np.empty((len(corners), 3, 2))
     distinct, entry = np.unique(encoded[plain, 0], axis=0, return_inverse=True)
     shared, uvs[plain] = _laid_out(distinct[:, None, None], entry.ravel())
     mixed = corners[~plain]
     size = _patch_size(encoded[~plain])
-    texels = srgb_from_linear(np.einsum("ijc,fcd->fijd", _weights(size), mixed))
+    texels = _encoded(np.einsum("ijc,fcd->fijd", _weights(size), mixed))
     patches, uvs[~plain] = _laid_out(texels, np.arange(len(mixed)))
     return shared, patches, plain, uvs
+
+
+def _encoded(corners: Floats) -> Bytes:
+    """Return linear colours with alpha as bytes: sRGB, and alpha as it is."""
+    alpha = np.rint(np.clip(corners[..., 3:], 0, 1) * 255).astype(np.uint8)
+    return np.concatenate([srgb_from_linear(corners[..., :3]), alpha], axis=-1)
 
 
 def _patch_size(encoded: Bytes) -> int:
@@ -87,12 +88,12 @@ def _laid_out(patches: Bytes, entry: NDArray[np.integer]) -> tuple[Bytes, Floats
     """Put square patches side by side; return the image and the corners of the triangles that use the entries."""
     count, size = patches.shape[:2]
     if count == 0:
-        return np.zeros((1, 1, 3), dtype=np.uint8), np.zeros((0, 3, 2))
+        return np.zeros((1, 1, patches.shape[-1]), dtype=np.uint8), np.zeros((0, 3, 2))
     columns = int(np.ceil(np.sqrt(count)))
     rows = -(-count // columns)
-    image = np.zeros((rows * columns, size, size, 3), dtype=np.uint8)
+    image = np.zeros((rows * columns, size, size, patches.shape[-1]), dtype=np.uint8)
     image[:count] = patches
-    image = image.reshape(rows, columns, size, size, 3).swapaxes(1, 2).reshape(rows * size, columns * size, 3)
+    image = image.reshape(rows, columns, size, size, -1).swapaxes(1, 2).reshape(rows * size, columns * size, -1)
     corner = np.array([(0.0, 0.0), (size - 1.0, 0.0), (0.0, size - 1.0)]) + 0.5
     lowest = np.stack([entry % columns, entry // columns], axis=-1) * size
     return image, (lowest[:, None] + corner) / (columns * size, rows * size)

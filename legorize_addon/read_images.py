@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
@@ -9,14 +12,19 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .core.colour_difference import linear_from_srgb
+from .core.colour_difference import linear_from_srgb, srgb_from_linear
 from .core.errors import MeshError
-from .read_colours import Bytes, Floats, srgb_from_linear
-from .read_materials import Texture
+from .read_colours import Bytes, Floats
+from .reading.expressions import Expression, evaluated
+from .reading.textures import Texture
 
 _LINEAR: Final = ("Linear Rec.709", "Linear", "Non-Color", "Raw")
-LARGEST_SIDE: Final = 8192
-"""Texels along a side; of a larger image every second one in both directions is taken."""
+_LINEAR_BYTES: Final = linear_from_srgb(np.arange(256, dtype=np.uint8)).astype(np.float32)
+LARGEST_SIDE: Final = 4096
+"""Texels along a side; a larger image is halved. At 16 texels a stud, the most that matter, this is 256 studs."""
+
+_ROWS: Final = 256
+"""Rows of an image that are decoded at once."""
 
 
 class Album:
@@ -28,6 +36,8 @@ class Album:
         sRGB; row 0 is the bottom.
     clamp : list of bool
         Whether coordinates outside an image take its edge texel.
+    opacities : list of ((h, w) uint8 array or None)
+        Alpha of the texels, 255 for opaque; None where all are.
     remarks : list of str
         What could not be taken literally.
     """
@@ -35,30 +45,41 @@ class Album:
     def __init__(self) -> None:
         self.images: list[Bytes] = []
         self.clamp: list[bool] = []
+        self.opacities: list[Bytes | None] = []
         self.remarks: list[str] = []
         self._rows: dict[object, int] = {}
-        self._pixels: dict[object, tuple[Bytes, NDArray[np.bool_]]] = {}
+        self._pixels: dict[object, tuple[Bytes, Bytes]] = {}
 
     def remark(self, sentence: str) -> None:
         """Note a sentence for the user, once."""
         if sentence not in self.remarks:
             self.remarks.append(sentence)
 
-    def add(self, image: Bytes, *, clamp: bool) -> int:
+    def add(self, image: Bytes, *, clamp: bool, opacity: Bytes | None = None) -> int:
         """Take in an image and return its row."""
         self.images.append(np.ascontiguousarray(image))
         self.clamp.append(clamp)
+        self.opacities.append(None if opacity is None or opacity.min() == 255 else np.ascontiguousarray(opacity))
         return len(self.images) - 1
 
-    def plain(self, linear: tuple[float, float, float] | Floats) -> int:
+    def plain(self, linear: tuple[float, float, float] | Floats, opacity: float = 1.0) -> int:
         """Return the row of a plain colour, given as linear RGB."""
         colour = srgb_from_linear(np.asarray(linear, dtype=float))
-        key = colour.tobytes()
+        key = (colour.tobytes(), opacity)
         if key not in self._rows:
-            self._rows[key] = self.add(colour[None, None], clamp=True)
+            alpha = _bytes(np.full((1, 1), opacity))
+            self._rows[key] = self.add(colour[None, None], clamp=True, opacity=alpha)
         return self._rows[key]
 
-    def textured(self, texture: Texture, factor: tuple[float, float, float], tile: int = 0) -> int:
+    def textured(
+        self,
+        texture: Texture,
+        factor: tuple[float, float, float],
+        tile: int = 0,
+        *,
+        opacity: Expression = 1.0,
+        blank: bool = False,
+    ) -> int:
         """Return the row of an image multiplied by a linear colour.
 
         Parameters
@@ -70,35 +91,52 @@ class Album:
             Linear RGB.
         tile : int
             UDIM number, 0 for an image without tiles.
+        opacity : Expression
+            How much of the texels is seen; its leaves are images that lie as this one.
+        blank : bool
+            Whether the image is only as large as the texture, in one colour.
 
         Returns
         -------
         int
             The same for the same arguments.
         """
-        key = (texture.image.session_uid, texture.wrap, texture.cutout, factor, tile)
+        key = (texture.image.session_uid, texture.wrap, factor, tile, opacity, blank)
         if key not in self._rows:
-            colours = _multiplied(self._colours(texture, tile), factor)
+            colours, _ = self._texels(texture, tile)
+            colours = _multiplied(np.full_like(colours, 255) if blank else colours, factor)
+            alpha = self._opacity(opacity, tile, colours.shape[:2])
             if texture.wrap == "MIRROR":
-                colours = np.concatenate([colours, colours[:, ::-1]], axis=1)
-                colours = np.concatenate([colours, colours[::-1]], axis=0)
-            self._rows[key] = self.add(colours, clamp=texture.wrap in ("EXTEND", "CLIP"))
+                colours, alpha = _mirrored(colours), None if alpha is None else _mirrored(alpha)
+            self._rows[key] = self.add(colours, clamp=texture.wrap in ("EXTEND", "CLIP"), opacity=alpha)
         return self._rows[key]
 
     def average(self, texture: Texture, factor: tuple[float, float, float]) -> int:
         """Return the row of the average colour of an image, for surfaces without image coordinates."""
-        return self.plain(linear_from_srgb(self._colours(texture, 0)).mean(axis=(0, 1)) * factor)
+        colours, _ = self._texels(texture, 0)
+        count = np.stack([np.bincount(colours[..., channel].ravel(), minlength=256) for channel in range(3)], axis=1)
+        mean = linear_from_srgb(np.arange(256, dtype=np.uint8)) @ count / (colours.shape[0] * colours.shape[1])
+        return self.plain(mean * factor)
 
-    def _colours(self, texture: Texture, tile: int) -> Bytes:
+    def _opacity(self, opacity: Expression, tile: int, shape: tuple[int, int]) -> Bytes | None:
+        """Return how much is seen of the texels of an image."""
+        if opacity == 1.0:
+            return None
+        found = evaluated(opacity, lambda leaf: _resized(_channel(*self._texels(leaf[1], tile), leaf[2]), shape))
+        return _bytes(np.broadcast_to(found, shape))
+
+    def _texels(self, texture: Texture, tile: int) -> tuple[Bytes, Bytes]:
         key = (texture.image.session_uid, tile)
         if key not in self._pixels:
             self._pixels[key] = self._read(texture.image, tile)
-        colours, seen = self._pixels[key]
-        return _filled(colours, seen) if texture.cutout else colours
+        return self._pixels[key]
 
-    def _read(self, image: bpy.types.Image, tile: int) -> tuple[Bytes, NDArray[np.bool_]]:
-        if max(image.size) > LARGEST_SIDE:
-            self.remark(f"The image {image.name!r} is larger than {LARGEST_SIDE} texels: every second one was taken.")
+    def _read(self, image: bpy.types.Image, tile: int) -> tuple[Bytes, Bytes]:
+        step = step_of(image)
+        if step > 1:
+            self.remark(
+                f"The image {image.name!r} is larger than {LARGEST_SIDE} texels: it was taken at 1/{step} of its size."
+            )
         if tile == 0:
             return read_pixels(image)
         # Blender hands out the pixels of the first tile only
@@ -110,29 +148,37 @@ class Album:
             bpy.data.images.remove(single)
 
 
-def check_image(image: bpy.types.Image | None, material: str) -> None:
-    """Refuse an image that has no pixels.
+def is_missing(image: bpy.types.Image | None) -> bool:
+    """Return whether an image has no pixels: there is none, or its file is missing or cannot be read."""
+    if image is None:
+        return True
+    tiles = image.tiles if image.source == "TILED" and not image.packed_files else ()
+    return 0 in image.size or not all(Path(_tile_path(image, tile.number)).is_file() for tile in tiles)
+
+
+def remark_on_missing(image: bpy.types.Image | None, material: str) -> str:
+    """Return a sentence on an image that is missing.
 
     Parameters
     ----------
     image : bpy.types.Image or None
         The image of a node.
     material : str
-        Name of the material, for the sentence.
+        Name of the material.
 
-    Raises
-    ------
-    MeshError
-        If there is no image, or its file is missing or cannot be read.
+    Returns
+    -------
+    str
     """
     if image is None:
-        raise MeshError(f"The material {material!r} has an image texture without an image: choose an image for it.")
-    tiles = image.tiles if image.source == "TILED" and not image.packed_files else ()
-    if 0 in image.size or not all(Path(_tile_path(image, tile.number)).is_file() for tile in tiles):
-        raise MeshError(
-            f"The material {material!r} needs the image file {image.filepath or image.name!r}, which is missing or "
-            "cannot be read: put it there, or choose another image."
+        return (
+            f"The material {material!r} has an image texture without an image: its plain colour was taken; choose an "
+            "image for it."
         )
+    return (
+        f"The material {material!r} needs the image file {image.filepath or image.name!r}, which is missing or cannot "
+        "be read: its plain colour was taken; put the file there, or choose another image."
+    )
 
 
 def is_readable(image: bpy.types.Image) -> bool:
@@ -142,7 +188,7 @@ def is_readable(image: bpy.types.Image) -> bool:
     return known and not (image.source == "TILED" and len(image.packed_files))
 
 
-def read_pixels(image: bpy.types.Image) -> tuple[Bytes, NDArray[np.bool_]]:
+def read_pixels(image: bpy.types.Image) -> tuple[Bytes, Bytes]:
     """Read the pixels of an image.
 
     Parameters
@@ -155,19 +201,58 @@ def read_pixels(image: bpy.types.Image) -> tuple[Bytes, NDArray[np.bool_]]:
     -------
     (h, w, 3) uint8 array
         sRGB; row 0 is the bottom.
-    (h, w) bool array
-        Where alpha is at least a half.
+    (h, w) uint8 array
+        Alpha.
     """
-    width, height = image.size
+    try:
+        with _no_larger(image) as small:
+            return _decoded(small)
+    except MemoryError as error:
+        width, height = image.size
+        raise MeshError(
+            f"The image {image.name!r} of {width} x {height} texels does not fit in memory: use a smaller copy of it."
+        ) from error
+
+
+@contextmanager
+def _no_larger(image: bpy.types.Image) -> Iterator[bpy.types.Image]:
+    """Yield a temporary copy of a large image that Blender reduced to fewer bytes before they become numbers.
+
+    Pixels that are in memory alone, painted or generated, are no copy's: those images are yielded as they are.
+    """
+    step = step_of(image)
+    if step == 1 or image.is_dirty or image.source != "FILE":
+        yield image
+        return
+    copy = image.copy()
+    try:
+        copy.scale(max(1, image.size[0] // step), max(1, image.size[1] // step))
+        yield copy
+    finally:
+        bpy.data.images.remove(copy)
+
+
+def step_of(image: bpy.types.Image) -> int:
+    """Return to which part of its size an image is reduced, along both sides."""
+    return 1 << max(0, math.ceil(math.log2(max(*image.size, 1) / LARGEST_SIDE)))
+
+
+def _decoded(image: bpy.types.Image) -> tuple[Bytes, Bytes]:
+    """Return sRGB and alpha of an image, of one in memory that is too large every second texel or fewer."""
+    (width, height), step = image.size, step_of(image)
     buffer = np.empty(width * height * image.channels, dtype=np.float32)
     image.pixels.foreach_get(buffer)
-    step = 2 if max(width, height) > LARGEST_SIDE else 1
     values = buffer.reshape(height, width, image.channels)[::step, ::step]
-    colours = values[..., :3] if image.channels >= 3 else np.repeat(values[..., :1], 3, axis=2)
-    seen = values[..., -1] >= 0.5 if image.channels in (2, 4) else np.ones(values.shape[:2], dtype=bool)
-    if image.is_float or image.colorspace_settings.is_data or image.colorspace_settings.name in _LINEAR:
-        return srgb_from_linear(np.nan_to_num(colours)), seen
-    return np.rint(colours * 255.0).astype(np.uint8), seen
+    colours, alpha = np.empty((*values.shape[:2], 3), np.uint8), np.full(values.shape[:2], 255, np.uint8)
+    linear = image.is_float or image.colorspace_settings.is_data or image.colorspace_settings.name in _LINEAR
+    # in parts: numbers take many times the memory of bytes
+    for first in range(0, len(values), _ROWS):
+        rows = slice(first, first + _ROWS)
+        part = values[rows, :, :3] if image.channels >= 3 else values[rows, :, :1]
+        colours[rows] = srgb_from_linear(np.nan_to_num(part)) if linear else np.rint(part * 255.0)
+        if image.channels in (2, 4):
+            alpha[rows] = _bytes(values[rows, :, -1])
+    return colours, alpha
 
 
 def _tile_path(image: bpy.types.Image, tile: int) -> str:
@@ -183,9 +268,32 @@ def _multiplied(colours: Bytes, factor: tuple[float, float, float]) -> Bytes:
     return np.stack([table[colours[..., channel], channel] for channel in range(3)], axis=-1)
 
 
-def _filled(colours: Bytes, seen: NDArray[np.bool_]) -> Bytes:
-    """Return the colours with the average of what is seen where nothing is seen."""
-    if seen.all() or not seen.any():
-        return colours
-    average = srgb_from_linear(linear_from_srgb(colours[seen]).mean(axis=0))
-    return np.where(seen[..., None], colours, average)
+def _mirrored(texels: Bytes) -> Bytes:
+    """Return an image with its mirror images to the right and above."""
+    texels = np.concatenate([texels, texels[:, ::-1]], axis=1)
+    return np.concatenate([texels, texels[::-1]], axis=0)
+
+
+def _channel(colours: Bytes, alpha: Bytes, name: str) -> NDArray[np.float32]:
+    """Return what an image tells in one number a texel, 0 to 1."""
+    if name == "alpha":
+        return alpha.astype(np.float32) / 255
+    if name == "least":
+        return _LINEAR_BYTES[colours.min(axis=2)]
+    weights = {"red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1), "brightness": (0.2126, 0.7152, 0.0722)}[name]
+    total: NDArray[np.float32] = sum(
+        np.float32(weight) * _LINEAR_BYTES[colours[..., row]] for row, weight in enumerate(weights) if weight
+    )
+    return total
+
+
+def _resized(values: NDArray[np.float32], shape: tuple[int, int]) -> NDArray[np.float32]:
+    """Return the nearest texels for an image of another size that lies in the same place."""
+    if values.shape == shape:
+        return values
+    row, column = ((np.arange(n) * own) // n for n, own in zip(shape, values.shape, strict=True))
+    return values[row[:, None], column]
+
+
+def _bytes(share: NDArray[np.floating]) -> Bytes:
+    return np.rint(np.clip(np.nan_to_num(share), 0.0, 1.0) * 255.0).astype(np.uint8)

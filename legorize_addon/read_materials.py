@@ -13,49 +13,19 @@ from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import bpy
-import numpy as np
-from mathutils import Euler
 
 from .node_links import SEE_THROUGH, NotAProduct, Place, Source, colour_input, follow, sources_above, surface_output
-
-Affine = tuple[tuple[float, float, float], tuple[float, float, float]]
-"""Two rows of three numbers, applied to (u, v, 1)."""
-
-SAME_PLACE: Final[Affine] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+from .reading.expressions import Expression, leaves
+from .reading.object_values import ObjectValues, constant
+from .reading.opacity import number, opacity
+from .reading.textures import Texture, read_texture
 
 _MIX_SOCKETS: Final = {
     "ShaderNodeMix": ("Factor_Float", "A_Color", "B_Color"),
     "ShaderNodeMixRGB": ("Fac", "Color1", "Color2"),
 }
 _IMAGE: Final = "ShaderNodeTexImage"
-_UV_NODES: Final = ("ShaderNodeUVMap", "ShaderNodeTexCoord")
-_MOVING: Final = ("MOVIE", "SEQUENCE", "VIEWER")
-
-
-@dataclass(frozen=True, slots=True)
-class Texture:
-    """An image on a surface.
-
-    Attributes
-    ----------
-    image : bpy.types.Image or None
-        The image; None where the node has none.
-    wrap : str
-        ``REPEAT``, ``EXTEND``, ``CLIP`` or ``MIRROR``: the image node's extension.
-    uv_map : str or None
-        Name of the UV map, empty for the one that is active for render, None
-        for a mesh without any.
-    mapping : 2 x 3 floats
-        Image coordinates are ``mapping @ (u, v, 1)``.
-    cutout : bool
-        Whether the alpha of the image decides what of the surface is seen.
-    """
-
-    image: bpy.types.Image | None
-    wrap: str = "REPEAT"
-    uv_map: str | None = ""
-    mapping: Affine = SAME_PLACE
-    cutout: bool = False
+_CLEAR: Final = "ShaderNodeBsdfTransparent"
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,23 +40,36 @@ class Paint:
         The image.
     attribute : str or None
         Name of the colour attribute; empty for the one that is active for render.
+    opacity : Expression
+        How much of the surface is seen, 0 to 1, see :mod:`.reading.expressions`.
+    mask : Texture or None
+        An image that takes no part in the colour but in the opacity.
+    bare : 3 floats
+        Linear RGB that the shader has where no image is linked to it.
     """
 
     factor: tuple[float, float, float] = (1.0, 1.0, 1.0)
     texture: Texture | None = None
     attribute: str | None = None
+    opacity: Expression = 1.0
+    mask: Texture | None = None
+    bare: tuple[float, float, float] = (1.0, 1.0, 1.0)
+
+    @property
+    def placed(self) -> Texture | None:
+        """The image that says where its texels lie on the surface."""
+        return self.texture or self.mask
 
 
-def read_paint(material: bpy.types.Material) -> Paint:
-    """Find what colours a material.
-
-    Alpha counts only where the alpha of the very image that colours the surface
-    reaches the shader's alpha or the factor that mixes it with a transparent one.
+def read_paint(material: bpy.types.Material, values: ObjectValues | None = None) -> Paint:
+    """Find what colours a material, and how much of it is seen.
 
     Parameters
     ----------
     material : bpy.types.Material
         Original or evaluated; it is only read.
+    values : ObjectValues, optional
+        What the object that wears it tells its materials.
 
     Returns
     -------
@@ -99,14 +82,17 @@ def read_paint(material: bpy.types.Material) -> Paint:
         If the colour must be baked.
     """
     output = surface_output(material)
-    surface = None if output is None else follow(Place(output.inputs["Surface"]))[0]
+    surface = None if output is None else follow(Place(output.inputs["Surface"], values=values))[0]
     if surface is None:
         return Paint(factor=tuple(material.diffuse_color[:3]))
-    colour, alphas = _shader(surface, ())
-    paint = _paint(colour)
-    if paint.texture is not None and any(_alpha_reaches(place, paint.texture.image) for place in alphas):
-        return replace(paint, texture=replace(paint.texture, cutout=True))
-    return paint
+    colour = _shader(surface)
+    return replace(_paint(colour), opacity=opacity(surface), bare=tuple(colour.socket.default_value[:3]))
+
+
+def textures_of(paint: Paint) -> list[Texture]:
+    """Return the images of a paint: that of the colour, and those that decide what is seen."""
+    own = [] if paint.texture is None else [paint.texture]
+    return own + [leaf[1] for leaf in leaves(paint.opacity) if leaf[0] == "image"]
 
 
 def colour_images(material: bpy.types.Material) -> list[bpy.types.Image | None]:
@@ -116,52 +102,46 @@ def colour_images(material: bpy.types.Material) -> list[bpy.types.Image | None]:
     return [source.node.image for source in above if source.node.bl_idname == _IMAGE]
 
 
-def _alpha_reaches(place: Place, image: bpy.types.Image | None) -> bool:
-    return any(
-        source.node.bl_idname == _IMAGE and source.output.name == "Alpha" and source.node.image == image
-        for source in sources_above(place)
-    )
-
-
-def _shader(source: Source, alphas: tuple[Place, ...]) -> tuple[Place, tuple[Place, ...]]:
-    """Follow the main path of the shaders to a colour; collect the sockets that say what is seen."""
+def _shader(source: Source) -> Place:
+    """Follow the main path of the shaders to a colour."""
     node = source.node
     if node.bl_idname in ("ShaderNodeMixShader", "ShaderNodeAddShader"):
-        return _mixed_shader(source, alphas)
+        return _shader(_main_side(source))
     colour = colour_input(node)
+    if colour is None and node.bl_idname == _CLEAR:
+        colour = node.inputs["Color"]
     if colour is None:
         raise NotAProduct
-    if "Alpha" in node.inputs:
-        alphas = (*alphas, Place(node.inputs["Alpha"], source.groups))
-    return Place(colour, source.groups), alphas
+    return Place(colour, source.groups, source.values)
 
 
-def _mixed_shader(source: Source, alphas: tuple[Place, ...]) -> tuple[Place, tuple[Place, ...]]:
+def _main_side(source: Source) -> Source:
     """Leave out what is transparent; else the larger share is the main path, the first of a sum."""
     branches = [follow(place)[0] for place in source.inputs() if place.socket.type == "SHADER"]
     seen = [branch for branch in branches if branch is not None and branch.node.bl_idname not in SEE_THROUGH]
     if not seen:
         raise NotAProduct
-    if source.node.bl_idname == "ShaderNodeAddShader":
-        return _shader(seen[0], alphas)
-    share = Place(source.node.inputs[0], source.groups)
-    if len(seen) == 1:
-        return _shader(seen[0], (*alphas, share))
-    return _shader(seen[int(_number(share) > 0.5)], alphas)
+    if len(seen) == 1 or source.node.bl_idname == "ShaderNodeAddShader":
+        return seen[0]
+    return seen[int(_number(Place(source.node.inputs[0], source.groups, source.values)) > 0.5)]
 
 
 def _paint(place: Place) -> Paint:
     source, socket = follow(place)
     if source is None:
         return Paint(factor=_colour(socket))
-    kind = source.node.bl_idname
+    kind, fixed = source.node.bl_idname, constant(source)
+    if fixed is not None:
+        return Paint(factor=fixed[:3])
+    if kind == "ShaderNodeValToRGB":
+        return Paint(factor=tuple(source.node.color_ramp.evaluate(_number(source.input("Fac")))[:3]))
     if kind in _MIX_SOCKETS:
         return _mix(source)
     if kind == "ShaderNodeRGB":
         return Paint(factor=_colour(source.output))
     if source.output.name == "Color":
         if kind == _IMAGE:
-            return Paint(texture=_texture(source))
+            return Paint(texture=read_texture(source))
         if kind == "ShaderNodeVertexColor":
             return Paint(attribute=source.node.layer_name)
         if kind == "ShaderNodeAttribute" and source.node.attribute_type == "GEOMETRY":
@@ -178,10 +158,10 @@ def _colour(socket: Any) -> tuple[float, float, float]:
 
 def _number(place: Place) -> float:
     """Return the constant value of a socket."""
-    source, socket = follow(place)
-    if source is not None:
+    value = number(place)
+    if not isinstance(value, float):
         raise NotAProduct
-    return float(socket.default_value)
+    return value
 
 
 def _mix(source: Source) -> Paint:
@@ -195,9 +175,17 @@ def _mix(source: Source) -> Paint:
         return _paint(first)
     if node.blend_type == "MULTIPLY":
         return _product(_paint(first), _faded(_paint(second), weight))
-    if weight < 1.0:
+    if weight == 1.0:
+        return _paint(second)
+    return _between(_paint(first), _paint(second), weight)
+
+
+def _between(first: Paint, second: Paint, weight: float) -> Paint:
+    """Return what lies between two plain colours."""
+    if first.placed or second.placed or first.attribute is not None or second.attribute is not None:
         raise NotAProduct
-    return _paint(second)
+    red, green, blue = ((1.0 - weight) * a + weight * b for a, b in zip(first.factor, second.factor, strict=True))
+    return Paint(factor=(red, green, blue))
 
 
 def _faded(paint: Paint, weight: float) -> Paint:
@@ -219,54 +207,3 @@ def _product(first: Paint, second: Paint) -> Paint:
         texture=first.texture or second.texture,
         attribute=second.attribute if first.attribute is None else first.attribute,
     )
-
-
-def _texture(source: Source) -> Texture:
-    node = source.node
-    if node.projection != "FLAT" or (node.image is not None and node.image.source in _MOVING):
-        raise NotAProduct
-    legacy = node.texture_mapping
-    if (*legacy.translation, *legacy.rotation, *legacy.scale) != (0, 0, 0, 0, 0, 0, 1, 1, 1):
-        raise NotAProduct
-    uv_map, mapping = _coordinates(source.input("Vector"))
-    return Texture(node.image, node.extension, uv_map, mapping)
-
-
-def _coordinates(place: Place) -> tuple[str, Affine]:
-    """Return the UV map behind a vector socket, and the affine map applied to it."""
-    source, _ = follow(place)
-    if source is None:
-        return "", SAME_PLACE
-    node = source.node
-    if node.bl_idname == "ShaderNodeMapping" and follow(source.input("Vector"))[0] is not None:
-        uv_map, inner = _coordinates(source.input("Vector"))
-        first, second = (_mapping(source) @ np.vstack([inner, (0.0, 0.0, 1.0)])).tolist()
-        return uv_map, (tuple(first), tuple(second))
-    if node.bl_idname == "ShaderNodeAttribute" and source.output.name == "Vector":
-        return node.attribute_name, SAME_PLACE
-    if node.bl_idname in _UV_NODES and source.output.name == "UV" and not node.from_instancer:
-        return getattr(node, "uv_map", ""), SAME_PLACE
-    raise NotAProduct
-
-
-def _mapping(source: Source) -> np.ndarray:
-    """Return the 2 x 3 matrix that a Mapping node applies to (u, v, 1)."""
-    location, angles, scale = (_vector(source.input(name)) for name in ("Location", "Rotation", "Scale"))
-    turn = np.array(Euler(angles).to_matrix())
-    kind = source.node.vector_type
-    if kind == "NORMAL":
-        raise NotAProduct
-    if kind == "TEXTURE":
-        linear = np.diag(1 / np.where(scale == 0, 1, scale)) @ turn.T
-        location = -linear @ location
-    else:
-        linear = turn @ np.diag(scale)
-        location = location * (kind == "POINT")
-    return np.column_stack([linear[:2, :2], location[:2]])
-
-
-def _vector(place: Place) -> np.ndarray:
-    source, socket = follow(place)
-    if source is not None:
-        raise NotAProduct
-    return np.array(socket.default_value[:3], dtype=float)

@@ -16,8 +16,8 @@ anything else               an image baked by Cycles, see :mod:`.bake`
 no material                 the active colour attribute, else a middle grey
 ==========================  ==========================================================
 
-Texels whose alpha is below a half take the average of the others where alpha
-decides what is seen. UDIM tiles are one image each. Colours are linear in
+Beside the colour of a texel stands how much of it is seen, see
+:mod:`.reading.opacity`. UDIM tiles are one image each. Colours are linear in
 Blender and sRGB bytes in the mesh.
 """
 
@@ -125,10 +125,10 @@ def _piece(each: Shown, album: Album, left_out: LeftOut) -> Piece | None:
     try:
         if left_out.by_mesh(each, mesh):
             return None
-        paints = slot_paints(each.mesh, mesh, album)
+        paints = slot_paints(each.mesh, mesh, each.values, album)
         if None in paints:
             album.remark(f"The colours of {each.mesh.name!r} are made by nodes: they were baked to an image.")
-            return Bakeable.of(each.mesh.name, mesh, each.matrix, paints, slot_materials(each.mesh, mesh))
+            return Bakeable.of(each.mesh.name, mesh, each.matrix, paints, slot_materials(each.mesh, mesh), each.values)
         return read_surface(mesh, each.matrix, paints)
     finally:
         each.mesh.to_mesh_clear()
@@ -158,6 +158,7 @@ def _joined(painted: list[tuple[Surface, Floats, np.ndarray]], mm: float, album:
         face_image=face_image,
         images=tuple(album.images),
         image_clamp=np.array(album.clamp, dtype=bool),
+        opacities=tuple(album.opacities) if any(each is not None for each in album.opacities) else (),
     )
 
 
@@ -169,4 +170,4 @@ def _paint_corners(corners: Floats, uvs: Floats, face_image: np.ndarray, album: 
     shared, patches, plain, uvs[rows] = colour_patches(corners)
     for faces, image in ((plain, shared), (~plain, patches)):
         if faces.any():
-            face_image[rows[faces]] = album.add(image, clamp=True)
+            face_image[rows[faces]] = album.add(image[..., :3], clamp=True, opacity=image[..., 3])

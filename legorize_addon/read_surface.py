@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Any, Final
 
 import bpy
 import numpy as np
@@ -13,8 +13,11 @@ from numpy.typing import NDArray
 from .core.colour_difference import linear_from_srgb
 from .node_links import NotAProduct
 from .read_colours import Floats
-from .read_images import Album, check_image, is_readable
-from .read_materials import Paint, Texture, colour_images, read_paint
+from .read_images import Album, is_missing, is_readable, remark_on_missing
+from .read_materials import Paint, colour_images, read_paint, textures_of
+from .reading.expressions import Expression, evaluated, leaves, replaced
+from .reading.image_coordinates import in_images
+from .reading.object_values import ObjectValues
 
 Ints = NDArray[np.int32]
 
@@ -38,8 +41,8 @@ class Surface:
         Row in ``paints``.
     paints : tuple of Paint
         One for each material slot.
-    corners : (k, 3, 3) float64 array
-        Linear colours of the corners of the faces whose paint has an attribute, in the order of the faces.
+    corners : (k, 3, 4) float64 array
+        Linear colours and alpha of the corners of the faces whose paint has an attribute, in the order of the faces.
     """
 
     vertices: Floats
@@ -62,14 +65,26 @@ class Surface:
         uvs, rows = self.uvs.copy(), np.full(len(self.faces), -1, dtype=np.int32)
         for slot in np.unique(self.paint):
             paint, faces = self.paints[slot], np.flatnonzero(self.paint == slot)
-            if paint.texture is not None:
-                uvs[faces], rows[faces] = _in_images(paint.texture, paint.factor, self.uvs[faces], album)
+            if paint.placed is not None:
+                uvs[faces], rows[faces] = in_images(paint, self.uvs[faces], album)
             elif paint.attribute is None:
-                uvs[faces], rows[faces] = 0.5, album.plain(paint.factor)
+                uvs[faces], rows[faces] = 0.5, album.plain(paint.factor, paint.opacity)
         return uvs, rows
 
 
-def slot_paints(obj: bpy.types.Object, mesh: bpy.types.Mesh, album: Album) -> tuple[Paint | None, ...]:
+@dataclass(frozen=True, slots=True, eq=False)
+class _Wearer:
+    """What wears the materials: an evaluated object, its mesh, what it tells them, and where remarks go."""
+
+    obj: bpy.types.Object
+    mesh: bpy.types.Mesh
+    values: ObjectValues
+    album: Album
+
+
+def slot_paints(
+    obj: bpy.types.Object, mesh: bpy.types.Mesh, values: ObjectValues, album: Album
+) -> tuple[Paint | None, ...]:
     """Find what paints the slots of a mesh.
 
     Parameters
@@ -78,6 +93,8 @@ def slot_paints(obj: bpy.types.Object, mesh: bpy.types.Mesh, album: Album) -> tu
         Evaluated; its slots say which materials count.
     mesh : bpy.types.Mesh
         Its mesh.
+    values : ObjectValues
+        What the object tells its materials.
     album : Album
         Takes remarks.
 
@@ -87,15 +104,11 @@ def slot_paints(obj: bpy.types.Object, mesh: bpy.types.Mesh, album: Album) -> tu
         One for each slot, at least one; None where the colour must be baked.
         Slots that no face uses are plain.
 
-    Raises
-    ------
-    MeshError
-        If an image is missing.
     """
-    used = set(np.unique(_face_slots(mesh, len(slot_materials(obj, mesh)))).tolist())
+    wearer, materials = _Wearer(obj, mesh, values, album), slot_materials(obj, mesh)
+    used = set(np.unique(_face_slots(mesh, len(materials))).tolist())
     return tuple(
-        _slot_paint(material, slot, obj, mesh, album) if slot in used else Paint()
-        for slot, material in enumerate(slot_materials(obj, mesh))
+        _slot_paint(material, slot, wearer) if slot in used else Paint() for slot, material in enumerate(materials)
     )
 
 
@@ -122,114 +135,159 @@ def read_surface(mesh: bpy.types.Mesh, matrix: Floats, paints: Sequence[Paint]) 
     order = [0, 2, 1] if np.linalg.det(matrix[:3, :3]) < 0 else [0, 1, 2]
     loops = _numbers(mesh.loop_triangles, "loops", 3, np.int32)[:, order]
     paint = _face_slots(mesh, len(paints))
-    uvs, corners, coloured = np.zeros((len(loops), 3, 2)), np.zeros((len(loops), 3, 3)), np.zeros(len(loops), bool)
+    uvs, corners, coloured = np.zeros((len(loops), 3, 2)), np.zeros((len(loops), 3, 4)), np.zeros(len(loops), bool)
     for slot, own in enumerate(paints):
         faces = paint == slot
-        if own.texture is not None and own.texture.uv_map is not None:
-            uvs[faces] = _uv_map(mesh, own.texture.uv_map)[loops[faces]]
-        elif own.texture is None and own.attribute is not None:
-            corners[faces] = _corner_colours(mesh, own.attribute)[loops[faces]] * own.factor
+        if own.placed is not None and own.placed.uv_map is not None:
+            uvs[faces] = _uv_map(mesh, own.placed.uv_map)[loops[faces]]
+        elif own.placed is None and own.attribute is not None:
+            corners[faces] = _painted_corners(mesh, own)[loops[faces]]
             coloured |= faces
     return Surface(
         vertices=vertices,
         faces=_numbers(mesh.loop_triangles, "vertices", 3, np.int32)[:, order],
-        uvs=np.nan_to_num(uvs),
+        uvs=uvs,
         paint=paint,
         paints=tuple(paints),
         corners=corners[coloured],
     )
 
 
-def _slot_paint(
-    material: bpy.types.Material | None, slot: int, obj: bpy.types.Object, mesh: bpy.types.Mesh, album: Album
-) -> Paint | None:
+def _slot_paint(material: bpy.types.Material | None, slot: int, wearer: _Wearer) -> Paint | None:
     if material is None:
-        return Paint(attribute="") if _colour_attribute(mesh, "") else Paint(factor=(_UNCOLOURED,) * 3)
+        return Paint(attribute="") if _colour_attribute(wearer.mesh, "") else Paint(factor=(_UNCOLOURED,) * 3)
     try:
-        paint = read_paint(material)
-        if paint.texture is not None:
-            check_image(paint.texture.image, material.name)
-            if not is_readable(paint.texture.image):
-                return None
-            paint = replace(paint, texture=_with_uv_map(paint.texture, material, obj, mesh, album))
-        return paint if paint.attribute is None else _with_attribute(paint, slot, material, obj, mesh, album)
+        paint = _with_opacity(_without_missing(read_paint(material, wearer.values), material, wearer), slot, wearer)
+        if not all(is_readable(texture.image) for texture in textures_of(paint)):
+            return None
+        if paint.placed is not None:
+            return _with_uv_map(_with_attribute(paint, slot, material, wearer), material, wearer)
+        _remark_on_hidden(paint, slot, material, wearer)
+        return _with_attribute(paint, slot, material, wearer)
     except NotAProduct:
-        for image in colour_images(material):
-            check_image(image, material.name)
+        for image in filter(is_missing, colour_images(material)):
+            wearer.album.remark(remark_on_missing(image, material.name))
         return None
 
 
-def _with_uv_map(
-    texture: Texture, material: bpy.types.Material, obj: bpy.types.Object, mesh: bpy.types.Mesh, album: Album
-) -> Texture:
-    """Return the texture with a UV map that the mesh has; None if it has no UV map at all."""
+def _without_missing(paint: Paint, material: bpy.types.Material, wearer: _Wearer) -> Paint:
+    """Return the paint with its plain colour in the place of an image that is missing; what it hid is seen."""
+    missing = [texture.image for texture in textures_of(paint) if is_missing(texture.image)]
+    for image in missing:
+        wearer.album.remark(remark_on_missing(image, material.name))
+    if not missing:
+        return paint
+    seen = replaced(paint.opacity, lambda leaf: 1.0 if leaf[0] == "image" and is_missing(leaf[1].image) else leaf)
+    if paint.texture is None or not is_missing(paint.texture.image):
+        return replace(paint, opacity=seen)
+    plain = paint.bare if paint.factor == (1.0, 1.0, 1.0) and paint.attribute is None else paint.factor
+    return replace(paint, opacity=seen, texture=None, factor=plain)
+
+
+def _remark_on_hidden(paint: Paint, slot: int, material: bpy.types.Material, wearer: _Wearer) -> None:
+    """Tell of painted colours that a plain material hides."""
+    attribute = _colour_attribute(wearer.mesh, "") if paint.attribute is None else None
+    if attribute is None:
+        return
+    colours = _corner_colours(wearer.mesh, "")[_slot_loops(slot, wearer), :3]
+    if len(colours) and np.ptp(colours, axis=0).any():
+        wearer.album.remark(
+            f"{wearer.obj.name!r} has painted colours, {attribute.name!r}, that its material {material.name!r} does "
+            "not show: link them to its base colour, or take the material away."
+        )
+
+
+def _with_opacity(paint: Paint, slot: int, wearer: _Wearer) -> Paint:
+    """Return the paint with an opacity that images alone decide, or the corners where they give the colour too."""
+    own = replaced(paint.opacity, lambda leaf: _even_alpha(leaf, slot, wearer))
+    images = [leaf[1] for leaf in leaves(own) if leaf[0] == "image"]
+    if not images:
+        varied = not isinstance(own, float)
+        if varied and (paint.texture is not None or paint.attribute is None):
+            raise NotAProduct
+        return replace(paint, opacity=own)
+    place = paint.texture or images[0]
+    if paint.attribute is not None or len(images) < len(list(leaves(own))) or not all(map(place.lies_as, images)):
+        raise NotAProduct
+    return replace(paint, opacity=own, mask=None if paint.texture else place)
+
+
+def _even_alpha(leaf: tuple[Any, ...], slot: int, wearer: _Wearer) -> Expression:
+    """Return the alpha of a colour attribute if it is the same all over a slot, else the leaf as it was."""
+    if leaf[0] != "attribute":
+        return leaf
+    attribute = _colour_attribute(wearer.mesh, leaf[1])
+    if attribute is None:
+        return 1.0
+    alpha = _corner_colours(wearer.mesh, leaf[1])[_slot_loops(slot, wearer), 3]
+    return float(alpha[0]) if len(alpha) and np.ptp(alpha) == 0 else leaf
+
+
+def _slot_loops(slot: int, wearer: _Wearer) -> Ints:
+    """Return the loops of the triangles of a slot."""
+    wearer.mesh.calc_loop_triangles()
+    loops = _numbers(wearer.mesh.loop_triangles, "loops", 3, np.int32)
+    return loops[_face_slots(wearer.mesh, len(slot_materials(wearer.obj, wearer.mesh))) == slot].ravel()
+
+
+def _with_uv_map(paint: Paint, material: bpy.types.Material, wearer: _Wearer) -> Paint:
+    """Return the paint with a UV map that the mesh has; None if it has no UV map at all."""
+    texture, mesh, name = paint.placed, wearer.mesh, wearer.obj.name
     names = [layer.name for layer in mesh.uv_layers]
     if texture.uv_map in names:
-        return texture
+        return paint
     if texture.uv_map and texture.uv_map in mesh.attributes:
         raise NotAProduct
     if not names:
-        album.remark(
-            f"{obj.name!r} has no UV map for the image of its material {material.name!r}: "
+        wearer.album.remark(
+            f"{name!r} has no UV map for the image of its material {material.name!r}: "
             "the average colour of the image was taken."
         )
-        return replace(texture, uv_map=None)
+        return _moved(paint, None)
     active = next((layer.name for layer in mesh.uv_layers if layer.active_render), names[0])
     if texture.uv_map:
-        album.remark(f"{obj.name!r} has no UV map called {texture.uv_map!r}: {active!r} was taken.")
-    return replace(texture, uv_map=active)
+        wearer.album.remark(f"{name!r} has no UV map called {texture.uv_map!r}: {active!r} was taken.")
+    return _moved(paint, active)
 
 
-def _with_attribute(
-    paint: Paint, slot: int, material: bpy.types.Material, obj: bpy.types.Object, mesh: bpy.types.Mesh, album: Album
-) -> Paint:
+def _moved(paint: Paint, uv_map: str | None) -> Paint:
+    texture = replace(paint.placed, uv_map=uv_map)
+    return replace(paint, texture=texture) if paint.texture else replace(paint, mask=texture)
+
+
+def _with_attribute(paint: Paint, slot: int, material: bpy.types.Material, wearer: _Wearer) -> Paint:
     """Return the paint with a colour attribute that the mesh has; beside an image only one of a single colour."""
+    mesh = wearer.mesh
+    if paint.attribute is None:
+        return paint
     attribute = _colour_attribute(mesh, paint.attribute)
     if attribute is None and paint.attribute in mesh.attributes:
         raise NotAProduct
     if attribute is None:
-        album.remark(
-            f"{obj.name!r} has no colour attribute {paint.attribute!r} for its material {material.name!r}: "
+        wearer.album.remark(
+            f"{wearer.obj.name!r} has no colour attribute {paint.attribute!r} for its material {material.name!r}: "
             "white was taken."
         )
         return replace(paint, attribute=None)
+    colours = _corner_colours(mesh, paint.attribute)[_slot_loops(slot, wearer), :3]
+    if not colours.any():
+        wearer.album.remark(
+            f"The colour attribute {attribute.name!r} of {wearer.obj.name!r} is black all over and makes the material "
+            f"{material.name!r} black: paint it, or take it out of the material."
+        )
     if paint.texture is None:
         return paint
-    mesh.calc_loop_triangles()
-    loops = _numbers(mesh.loop_triangles, "loops", 3, np.int32)
-    faces = _face_slots(mesh, len(slot_materials(obj, mesh))) == slot
-    colours = _corner_colours(mesh, paint.attribute)[loops[faces]].reshape(-1, 3)
     if np.ptp(colours, axis=0).any():
         raise NotAProduct
     red, green, blue = (colours[0] * paint.factor).tolist()
     return replace(paint, factor=(red, green, blue), attribute=None)
 
 
-def _in_images(texture: Texture, factor: tuple[float, float, float], uvs: Floats, album: Album) -> tuple[Floats, Ints]:
-    """Return coordinates in the images of a texture, and the images' rows."""
-    if texture.uv_map is None:
-        return np.full_like(uvs, 0.5), np.full(len(uvs), album.average(texture, factor), dtype=np.int32)
-    mapping = np.array(texture.mapping)
-    uvs = uvs @ mapping[:, :2].T + mapping[:, 2]
-    if texture.image.source == "TILED":
-        return _in_tiles(texture, factor, uvs, album)
-    row = album.textured(texture, factor)
-    return uvs / 2 if texture.wrap == "MIRROR" else uvs, np.full(len(uvs), row, dtype=np.int32)
-
-
-def _in_tiles(texture: Texture, factor: tuple[float, float, float], uvs: Floats, album: Album) -> tuple[Floats, Ints]:
-    """Give every face the UDIM tile that its middle lies in, the first tile where there is none."""
-    place = np.floor(uvs.mean(axis=1)).astype(int)
-    number = 1001 + place[:, 0] + 10 * place[:, 1]
-    rows = np.full(len(uvs), -1, dtype=np.int32)
-    for tile in texture.image.tiles:
-        faces = number == tile.number
-        if faces.any():
-            rows[faces] = album.textured(texture, factor, tile.number)
-    if (rows < 0).any():
-        album.remark(f"Some faces lie outside the tiles of the image {texture.image.name!r}: its first tile was taken.")
-        rows[rows < 0] = album.textured(texture, factor, texture.image.tiles[0].number)
-    return uvs - place[:, None], rows
+def _painted_corners(mesh: bpy.types.Mesh, paint: Paint) -> Floats:
+    """Return linear colour and alpha of every loop."""
+    colours = _corner_colours(mesh, paint.attribute)
+    alpha = evaluated(paint.opacity, lambda leaf: _corner_colours(mesh, leaf[1])[:, 3])
+    return np.column_stack([colours[:, :3] * paint.factor, np.broadcast_to(alpha, len(colours))])
 
 
 def _face_slots(mesh: bpy.types.Mesh, count: int) -> Ints:
@@ -253,9 +311,9 @@ def _colour_attribute(mesh: bpy.types.Mesh, name: str) -> bpy.types.Attribute | 
 
 
 def _corner_colours(mesh: bpy.types.Mesh, name: str) -> Floats:
-    """Return the linear colour of every loop; Blender itself decodes the bytes of byte colours."""
+    """Return linear colour and alpha of every loop; Blender itself decodes the bytes of byte colours."""
     attribute = _colour_attribute(mesh, name)
-    colours = _numbers(attribute.data, "color", 4)[:, :3]
+    colours = _numbers(attribute.data, "color", 4)
     if attribute.domain == "CORNER":
         return colours
     return colours[_numbers(mesh.loops, "vertex_index", 1, np.int32)[:, 0]]

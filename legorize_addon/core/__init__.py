@@ -6,6 +6,8 @@
 ``geometry.upright``    which way is up: turning, and how a shape would stand
 ``colours``             dominant colours of the textures -> brick colours that can be bought
                         (``texels``, ``colour_difference``)
+``texturing``           what alpha hides is left out (``cutouts``, ``splitting``); images no finer than matters at a
+                        stud (``reduced_images``, ``box_means``), texture within a stud as its mean (``fine_textures``)
 ``grid``                where the cells of 8 x 8 x 9.6 mm lie, and the height of the first layer
 ``slicing``             heights of the slices (``marking``); planes x triangles -> segments
 ``trajectories``        segments -> closed, oriented, nested loops with a colour on every edge

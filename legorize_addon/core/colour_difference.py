@@ -32,6 +32,14 @@ def linear_from_srgb(encoded: NDArray[np.uint8]) -> Floats:
     return linear
 
 
+def srgb_from_linear(linear: NDArray[np.floating]) -> NDArray[np.uint8]:
+    """Return sRGB bytes of linear colours, cut to [0, 1]; any shape."""
+    share = np.clip(linear, 0.0, 1.0)
+    curve = np.where(share <= 0.0031308, 12.92 * share, 1.055 * share ** (1 / 2.4) - 0.055)
+    encoded: NDArray[np.uint8] = np.rint(curve * 255.0).astype(np.uint8)
+    return encoded
+
+
 def lab_from_srgb(rgb: NDArray[np.uint8]) -> Floats:
     """Return CIELAB of sRGB bytes, shape (..., 3)."""
     xyz = linear_from_srgb(rgb) @ _XYZ_FROM_LINEAR.T / _WHITE

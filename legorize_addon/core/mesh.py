@@ -51,6 +51,9 @@ class TriangleMesh:
     image_clamp : (n_images,) bool array
         True where coordinates outside the image take its edge texel, False
         where the image repeats.
+    opacities : tuple of ((h, w) uint8 array or None)
+        Alpha of the texels of each image, 255 for opaque; None where all are.
+        Empty where no image has any.
     """
 
     vertices: Floats
@@ -59,6 +62,7 @@ class TriangleMesh:
     face_image: NDArray[np.int32]
     images: tuple[NDArray[np.uint8], ...]
     image_clamp: NDArray[np.bool_]
+    opacities: tuple[NDArray[np.uint8] | None, ...] = ()
 
     @property
     def normals(self) -> Floats:
@@ -124,7 +128,7 @@ class Repairs:
         return tuple(sentence for count, sentence in told if count)
 
 
-def repair(mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs]:
+def repair(mesh: TriangleMesh, *, fill: bool = True) -> tuple[TriangleMesh, Repairs]:
     """Check a mesh, mend it, and turn every body outwards.
 
     Vertices at one place become one; faces without area, repeated faces and
@@ -138,6 +142,8 @@ def repair(mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs]:
     ----------
     mesh : TriangleMesh
         As read, of any quality.
+    fill : bool, optional
+        Whether small holes are filled.
 
     Returns
     -------
@@ -161,7 +167,9 @@ def repair(mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs]:
 
     winding = consistent_winding(surface.edges, surface.area)
     mended = np.bincount(winding.patch, weights=winding.flip) > 0
-    surface, patch, n_holes = _filled(surface.turned(winding.flip), winding.patch)
+    surface, patch, n_holes = surface.turned(winding.flip), winding.patch, 0
+    if fill:
+        surface, patch, n_holes = _filled(surface, patch)
     inwards = inside_out(surface.points, surface.faces, surface.edges, patch, mended, winding.one_sided)
     surface = surface.turned(inwards[patch])
 

@@ -43,6 +43,8 @@ from .size import check_any, model_scale
 from .slicing import adaptive_heights, slice_mesh
 from .stability import Stability, stability
 from .supports import Supports, supported, with_falling_propped, with_floating_carried
+from .texturing.cutouts import remarks_on_unseen, seen_part
+from .texturing.reduced_images import with_reduced_images
 from .trajectories import Trajectories, link_loops
 from .unit_bricks import unit_bricks
 from .units import PLATES_PER_BRICK
@@ -80,8 +82,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     stage = partial(_stage, overall, timings)
 
     with stage("mesh"):
-        mesh, repairs = repair(mesh)
-        mesh, scale, turn = _sized(mesh, settings)
+        mesh, repairs, turn, scale, unseen = _prepared(mesh, settings)
     with stage("colours"):
         surface = _surface(mesh, settings, palette, catalogue, rng)
     with stage("slicing"):
@@ -111,21 +112,15 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
             proof = prove_steps(supports.moves, supports.bricks, catalogue, hold=settings.hold, progress=overall)
     overall.finish()
     made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
-    notes = _notes(repairs, found, supports, proof, settings, catalogue)
+    notes = (*repairs.sentences(), *unseen, *_notes(found, supports, proof, settings, catalogue))
     return Build(settings, *made, supports, joints, proof, notes, timings)
 
 
 def _notes(
-    repairs: Repairs,
-    found: Stability,
-    supports: Supports,
-    proof: Proof | None,
-    settings: Settings,
-    catalogue: Catalogue,
+    found: Stability, supports: Supports, proof: Proof | None, settings: Settings, catalogue: Catalogue
 ) -> tuple[str, ...]:
-    """Return what a user has to know about a build, a sentence each."""
+    """Return what a user has to know about bricks and building, a sentence each."""
     return (
-        *repairs.sentences(),
         *remarks(supports.stays, found, catalogue),
         *remarks_on_building(supports, catalogue),
         *remarks_on_split(supports, most=settings.split),
@@ -137,14 +132,28 @@ def _in_plates(settings: Settings) -> bool:
     return settings.plates != "none"
 
 
-def _sized(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, float, Floats]:
-    """Return the mesh upright in the size of the model, the scale, and the turn before it."""
+def _prepared(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, Repairs, Floats, float, tuple[str, ...]]:
+    """Return the mesh as it is built, its repairs, turn and scale, and what has to be said of what is not seen."""
+    mesh, repairs = repair(mesh)
     mesh, turn = turned_upright(mesh, settings.up)
-    scale = model_scale(
+    least, scale = settings.least_alpha, partial(_scale, settings=settings)
+    mesh, repairs, share = seen_part(mesh, repairs, least=least, scale=scale)
+    mesh, factor = _sized(mesh, settings)
+    mesh = with_reduced_images(mesh, least=least, mean=settings.fine_texture == "mean")
+    return mesh, repairs, turn, factor, remarks_on_unseen(share, least=least)
+
+
+def _sized(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, float]:
+    """Return the mesh in the size of the model, and the scale."""
+    scale = _scale(mesh, settings)
+    mesh = scaled(mesh, scale)
+    return mesh, scale
+
+
+def _scale(mesh: TriangleMesh, settings: Settings) -> float:
+    return model_scale(
         mesh, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale
     )
-    mesh = scaled(mesh, scale)
-    return mesh, scale, turn
 
 
 def _surface(

@@ -69,6 +69,12 @@ class Settings:
     cell_colour: Literal["likeness", "longest"] = setting(
         "likeness", "Whether a brick takes the colour most like all the surface on it, or the one with the greatest "
         "trajectory length (the paper's literal way).", group="Colours")
+    fine_texture: Literal["mean", "texels"] = setting(
+        "mean", "What becomes of a texture that changes within a stud, as checkers and noise do: its mean as seen from "
+        "afar, or whichever of its colours wins on each brick.", group="Colours")
+    least_alpha: float = setting(
+        0.5, "Alpha from which on a surface is built: glass, and what of the picture of a leaf or a decal is clear, is "
+        "left out; 0 builds all.", group="Colours", low=0.0, high=1.0)
 
     cusp: float = setting(
         3.2, "Cusp height in mm that one slice a brick may leave; smaller means three slices more often.",

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.errors import LegorizeError, MeshError
+from .object_values import ObjectValues
 
 Found = TypeVar("Found")
 
@@ -63,11 +64,14 @@ class Shown(NamedTuple):
         The chosen object that shows it, itself or by instancing; not evaluated.
     matrix : (4, 4) float64 array
         From the mesh to the world, in Blender units.
+    values : ObjectValues
+        What the object or instance tells its materials.
     """
 
     mesh: bpy.types.Object
     owner: bpy.types.Object
     matrix: NDArray[np.float64]
+    values: ObjectValues
 
 
 def has_surface(obj: bpy.types.Object) -> bool:
@@ -97,7 +101,8 @@ def shown(chosen: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph) ->
         if instance.object.type != "MESH" or not instance.show_self or owner not in wanted:
             continue
         if depsgraph.mode == "VIEWPORT" or _in_pictures(instance.object, owner, depsgraph.view_layer):
-            yield Shown(instance.object, owner, np.array(instance.matrix_world, dtype=np.float64))
+            matrix = np.array(instance.matrix_world, dtype=np.float64)
+            yield Shown(instance.object, owner, matrix, ObjectValues.of(instance, depsgraph))
 
 
 def when_rendered(context: bpy.types.Context, read: Callable[[bpy.types.Depsgraph], Found]) -> Found:

@@ -560,7 +560,6 @@ def missing_image(path: Path) -> Path:
         (zero_scale, "scale of zero"),
         (no_rotation, "a place, rotation or scale that is no number"),
         (one_triangle, "triangle"),
-        (missing_image, "lost.png"),
     ],
 )
 def test_bad_input(
@@ -583,6 +582,12 @@ def assert_refused(
     assert sentence.endswith(".")
     assert contents(out.parent) == before
     assert not list(out.parent.rglob(".legorize-*"))
+
+
+def test_a_missing_image_is_told(script: ModuleType, out: Path, tmp_path: Path) -> None:
+    """A mesh whose image is not there is built in its plain colour, and the report names the file."""
+    assert script.main([str(missing_image(tmp_path)), "--out", str(out), "--width", "8"]) == 0
+    assert "lost.png" in (out / "report.json").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("place", ["at", "below", "forbidden"])

@@ -309,17 +309,16 @@ def test_linear_images_are_encoded() -> None:
 
 
 def test_alpha_counts_only_where_it_is_linked() -> None:
-    """Unseen texels take the mean of the others if the image's alpha is linked, else all texels stay."""
+    """The alpha of an image goes with its texels if it is linked, else all of the surface is seen."""
     alpha = np.array([[1.0, 1.0, 0.0], [0.4, 0.6, 1.0]])
     image, nodes = add_image(alpha=alpha), Nodes()
     texture = nodes.add("TexImage", image=image)
     nodes.link(texture.outputs["Alpha"], nodes.shader.inputs["Alpha"])
     cut, whole = read(add_quad(nodes.colour(texture.outputs["Color"]))), read(add_quad(image_material(image)))
-    seen = alpha >= 0.5
-    np.testing.assert_array_equal(whole.images[0], TEXELS)
-    np.testing.assert_array_equal(cut.images[0][seen], TEXELS[seen])
-    mean = srgb_from_linear(linear_from_srgb(TEXELS[seen]).mean(axis=0))
-    np.testing.assert_array_equal(cut.images[0][~seen], np.tile(mean, (2, 1)))
+    assert whole.opacities == ()
+    for mesh in (cut, whole):
+        np.testing.assert_array_equal(mesh.images[0], TEXELS)
+    np.testing.assert_array_equal(cut.opacities[0], np.rint(alpha * 255))
 
 
 def test_udim_tiles_are_images_of_their_own(tmp_path: Path) -> None:
@@ -339,16 +338,114 @@ def test_udim_tiles_are_images_of_their_own(tmp_path: Path) -> None:
     assert len(bpy.data.images) == before
 
 
-def test_huge_images_are_halved(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of an image with too many texels every second one is taken, with a remark; the image itself keeps its size."""
+def test_huge_images_in_memory_are_halved(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of an image with too many texels, in memory alone, every second one is taken; it keeps its size; that is told."""
     monkeypatch.setattr(read_images, "LARGEST_SIDE", 4)
     texels = np.repeat(np.repeat(TEXELS[:, :2], 4, axis=0), 4, axis=1)
     image = add_image(texels)
     mesh, remarks = read_with_remarks(add_quad(image_material(image)))
     np.testing.assert_array_equal(mesh.images[0], texels[::2, ::2])
-    assert "every second one" in remarks[0]
+    assert "1/2 of its size" in remarks[0]
     assert tuple(image.size) == (8, 8)
     assert len(bpy.data.images) == 1
+
+
+def test_huge_image_files_are_halved_before_they_become_numbers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Blender reduces a copy of a large file, so that its texels are never numbers all at once; no copy stays."""
+    monkeypatch.setattr(read_images, "LARGEST_SIDE", 4)
+    texels = np.repeat(np.repeat(TEXELS[:, :2], 8, axis=0), 8, axis=1)
+    written = add_image(texels)
+    written.filepath_raw, written.file_format = str(tmp_path / "large.png"), "PNG"
+    written.save()
+    bpy.data.images.remove(written)
+    image = bpy.data.images.load(str(tmp_path / "large.png"))
+    sizes = []
+    decoded = read_images._decoded
+    monkeypatch.setattr(read_images, "_decoded", lambda each: (sizes.append(tuple(each.size)), decoded(each))[1])
+    mesh, remarks = read_with_remarks(add_quad(image_material(image)))
+    assert sizes == [(4, 4)]
+    np.testing.assert_array_equal(mesh.images[0], texels[::4, ::4])
+    assert "1/4 of its size" in remarks[0]
+    assert tuple(image.size) == (16, 16)
+    assert len(bpy.data.images) == 1
+
+
+def test_images_beyond_the_memory_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What does not fit in memory gives a sentence with the image and its size."""
+
+    def full(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(read_images, "_decoded", full)
+    with pytest.raises(MeshError, match=r"'image' of 3 x 2 texels does not fit"):
+        read(add_quad(image_material(add_image())))
+
+
+def test_image_coordinates_that_are_no_numbers_are_told() -> None:
+    """Faces with infinite coordinates take the average of the image, the others their texels; one sentence says it."""
+    obj = add_quad(image_material(add_image()), uvs=[(0, 0), (1, 0), (1, 1), (0, np.inf)])
+    mesh, remarks = read_with_remarks(obj)
+    assert np.isfinite(mesh.uvs).all()
+    shapes = sorted(mesh.images[row].shape for row in mesh.face_image)
+    assert shapes == [(1, 1, 3), (2, 3, 3)]
+    assert len(remarks) == 1
+    assert remarks[0].startswith("1 triangle has image coordinates on 'image' that are infinite")
+
+
+def lost_image(tmp_path: Path) -> bpy.types.Image:
+    """Return an image whose file is not there."""
+    image = bpy.data.images.new("lost", 4, 4)
+    image.source, image.filepath = "FILE", str(tmp_path / "lost.png")
+    return image
+
+
+@pytest.mark.parametrize("missing", [True, False])
+def test_missing_images_are_told_and_the_plain_colour_taken(tmp_path: Path, missing: bool) -> None:
+    """An image that is not there costs its colour alone; the sentence names the material, and the file."""
+    material = image_material(lost_image(tmp_path) if missing else None)
+    material.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.5, 0.1, 0.0, 1.0)
+    mesh, remarks = read_with_remarks(add_quad(material))
+    assert mesh.images[0].tolist() == [[srgb_from_linear(np.array([0.5, 0.1, 0.0])).tolist()]]
+    [remark] = remarks
+    assert "'paint'" in remark
+    assert ("lost.png" if missing else "without an image") in remark
+
+
+def test_a_missing_image_keeps_its_factor_and_hides_nothing(tmp_path: Path) -> None:
+    """Where the image was multiplied by a colour that colour stays; where it decided what is seen, all is seen."""
+    nodes = Nodes()
+    texture = nodes.add("TexImage", image=lost_image(tmp_path))
+    nodes.link(texture.outputs["Alpha"], nodes.shader.inputs["Alpha"])
+    mesh, remarks = read_with_remarks(
+        add_quad(nodes.colour(multiplied(nodes, texture.outputs["Color"], (0.5, 0.75, 1.0, 1.0))))
+    )
+    assert mesh.images[0].tolist() == [[srgb_from_linear(np.array([0.5, 0.75, 1.0])).tolist()]]
+    assert mesh.opacities == ()
+    assert len(remarks) == 1
+
+
+def test_painted_colours_that_a_material_hides_are_told() -> None:
+    """A plain material over painted colours is taken as it is, with a remark; over one colour there is none."""
+    obj = add_quad(Nodes().material)
+    add_colours(obj, np.eye(4)[:, :3], "CORNER", "FLOAT_COLOR")
+    _, remarks = read_with_remarks(obj)
+    assert [remark for remark in remarks if "painted colours" in remark and "'paint'" in remark]
+    even = add_quad(Nodes().material)
+    add_colours(even, np.array([0.5, 1.0, 0.25]), "CORNER", "FLOAT_COLOR")
+    read(even)
+
+
+def test_black_attributes_are_told() -> None:
+    """An attribute that is black all over makes its material black, and that is told."""
+    nodes = Nodes()
+    texture, attribute = nodes.add("TexImage", image=add_image()), nodes.add("VertexColor")
+    obj = add_quad(nodes.colour(multiplied(nodes, texture.outputs["Color"], attribute.outputs["Color"])))
+    add_colours(obj, np.zeros(3), "CORNER", "FLOAT_COLOR")
+    mesh, remarks = read_with_remarks(obj)
+    assert not mesh.images[0].any()
+    assert "black all over" in remarks[0]
 
 
 def test_several_materials_and_empty_slots() -> None:
@@ -446,16 +543,6 @@ def test_reading_changes_nothing() -> None:
     before = state()
     read(obj)
     assert state() == before
-
-
-def test_missing_image_file_is_refused(tmp_path: Path) -> None:
-    """The sentence names the material and the file."""
-    image = bpy.data.images.new("lost", 4, 4)
-    image.source, image.filepath = "FILE", str(tmp_path / "lost.png")
-    with pytest.raises(MeshError, match=r"'paint'.*lost\.png.*missing"):
-        read(add_quad(image_material(image)))
-    with pytest.raises(MeshError, match=r"'paint.001'.*without an image"):
-        read(add_quad(image_material(None)))
 
 
 def test_nothing_to_read_is_refused() -> None:
