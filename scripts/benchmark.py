@@ -13,6 +13,7 @@
     python scripts/benchmark.py supports  [MESH ...] [--out DIR]   trees, columns and beams against full columns
     python scripts/benchmark.py building  [MESH ...] [--out DIR]   building orders, followed from their files
     python scripts/benchmark.py judge     [MESH ...] --judge DIR   an external judge, on our bricks and on a peer's
+    python scripts/benchmark.py kills    [MESH] [--runs N] [--out DIR] killed runs: old or new results, nothing left
     python scripts/benchmark.py sliders  [--bricks N] [--out DIR] what Blender takes to show layers and sections
 
 Without a mesh the bundled sample is measured; ``--models DIR`` takes all model
@@ -41,6 +42,7 @@ from scripts.benchmarks import (  # noqa: E402
     goals,
     hollowing,
     judge,
+    kills,
     layouts,
     pipeline,
     slicing,
@@ -104,6 +106,8 @@ def measured(options: argparse.Namespace) -> list[Table]:
         return supports.measure(paths, width=options.width, repeats=options.repeats)
     if options.command == "building":
         return building.measure(paths, widths=options.widths, split=options.split)
+    if options.command == "kills":
+        return kills.measure(paths[0], runs=options.runs, moments=options.moments)
     if options.command == "hollowing":
         return hollowing.measure(paths, width=options.width)
     return judge.measure(paths, judge=options.judge, out=options.out, width=options.width, ldr_dir=options.ldr_dir)
@@ -125,6 +129,7 @@ def parser() -> argparse.ArgumentParser:
         ("supports", "supports of every kind", 64, 3),
         ("building", "whether every model can be built", None, None),
         ("judge", "an external judge", 48, None),
+        ("kills", "killed runs", None, None),
     ):
         command = commands.add_parser(name, help=text, description=text)
         command.add_argument("meshes", metavar="MESH", type=Path, nargs="*", help="model file")
@@ -172,6 +177,9 @@ def add_options(name: str, command: argparse.ArgumentParser) -> None:
             default=0.0,
             help="that the peer may take to make its layout hold; 0 only lets it lay (default: %(default)s)",
         )
+    elif name == "kills":
+        command.add_argument("--runs", type=int, default=200, help="whole runs to kill (default: %(default)s)")
+        command.add_argument("--moments", type=int, default=100, help="kills within publishing (default: %(default)s)")
     elif name == "judge":
         command.add_argument("--judge", metavar="DIR", type=Path, required=True, help="judge.py and peer_voxels.py")
         command.add_argument("--ldr-dir", metavar="DIR", type=Path, help="NAME/model.ldr made by scripts/legorize.py")

@@ -12,35 +12,48 @@ lists them.
 
 Exit status: 0 written; 2 written, but a check failed and ``report.json`` says
 which; 1 nothing written, the folder is as it was, one sentence says why (or a
-traceback, if it is a bug). As ``blender -b -P`` ends with 0 after an error in
+traceback, if it is a bug); 130, 143 and 129 nothing written, as Ctrl-C, SIGTERM
+or SIGHUP stopped it. As ``blender -b -P`` ends with 0 after an error in
 Python, this file catches, shows and turns every exception into a 1 by itself.
 """
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
-import tomllib
-import traceback
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
-from dataclasses import Field, fields, replace
 from pathlib import Path
-from typing import Any, Final, NamedTuple, NoReturn, Self, TextIO
-
-import bpy
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
+
+from scripts.stopping import Stop, Stopped, forgive_streams  # noqa: E402 - found through the line above
+
+stop = Stop()
+if __name__ == "__main__":
+    # before the imports, which take seconds
+    forgive_streams()
+    stop.listen()
+
 try:
+    import argparse
+    import time
+    import tomllib
+    import traceback
+    from collections.abc import Iterator, Sequence
+    from contextlib import ExitStack, contextmanager
+    from dataclasses import Field, fields, replace
+    from typing import Any, Final, NamedTuple, NoReturn, Self, TextIO
+
+    import bpy
+
     from legorize_addon.contact_sheet import render_contact_sheet
     from legorize_addon.core.build import Build
     from legorize_addon.core.catalogue import load_catalogue
     from legorize_addon.core.checks import failed_checks
     from legorize_addon.core.errors import BuildError, LegorizeError, SettingsError, enough_memory
-    from legorize_addon.core.files.folder import new_folder, writing
+    from legorize_addon.core.files.folder import new_folder, temporary_of, writing
+    from legorize_addon.core.files.manifest import changed
     from legorize_addon.core.files.outputs import texts
+    from legorize_addon.core.files.paths import named, readable
     from legorize_addon.core.model import Role
     from legorize_addon.core.pipeline import legorize
     from legorize_addon.core.progress import Meter, Overall, Progress, duration, part
@@ -127,15 +140,21 @@ def main(arguments: Sequence[str]) -> int:
         with enough_memory():
             return run(taken, out, settings_of(options), wanted)
     except LegorizeError as error:
-        print(error, file=sys.stderr)
+        # a stop in the middle of an importer looks like a broken file
+        if not stop.status:
+            print(error, file=sys.stderr)
         return 1
 
 
 def parser() -> Parser:
     """Return the parser, whose flags for settings are generated."""
     made = Parser(prog="legorize.py", description="Turn a textured mesh into a brick model.", allow_abbrev=False)
-    made.add_argument("source", metavar="IN", type=Path, help="file with the mesh")
-    made.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the results")
+    made.add_argument("source", metavar="IN", type=lambda text: named(text, "file"), help="file with the mesh")
+    made.add_argument(
+        "--out", metavar="DIR", type=lambda text: named(text, "folder"), required=True,
+        help="folder for the results, or a link to one; results of an earlier run in it are replaced, all or none, and "
+        "your own files stay",
+    )  # fmt: skip
     add_source(made)
     add_pictures(made)
     made.add_argument(
@@ -259,14 +278,15 @@ def settings_of(options: dict[str, Any]) -> Settings:
 
 def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
     """Legorize a file into a folder."""
-    seconds: dict[str, float] = {}
+    source, seconds = readable(taken.source), dict[str, float]()
     # before there is a folder to clear away: a crash of an importer leaves nothing behind
     with Line(sys.stdout) as line, ExitStack() as stack:
         with timed(seconds, "import", line):
-            objects, left_out, up = load(taken.source, frame=taken.frame, names=taken.object, up=settings.up)
+            objects, left_out, up = load(source, frame=taken.frame, names=taken.object, up=settings.up)
         with timed(seconds, "read", line), quiet():
             mesh, remarks = read_rendered(objects, bpy.context)
         folder = stack.enter_context(new_folder(out))
+        stop.temporary = temporary_of(folder)
         # in builds: measured without a proof at 48 to 192 studs, guessed for the proof and the pictures
         later = {"report": 0.03 + wanted.bound, "files": 0.03, "pictures": float(wanted.any_picture)}
         built = 1 / (1 + sum(later.values()))
@@ -275,12 +295,16 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         rest = Overall(later, part(line, built, 1.0))
         facts = described(replace(build, settings=settings), rest, with_bound=wanted.bound)
         with rest.stage("files"), writing(out):
-            for name, text in texts(build, load_catalogue(), facts, taken.source.stem).items():
+            for name, text in texts(build, load_catalogue(), facts, source.stem).items():
                 (folder / name).parent.mkdir(exist_ok=True)
                 (folder / name).write_text(text, encoding="utf-8", newline="")
         if wanted.any_picture:
             with rest.stage("pictures"):
-                show(build, folder, wanted, name=taken.source.stem, sources=objects)
+                show(build, folder, wanted, name=source.stem, sources=objects)
+        left = [name for name in changed(out) if not (folder / name).exists()]
+        stop.too_late()
+    for name in left:
+        print(f"{out / name} was changed after an earlier run wrote it: it stays.", file=sys.stderr)
     print(f"{out}: {facts['counts']['bricks']} bricks in {facts['grid']['layers']} layers.")
     for sentence in facts["failed_checks"]:
         print(sentence, file=sys.stderr)
@@ -359,6 +383,7 @@ def posed(shown: bpy.types.Collection, wanted: Wanted) -> Iterator[None]:
 
 def save(path: Path) -> None:
     """Write the scene, with paths of images that hold wherever the file is moved to."""
+    named(str(path), "scene", BuildError)
     if bpy.data.filepath:
         bpy.ops.file.make_paths_absolute()
     try:
@@ -394,9 +419,15 @@ def own_arguments() -> list[str]:
 
 
 if __name__ == "__main__":
+    stop.loaded()
     try:
         status = main(own_arguments())
+    except Stopped:
+        status = stop.status
     except Exception:
         traceback.print_exc()
         raise SystemExit(1) from None
+    if stop.status:
+        print("Stopped: nothing was written.", file=sys.stderr)
+        stop.end()
     sys.exit(status)

@@ -11,7 +11,6 @@ import re
 import signal
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable
 from dataclasses import fields
 from functools import partial
@@ -24,6 +23,7 @@ import pytest
 
 from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import SettingsError
+from legorize_addon.core.files import folder
 from legorize_addon.core.ldraw import read_ldr
 from legorize_addon.core.settings import Settings
 from legorize_addon.heat_map import heat_map_shown
@@ -600,7 +600,7 @@ def test_unwritable_folder(
 ) -> None:
     """A file at the folder's place or above it, and missing rights, give one sentence and a 1."""
 
-    def forbid(**_: object) -> None:
+    def forbid(near: Path) -> None:
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
 
     add_box(BOX)
@@ -608,7 +608,7 @@ def test_unwritable_folder(
     taken = tmp_path / "taken"
     if place == "forbidden":
         # root, as whom tests may run, is refused nothing
-        monkeypatch.setattr(tempfile, "TemporaryDirectory", forbid)
+        monkeypatch.setattr(folder, "workplace", forbid)
     else:
         taken.write_text("a file")
     out = taken / "out" if place == "below" else taken
@@ -622,6 +622,94 @@ def test_folder_in_the_place_of_a_result(
     add_box(BOX)
     (out / "report.json").mkdir()
     assert_refused(script, save(tmp_path / "box.blend"), out, "report.json is a folder", capsys, ["--width", "4"])
+
+
+@pytest.mark.parametrize(
+    ("source", "out", "words"),
+    [
+        ("box.obj", "", "The folder has no name"),
+        ("", "out", "The file has no name"),
+        ("caf\udce9.obj", "out", "is not UTF-8"),
+        ("box.obj", "caf\udce9", "is not UTF-8"),
+        ("a\0b.obj", "out", "NUL"),
+        ("box.obj", "a\0b", "NUL"),
+        (f"{'n' * 300}.obj", "out", "cannot be read"),
+        ("box.obj", "n" * 300, "cannot be written"),
+        ("n/" * 600 + "box.obj", "out", "longer than"),
+        ("box.obj", "n/" * 600, "longer than"),
+        (".", "out", "is a folder"),
+    ],
+)
+def test_bad_paths(
+    source: str, out: str, words: str, script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    """Names that no file can have, or that Blender cannot take, are a 1 with one sentence, and nothing is there."""
+    add_box(BOX)
+    save(tmp_path / "box.obj")
+    before = contents(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    capsys.readouterr()
+    assert script.main([source, "--out", out, "--width", "4"]) == 1
+    [sentence] = capsys.readouterr().err.splitlines()
+    assert words in sentence
+    assert sentence.endswith(".")
+    assert sentence.isprintable()
+    assert contents(tmp_path) == before
+
+
+def test_working_folder_that_is_gone(
+    script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys
+) -> None:
+    """Relative names are refused there; absolute ones work."""
+    add_box(BOX)
+    source = save(tmp_path / "box.obj")
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    assert script.main([str(source), "--out", "out", "--width", "4"]) == 1
+    assert "working folder is no longer there" in capsys.readouterr().err
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "4"]) == 0
+
+
+def test_old_pictures_do_not_stay_beside_a_new_model(
+    script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What an earlier run wrote and this one does not is gone; what somebody changed since stays, and is told."""
+    add_box(BOX)
+    source, out = save(tmp_path / "box.blend"), tmp_path / "out"
+    for change in (False, True):
+        assert script.main([str(source), "--out", str(out), "--width", "4", "--save-blend"]) == 0
+        assert set(contents(out)) == FILES | {"build.blend"}
+        if change:
+            (out / "build.blend").write_bytes(b"mine")
+        (tmp_path / "link").unlink(missing_ok=True)
+        (tmp_path / "link").symlink_to(out)
+        capsys.readouterr()
+        assert script.main([str(source), "--out", str(tmp_path / "link"), "--width", "5"]) == 0
+        assert set(contents(out)) == FILES | ({"build.blend"} if change else set())
+        told = "build.blend was changed after an earlier run wrote it: it stays."
+        assert (told in capsys.readouterr().err) == change
+    assert (tmp_path / "link").is_symlink()
+
+
+@pytest.mark.parametrize("name", ["STEP", "FILE", "!LEGORIZE ROLE SHELL PIECE 3", "=1+1", "{blend_name}", "a\nb"])
+def test_name_of_the_file_is_no_command(name: str, script: ModuleType, tmp_path: Path) -> None:
+    """However the file is called, its model is the same but for the title."""
+    add_box(BOX)
+    source = save(tmp_path / "box.obj")
+    named = tmp_path / name / f"{name}.obj"
+    named.parent.mkdir()
+    named.write_bytes(source.read_bytes())
+    (named.parent / "box.mtl").write_bytes((tmp_path / "box.mtl").read_bytes())
+    plain, odd = tmp_path / "plain", tmp_path / name / "odd"
+    for path, out in ((source, plain), (named, odd)):
+        assert script.main([str(path), "--out", str(out), "--width", "4"]) == 0
+    assert set(contents(plain)) == set(contents(odd)) == FILES
+    lines = [(folder / "model.ldr").read_text().split("\n") for folder in (plain, odd)]
+    assert lines[0][1:] == lines[1][1:]
+    assert lines[1][0].split()[1] == ("a" if "\n" in name else "Model")
 
 
 def test_parser_complains_by_exception(script: ModuleType) -> None:

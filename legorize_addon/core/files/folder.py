@@ -3,44 +3,105 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Final
 
 from ..errors import BuildError
+from .manifest import seal
+from .paths import named, one_slash
+from .publishing import finish, replace_folder
+from .workplace import PREFIX, alone, clear_abandoned, workplace
+
+NEW: Final = "new"
+"""Where new files are written in the temporary folder."""
 
 
 @contextmanager
 def new_folder(out: Path) -> Iterator[Path]:
-    """Yield a folder to write into; what it holds moves to ``out`` at the end, and only if all went well."""
-    if out.exists() and not out.is_dir():
-        raise BuildError(f"{out} is a file, not a folder: choose another name.")
-    # on the same disk, so that moving is renaming
-    near = next(folder for folder in (out, *out.absolute().parents) if folder.exists())
+    """Yield a folder to write into; what it holds becomes the results at the end, and only if all went well.
+
+    Parameters
+    ----------
+    out : pathlib.Path
+        Folder of the results; it may be missing, or a link to a folder. The
+        user's own files in it stay. Files of the results' names are replaced
+        (a link by a file), and files of an earlier run that this one does not
+        write are removed, as far as that run's ``report.json`` lists them and
+        they are unchanged.
+
+    Yields
+    ------
+    pathlib.Path
+        An empty folder on the same disk. If it has a ``report.json`` in the
+        end, the list of all files is added to it.
+
+    Raises
+    ------
+    BuildError
+        The folder cannot be written, or something stands in the way of a file.
+    """
+    named(str(out), "folder", BuildError)
+    with writing(out):
+        target = one_slash(os.path.realpath(out))
+        if os.path.lexists(target) and not target.is_dir():
+            raise BuildError(f"{out} is a file, not a folder: choose another name.")
+        near = _near(target)
+        for place in {near, _nearest(target), target.parent}:
+            clear_up(place)
     with ExitStack() as stack:
         with writing(out):
-            temporary = stack.enter_context(tempfile.TemporaryDirectory(prefix=".legorize-", dir=near))
-            folder = Path(temporary) / "results"
-            folder.mkdir()
-        yield folder
-        with writing(out):
-            publish(folder, out)
+            work = stack.enter_context(workplace(near))
+            # with the folders above it that are missing: one step makes them all
+            fresh = work / NEW / target.relative_to(_nearest(target.parent))
+            fresh.mkdir(parents=True)
+        yield fresh
+        with writing(out), alone(near):
+            seal(fresh)
+            _publish(work, fresh, target)
 
 
-def publish(folder: Path, out: Path) -> None:
-    """Rename a folder, or all of its files if the new name is taken by a folder."""
-    if not out.exists():
-        out.parent.mkdir(parents=True, exist_ok=True)
-        folder.rename(out)
+def temporary_of(folder: Path) -> Path:
+    """Return the temporary folder in which a folder to write into lies."""
+    return next(above for above in folder.parents if above.name.startswith(PREFIX))
+
+
+def clear_up(place: Path) -> None:
+    """End and remove what runs that are no longer alive left in a folder; nothing if it is not there."""
+    if place.is_dir():
+        with alone(place):
+            clear_abandoned(place, finish)
+
+
+def _publish(work: Path, fresh: Path, target: Path) -> None:
+    if target.is_dir():
+        replace_folder(work, fresh, target)
         return
-    files = sorted(file.relative_to(folder) for file in folder.rglob("*") if file.is_file())
-    for taken in (out / file for file in files):
-        if taken.is_dir():
-            raise BuildError(f"{taken} is a folder: move it away, or choose another folder for the results.")
-    for file in files:
-        (out / file).parent.mkdir(exist_ok=True)
-        os.replace(folder / file, out / file)
+    above = _nearest(target)
+    first = target.relative_to(above).parts[0]
+    missing = work / NEW / target.relative_to(above)
+    if missing != fresh:
+        # somebody has made a part of the folders meanwhile
+        missing.parent.mkdir(parents=True, exist_ok=True)
+        fresh.rename(missing)
+    (work / NEW / first).rename(above / first)
+
+
+def _nearest(folder: Path) -> Path:
+    """Return a folder, or the first one above it that exists."""
+    return next(each for each in (folder, *folder.parents) if os.path.lexists(each))
+
+
+def _near(target: Path) -> Path:
+    """Return the folder in which to make the temporary one: beside the results, else where they are to be."""
+    if not target.is_dir():
+        return _nearest(target)
+    above = target.parent
+    same_disk = target.stat().st_dev == above.stat().st_dev and not target.is_mount()
+    # whoever works in the folder, as the shell of this run does then, is to find it again
+    worked_in = Path(os.path.realpath(os.curdir)).is_relative_to(target)
+    return above if same_disk and os.access(above, os.W_OK | os.X_OK) and not worked_in else target
 
 
 @contextmanager

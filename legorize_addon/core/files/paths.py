@@ -50,6 +50,11 @@ def named(path: str, what: str, error: type[LegorizeError] = SettingsError) -> P
     return Path(path)
 
 
+def one_slash(absolute: str) -> Path:
+    """Return a path without a second slash at its beginning, which would be the .blend file's folder for Blender."""
+    return Path(f"/{absolute.lstrip('/')}" if os.name == "posix" else absolute)
+
+
 def readable(path: Path) -> Path:
     """Return the absolute path of a file to read.
 
@@ -65,7 +70,7 @@ def readable(path: Path) -> Path:
         if path.exists() and not path.is_file():
             raise MeshError(f"{path} is a device or a pipe: save the model as a file first.")
         with path.open("rb"):
-            return Path(os.path.abspath(path))
+            return one_slash(os.path.abspath(path))
     except OSError as error:
         if error.errno in (errno.ENOENT, errno.ENOTDIR):
             raise MeshError(f"There is no file {path}: name one that exists.") from error
@@ -89,7 +94,7 @@ def writable(path: str | Path, what: str = "file") -> Path:
     """
     named(str(path), what, BuildError)
     try:
-        target = Path(os.path.realpath(path))
+        target = one_slash(os.path.realpath(path))
         if target.is_symlink():
             raise OSError(errno.ELOOP, "it is a link that leads back to itself")
         if target.is_dir():
