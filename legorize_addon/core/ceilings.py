@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from .model import Ints, Mask
+from .progress import Progress, part, silent
 
 Way = Literal["cheaper", "corbels", "pillars", "free"]
 
@@ -78,7 +79,7 @@ class Columns:
         return self.bottom & ~near & _raised(self.hollow, ground=False)
 
 
-def carriers(columns: Columns, way: Way) -> tuple[Mask, Mask]:
+def carriers(columns: Columns, way: Way, progress: Progress = silent) -> tuple[Mask, Mask]:
     """Choose cells that carry the ceilings over hollows.
 
     Parameters
@@ -88,6 +89,8 @@ def carriers(columns: Columns, way: Way) -> tuple[Mask, Mask]:
     way : {"cheaper", "corbels", "pillars", "free"}
         Corbels lean out of the walls, pillars rise from the floor; "cheaper" is
         what takes fewer cells, hollow by hollow; "free" carries nothing.
+    progress : Progress, optional
+        Told before each search, and how far it is.
 
     Returns
     -------
@@ -99,24 +102,27 @@ def carriers(columns: Columns, way: Way) -> tuple[Mask, Mask]:
     if way == "free":
         return none, none
     if way == "corbels":
-        return _carried(columns, leaning=True), none
-    pillars = _carried(columns, leaning=False)
+        return _carried(columns, progress, leaning=True), none
+    pillars = _carried(columns, part(progress, 0.0, 0.4), leaning=False)
     if way == "pillars":
         return none, pillars
-    corbels = _carried(columns, leaning=True)
+    corbels = _carried(columns, part(progress, 0.4, 0.8), leaning=True)
     cavity, n_cavities = ndimage.label(columns.hollow, np.ones((3, 3, 3)))
     cells = [np.bincount(cavity[mask], minlength=n_cavities + 1) for mask in (pillars, corbels)]
     straight = (cells[0] < cells[1])[cavity]
     pillars &= straight
     corbels &= ~straight
     # a ceiling cell between two cavities may have lost what carried it
-    return corbels | _carried(columns.filled(corbels | pillars), leaning=True), pillars
+    return corbels | _carried(columns.filled(corbels | pillars), part(progress, 0.8, 1.0), leaning=True), pillars
 
 
-def _carried(columns: Columns, *, leaning: bool) -> Mask:
+def _carried(columns: Columns, progress: Progress, *, leaning: bool) -> Mask:
     """Return cells to fill so that no ceiling is left uncarried, as far as that is possible."""
-    before = columns.hollow
+    before, turns = columns.hollow, 0
     while (uncarried := columns.uncarried).any():
+        # a few turns as a rule: each halves what is left of the share
+        turns += 1
+        progress("hollowing", 1 - 0.5**turns)
         n_layers = int(np.flatnonzero(uncarried.any(axis=(1, 2)))[-1])
         price = _prices(columns, n_layers, leaning=leaning)
         heads = _heads(columns, uncarried[: n_layers + 1], price)

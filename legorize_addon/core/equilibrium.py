@@ -168,7 +168,9 @@ def balance(
     Balance
         The forces, or the motion by which the model collapses, or neither.
     """
+    progress("stability", 0.0)
     plane = Plane(statics)
+    progress("stability", 0.0)
     near = plane.project(np.zeros(len(plane.weight)) if start is None else start / plane.weight)
     forces = near
     motion, turns, most = np.zeros(len(statics.loads)), 0, sum(aim.turns for aim in aims)

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from .ceilings import Columns, Way, carriers
 from .model import COLOUR_ANY, COLOUR_EMPTY, Cover, Mask, Role, UnitGrid
+from .progress import Progress, part, silent
 from .regions import kept
 from .units import PLATES_PER_BRICK
 
@@ -35,6 +36,7 @@ def hollow(
     rule: Rule = "both",
     ceilings: Way = "free",
     open_bottom: bool = False,
+    progress: Progress = silent,
 ) -> UnitGrid:
     """Sort the cells of a solid model into must, may and empty.
 
@@ -53,6 +55,8 @@ def hollow(
     open_bottom : bool
         Leave out what only covers the underside on the ground. With "upper"
         it is left out anyway.
+    progress : Progress, optional
+        Told between the steps.
 
     Returns
     -------
@@ -69,7 +73,11 @@ def hollow(
     if shell is not None:
         deep = peeled(grid.solid, shell) if rule == "upper" else eroded(grid.solid, shell, open_bottom=open_bottom)
         must = grid.solid & ~deep[:, None]
-        corbels, pillars = carriers(Columns(must[:, 0], must[:, -1], must.all(axis=1), deep), ceilings)
+        progress("hollowing", 0.2)
+        corbels, pillars = carriers(
+            Columns(must[:, 0], must[:, -1], must.all(axis=1), deep), ceilings, part(progress, 0.2, 0.8)
+        )
+        progress("hollowing", 0.8)
         inner = deep & ~(corbels | pillars)
         may = inner & _grown(~inner & grid.solid.any(axis=1))
         _fill(cover, inner, Cover.EMPTY)

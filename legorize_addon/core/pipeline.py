@@ -34,7 +34,7 @@ from .mesh import Repairs, TriangleMesh, repair, scaled
 from .model import Bricks, Floats, Mask, UnitGrid
 from .offset_bricks import with_offset_bricks
 from .overhangs import Offsets
-from .progress import Overall, Progress, silent
+from .progress import Overall, Progress, part, silent
 from .remarks import remarks
 from .seen_filler import with_seen_coloured
 from .segmentation import Joint, segmented
@@ -95,7 +95,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     with stage("overhangs"):
         grid, offsets = _overhangs(grid, settings)
     with stage("hollowing"):
-        shell = held_together(_hollowed(grid, settings), plates=_in_plates(settings))
+        shell = _hollowed(grid, settings, overall)
     with stage("layout"):
         shell, bricks = _laid(shell, settings, palette, table, catalogue, rng, overall)
     with stage("stability"):
@@ -248,17 +248,20 @@ def _overhangs(grid: UnitGrid, settings: Settings) -> tuple[UnitGrid, Offsets]:
     )
 
 
-def _hollowed(grid: UnitGrid, settings: Settings) -> UnitGrid:
-    """Return what must and what may be built."""
+def _hollowed(grid: UnitGrid, settings: Settings, progress: Progress) -> UnitGrid:
+    """Return what must and what may be built, and holds together."""
     # behind a picture, the first row or layer of its backing has to stay
     shell = settings.shell + bool(settings.backing)
-    return hollow(
+    shell_alone = hollow(
         grid,
         shell=shell if settings.hollow else None,
         rule=settings.hollow_rule,
         ceilings=settings.ceilings,
         open_bottom=settings.open_bottom,
+        progress=part(progress, 0.0, 0.8),
     )
+    progress("hollowing", 0.8)
+    return held_together(shell_alone, plates=_in_plates(settings))
 
 
 def _laid(
@@ -279,8 +282,9 @@ def _laid(
         learned=settings.learned,
         table=table,
         filler=_filler(palette, catalogue),
-        progress=progress,
+        progress=part(progress, 0.0, 0.97),
     )
+    progress("layout", 0.97)
     bricks, shell = strapped(bricks, shell, catalogue, plates=_in_plates(settings))
     return shell, with_seen_coloured(bricks, shell, connect(bricks, catalogue), catalogue)
 
@@ -302,6 +306,7 @@ def _supported(
     bricks: Bricks, connection: Connection, settings: Settings, catalogue: Catalogue, progress: Progress
 ) -> tuple[Supports, tuple[Joint, ...]]:
     """Cut the model into pieces, put supports under them, and find the building order."""
+    progress("supports", 0.0)
     bricks, joints = segmented(bricks, catalogue, connection, most=settings.split, deepest=settings.hanging)
     supports = supported(
         bricks,

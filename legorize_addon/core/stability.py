@@ -168,6 +168,7 @@ def stability(
     Stability
         Verdict, proof and margins.
     """
+    progress("stability", 0.0)
     equations = statics(bricks, catalogue, connection, hold=hold, ground=ground, loads=loads)
     found = balance(equations, aims=aims, start=start, progress=progress)
     if not found.found and not found.collapse:

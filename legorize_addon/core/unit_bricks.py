@@ -92,32 +92,39 @@ def unit_bricks(
         layers below the lowest one in which there are any.
     """
     pieces = cut_at_grid(trajectories.points, trajectories.ends, grid.origin[:2])
+    progress("unit bricks", 0.05)
     share = _shares(trajectories, pieces, levels, grid)
     progress("unit bricks", 0.1)
     standing = standing_pieces(trajectories, pieces, levels)
     samples = trajectory_samples(mesh, trajectories, pieces, standing, levels, grid).joined(
         horizontal_samples(mesh, surface, grid)
     )
-    progress("unit bricks", 0.3)
+    progress("unit bricks", 0.2)
     if not closed:
         share[air_around(samples, grid.shape, on_ground=True).fills(grid.shape)] = 0
     solid = half_covered(share)
-    progress("unit bricks", 0.4)
+    progress("unit bricks", 0.25)
     if keep_thin:
         solid |= thin_cells(samples, solid)
+        progress("unit bricks", 0.35)
         solid |= under_steps(solid)
+    progress("unit bricks", 0.4)
     if detail is not None:
         solid = settled(solid, share, detail)
+    progress("unit bricks", 0.5)
     if keep_thin:
         solid |= bridging_cells(solid, surface_area(samples, grid.shape))
     progress("unit bricks", 0.6)
     air = outer_air(solid)
+    progress("unit bricks", 0.65)
     seen = visible(solid, air)
+    progress("unit bricks", 0.7)
     if longest:
         ballot = longest_colours(trajectories, pieces, standing[0], samples, solid, seen, catalogue, surface)
     else:
         shown = samples if facing is None else facing.weighed(samples)
         ballot = likeliest_colours(shown, air, seen, catalogue, surface)
+    progress("unit bricks", 0.9)
     colour = np.full(grid.shape, COLOUR_EMPTY, dtype=np.int16)
     colour[solid] = COLOUR_ANY
     colour[seen] = ballot.winners(seen, grid.height)

@@ -167,6 +167,19 @@ def test_progress_is_one_share_that_never_goes_back():
     assert 0 < ends["colours"] < ends["layout"] < 1
 
 
+@pytest.mark.parametrize(
+    ("stage", "words"), [("unit bricks", 9), ("hollowing", 5), ("stability", 4), ("supports", 20)], ids=str
+)
+def test_long_stages_tell_how_far_they_are(stage, words):
+    """Within each stage that takes long, progress is told between the steps, so that a request to stop is heard."""
+    told: list[tuple[str, float]] = []
+    legorize(table(), Settings(width=24), lambda *each: told.append(each))
+    shares = [share for name, share in told if name == stage]
+    assert len(shares) >= words
+    if stage != "stability":
+        assert len(set(shares)) >= words // 2
+
+
 @pytest.mark.parametrize("at", [*STAGES, None])
 def test_cancelled_passes_through(at):
     """A request to stop ends the run where it is made, at the beginning of any stage, unchanged."""

@@ -16,6 +16,7 @@ from ..catalogue import Catalogue
 from ..connection import Rows, middles, stud_columns
 from ..model import Bricks, Floats, Ints
 from ..outline import beyond, corners, hull
+from ..progress import Progress, silent
 from .moves import Action, Moves
 
 STEADY: Final = 0.1
@@ -48,11 +49,23 @@ Prop = Callable[[Tipping], tuple[int, int] | None]
 """Puts a stud square under a tower that would fall, if one helps."""
 
 
+_PAUSE: Final = 256
+"""Bricks between two words of progress."""
+
+
 def no_prop(_: Tipping) -> None:
     """Let every tower fall."""
 
 
-def tipping(moves: Moves, bricks: Bricks, catalogue: Catalogue, pairs: Rows, *, prop: Prop = no_prop) -> list[Tipping]:
+def tipping(
+    moves: Moves,
+    bricks: Bricks,
+    catalogue: Catalogue,
+    pairs: Rows,
+    *,
+    prop: Prop = no_prop,
+    progress: Progress = silent,
+) -> list[Tipping]:
     """Find the towers that fall over while a model is built.
 
     Parameters
@@ -68,6 +81,8 @@ def tipping(moves: Moves, bricks: Bricks, catalogue: Catalogue, pairs: Rows, *, 
     prop : function
         Asked for each tower that falls: the stud square (x, y) that is put under
         it from then on, or None, with which it falls.
+    progress : Progress, optional
+        Told how many bricks are in place, in between.
 
     Returns
     -------
@@ -82,6 +97,8 @@ def tipping(moves: Moves, bricks: Bricks, catalogue: Catalogue, pairs: Rows, *, 
     rows, steps = moves.brick[:end].tolist(), moves.step[:end].tolist()
     changed: set[int] = set()
     for number, (row, step) in enumerate(zip(rows, steps, strict=True)):
+        if number % _PAUSE == 0:
+            progress("supports", number / end)
         changed.add(towers.place(row))
         if number + 1 == end or steps[number + 1] != step:
             for tower in sorted({towers.root(each) for each in changed}):

@@ -15,10 +15,11 @@ import numpy as np
 
 from ..connection import NOBODY, Rows, stacked
 from ..model import Bricks, Mask
+from ..progress import Progress, silent
 from .moves import Action, Moves
 
 
-def ordered(bricks: Bricks, pairs: Rows, *, temporary: Mask) -> Moves:
+def ordered(bricks: Bricks, pairs: Rows, *, temporary: Mask, progress: Progress = silent) -> Moves:
     """Find a building order.
 
     Parameters
@@ -31,6 +32,8 @@ def ordered(bricks: Bricks, pairs: Rows, *, temporary: Mask) -> Moves:
         Lower and upper brick of each contact.
     temporary : (n,) bool array
         Bricks of supports that are taken out again.
+    progress : Progress, optional
+        Told how many bricks are placed, level by level.
 
     Returns
     -------
@@ -38,7 +41,7 @@ def ordered(bricks: Bricks, pairs: Rows, *, temporary: Mask) -> Moves:
         Every brick placed once, every temporary one removed, every piece joined.
         Bricks that nothing holds are placed last.
     """
-    site = _Site(bricks, pairs, temporary)
+    site = _Site(bricks, pairs, temporary, progress)
     pieces = [piece for piece in np.unique(bricks.piece).tolist() if piece]
     floor = {piece: int(bricks.corner[bricks.piece == piece, 2].min()) for piece in pieces}
     for piece in pieces:
@@ -56,8 +59,8 @@ def ordered(bricks: Bricks, pairs: Rows, *, temporary: Mask) -> Moves:
 class _Site:
     """Bricks in place, and those that could be next."""
 
-    def __init__(self, bricks: Bricks, pairs: Rows, temporary: Mask) -> None:
-        self.bricks, self.temporary = bricks, temporary
+    def __init__(self, bricks: Bricks, pairs: Rows, temporary: Mask, progress: Progress) -> None:
+        self.bricks, self.temporary, self.progress = bricks, temporary, progress
         self.key = [tuple(row) for row in np.column_stack([bricks.corner[:, ::-1], np.arange(len(bricks))]).tolist()]
         self.below, self.above = stacked(pairs, len(bricks))
         self.assembly = bricks.piece.astype(np.int64).tolist()
@@ -90,6 +93,7 @@ class _Site:
         mine = np.flatnonzero(self.bricks.piece == piece)
         levels = np.unique(self.bricks.corner[mine, 2])
         for level in levels[levels < end].tolist() if end is not None else levels.tolist():
+            self.progress("supports", len(self.rows) / max(len(self.bricks), len(self.rows)))
             self._level(piece, level)
         if end is None:
             self._place_all(piece, [brick for brick in mine.tolist() if self.waiting[brick]], "loose")

@@ -5,14 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import groupby
+from typing import Final
 
 import numpy as np
 
 from ..catalogue import Catalogue
 from ..connection import NOBODY, Rows, components, connect, stacked, stud_columns
 from ..model import Bricks, Ints, Mask
+from ..progress import Progress, silent
 from .links import Links
 from .moves import Action, Moves
+
+_PAUSE: Final = 256
+"""Moves between two words of progress."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,7 +58,15 @@ class Walk:
         return len(self.bad_steps) == 0 and len(self.wrong_end) == 0
 
 
-def walk(moves: Moves, bricks: Bricks, catalogue: Catalogue, found: Links, *, temporary: Mask) -> Walk:
+def walk(
+    moves: Moves,
+    bricks: Bricks,
+    catalogue: Catalogue,
+    found: Links,
+    *,
+    temporary: Mask,
+    progress: Progress = silent,
+) -> Walk:
     """Follow a building order and note whatever cannot be done.
 
     Parameters
@@ -67,6 +80,8 @@ def walk(moves: Moves, bricks: Bricks, catalogue: Catalogue, found: Links, *, te
         Contacts of these bricks.
     temporary : (n,) bool array
         Bricks that must be gone at the end.
+    progress : Progress, optional
+        Told how far the walk is, in between.
 
     Returns
     -------
@@ -79,6 +94,8 @@ def walk(moves: Moves, bricks: Bricks, catalogue: Catalogue, found: Links, *, te
             site.remove(moves.brick[rows], moves.step[rows])
         elif action == Action.PLACE:
             for row in rows:
+                if row % _PAUSE == 0:
+                    progress("supports", row / len(moves))
                 site.place(int(moves.brick[row]), int(moves.step[row]))
         else:
             for row in rows:

@@ -18,6 +18,7 @@ from ..catalogue import Catalogue
 from ..connection import Connection, Rows, connect
 from ..model import Bricks, Floats, Ints, Mask, Role, joined
 from ..outline import corners, inside
+from ..progress import Progress, part, silent
 from ..stability import Verdict, stability
 from .beams import beams
 from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, joined_upwards
@@ -86,7 +87,15 @@ class Plan:
     bears: bool
 
 
-def planned(bricks: Bricks, catalogue: Catalogue, need: Need, *, ways: Sequence[Way], hold: float) -> Plan:
+def planned(
+    bricks: Bricks,
+    catalogue: Catalogue,
+    need: Need,
+    *,
+    ways: Sequence[Way],
+    hold: float,
+    progress: Progress = silent,
+) -> Plan:
     """Put supports under a piece.
 
     Parameters
@@ -101,6 +110,8 @@ def planned(bricks: Bricks, catalogue: Catalogue, need: Need, *, ways: Sequence[
         shall be put under the piece.
     hold : float
         Pull in N that one contact point bears.
+    progress : Progress, optional
+        Told how far the search is.
 
     Returns
     -------
@@ -109,17 +120,19 @@ def planned(bricks: Bricks, catalogue: Catalogue, need: Need, *, ways: Sequence[
     """
     contacts = Contacts(need.contacts, need.carried, need.load, np.zeros(len(need.contacts), dtype=bool))
     best: Plan | None = None
-    for way in ways:
+    for turn, way in enumerate(ways):
+        trying = part(progress, turn / len(ways), (turn + 1) / len(ways))
+        trying("supports", 0.0)
         # contacts are added, never taken away: what is too heavy to begin with stays so
         first = _laid(contacts, need, catalogue, way)
         if best is not None and (
             not len(contacts.cells) or _worth(best, catalogue) <= (False, _mass(first, catalogue))
         ):
             continue
-        found = _settled(bricks, catalogue, need, contacts, way, hold)
+        found = _settled(bricks, catalogue, need, contacts, way, hold, trying)
         if best is None or _worth(found, catalogue) < _worth(best, catalogue):
             best = found
-    return _bare(bricks, need, contacts, catalogue) if best is None else best
+    return _bare(bricks, need, contacts, catalogue, progress) if best is None else best
 
 
 def _worth(plan: Plan, catalogue: Catalogue) -> tuple[bool, float]:
@@ -131,15 +144,18 @@ def _mass(bricks: Bricks, catalogue: Catalogue) -> float:
     return float(catalogue.mass[bricks.part].sum())
 
 
-def _settled(bricks: Bricks, catalogue: Catalogue, need: Need, contacts: Contacts, way: Way, hold: float) -> Plan:
+def _settled(
+    bricks: Bricks, catalogue: Catalogue, need: Need, contacts: Contacts, way: Way, hold: float, progress: Progress
+) -> Plan:
     """Add contacts and straighten branches until all stands and bears, or nothing more helps."""
     for left in reversed(range(ROUNDS)):
+        trying = part(progress, 1 - (left + 1) / ROUNDS, 1 - left / ROUNDS)
         supports = _laid(contacts, need, catalogue, way)
         # what the last round finds is not laid any more
-        falling, props = _falling(bricks, supports, contacts, need, catalogue, add=left > 0)
+        falling, props = _falling(bricks, supports, contacts, need, catalogue, add=left > 0, progress=trying)
         giving, bears = np.zeros(len(contacts.cells), dtype=bool), True
         if way != "columns" and len(contacts.cells):
-            giving, bears = _giving(contacts, supports, need, catalogue, hold)
+            giving, bears = _giving(contacts, supports, need, catalogue, hold, trying)
         better = contacts
         if way == "tree":
             leaning = [tower.bricks - len(bricks) for tower in falling if tower.bricks[0] >= len(bricks)]
@@ -154,21 +170,29 @@ def _settled(bricks: Bricks, catalogue: Catalogue, need: Need, contacts: Contact
     return Plan(way, supports, contacts, tuple(falling), bears)
 
 
-def _bare(bricks: Bricks, need: Need, contacts: Contacts, catalogue: Catalogue) -> Plan:
+def _bare(bricks: Bricks, need: Need, contacts: Contacts, catalogue: Catalogue, progress: Progress) -> Plan:
     """Return the plan that puts nothing under a piece."""
     nothing = bricks.take(np.zeros(0, dtype=np.int64))
     none = Contacts(contacts.cells[:0], contacts.carried[:0], contacts.load[:0], contacts.straight[:0])
-    falling, _ = _falling(bricks, nothing, none, need, catalogue, add=False)
+    falling, _ = _falling(bricks, nothing, none, need, catalogue, add=False, progress=progress)
     return Plan("none", nothing, none, tuple(falling), True)
 
 
 def _falling(
-    bricks: Bricks, supports: Bricks, contacts: Contacts, need: Need, catalogue: Catalogue, *, add: bool
+    bricks: Bricks,
+    supports: Bricks,
+    contacts: Contacts,
+    need: Need,
+    catalogue: Catalogue,
+    *,
+    add: bool,
+    progress: Progress,
 ) -> tuple[list[Tipping], list[int]]:
     """Return the towers that fall over while a piece is built, and undersides, if some may be added, that save more."""
     everything = joined([bricks, supports])
     pairs = connect(everything, catalogue).pairs
-    moves = ordered(everything, pairs, temporary=np.arange(len(everything)) >= len(bricks))
+    temporary = np.arange(len(everything)) >= len(bricks)
+    moves = ordered(everything, pairs, temporary=temporary, progress=part(progress, 0.0, 0.5))
     props: list[int] = []
 
     def prop(tower: Tipping) -> tuple[int, int] | None:
@@ -180,7 +204,8 @@ def _falling(
         x, y = (need.undersides[best] + need.room.low)[:2].tolist()
         return x, y
 
-    return tipping(moves, everything, catalogue, pairs, prop=prop if add else no_prop), props
+    watched = part(progress, 0.5, 1.0)
+    return tipping(moves, everything, catalogue, pairs, prop=prop if add else no_prop, progress=watched), props
 
 
 def _laid(contacts: Contacts, need: Need, catalogue: Catalogue, way: Way) -> Bricks:
@@ -203,7 +228,9 @@ def _tops(contacts: Contacts, need: Need, connection: Connection) -> Ints:
     return tops
 
 
-def _giving(contacts: Contacts, supports: Bricks, need: Need, catalogue: Catalogue, hold: float) -> tuple[Mask, bool]:
+def _giving(
+    contacts: Contacts, supports: Bricks, need: Need, catalogue: Catalogue, hold: float, progress: Progress
+) -> tuple[Mask, bool]:
     """Load the supports by themselves; tell which contacts rest on some that give way, and whether none does.
 
     A straight column stands right under its load, on a foot around it, and needs no proof.
@@ -220,7 +247,7 @@ def _giving(contacts: Contacts, supports: Bricks, need: Need, catalogue: Catalog
     loads = np.zeros((len(crooked), 3))
     np.add.at(loads[:, 2], tops, -contacts.load[loaded])
     # a branch that is not soon proven to bear is straightened as well, which is cheaper than a linear programme
-    found = stability(crooked, catalogue, connection, hold=hold, loads=loads, programme=0)
+    found = stability(crooked, catalogue, connection, hold=hold, loads=loads, programme=0, progress=progress)
     moving = (np.abs(found.motion) > MOVING).any(axis=1)
     if found.verdict is Verdict.UNDECIDED:
         moving |= found.margin < 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Final, Literal
 
 import numpy as np
@@ -15,7 +16,7 @@ from ..building.walk import Walk, walk
 from ..catalogue import Catalogue
 from ..connection import connect
 from ..model import Bricks, Ints, Mask, Role, joined
-from ..progress import Progress, silent
+from ..progress import Progress, part, silent
 from ..statics import HOLD
 from .need import Need, needed
 from .plan import Plan, Way, planned
@@ -145,18 +146,21 @@ def supported(
     numbers = np.unique(bricks.piece).tolist()
     pieces = []
     for turn, number in enumerate(numbers):
-        progress("supports", turn / len(numbers))
+        here = part(progress, 0.8 * turn / len(numbers), 0.8 * (turn + 1) / len(numbers))
+        here("supports", 0.0)
         # supports of the first piece are still there when the others are joined to it
         room = room_around(connect(bricks, catalogue)) if number == 0 and len(numbers) > 1 else None
-        pieces.append(_piece(bricks, np.flatnonzero(bricks.piece == number), catalogue, room, wish, deepest, hold))
+        pieces.append(
+            _piece(bricks, np.flatnonzero(bricks.piece == number), catalogue, room, wish, deepest, hold, here)
+        )
     posts = [_numbered(piece.posts, number) for piece, number in zip(pieces, numbers, strict=True)]
     added = [_numbered(piece.plan.supports, number) for piece, number in zip(pieces, numbers, strict=True)]
     everything = joined([bricks, *posts, *added])
     temporary = everything.role == Role.SUPPORT_OUTSIDE
     contacts = links(everything, catalogue, temporary=temporary)
-    moves = ordered(everything, contacts.pairs, temporary=temporary)
+    moves = ordered(everything, contacts.pairs, temporary=temporary, progress=part(progress, 0.8, 0.9))
     everything = replace(everything, step=moves.step_of(len(everything)))
-    found = walk(moves, everything, catalogue, contacts, temporary=temporary)
+    found = walk(moves, everything, catalogue, contacts, temporary=temporary, progress=part(progress, 0.9, 1.0))
     return Supports(everything, contacts, tuple(pieces), moves, found)
 
 
@@ -171,16 +175,24 @@ def _numbered(bricks: Bricks, number: int) -> Bricks:
 
 
 def _piece(
-    model: Bricks, rows: Ints, catalogue: Catalogue, room: Room | None, wish: Wish, deepest: int, hold: float
+    model: Bricks,
+    rows: Ints,
+    catalogue: Catalogue,
+    room: Room | None,
+    wish: Wish,
+    deepest: int,
+    hold: float,
+    progress: Progress,
 ) -> Piece:
     """Support one piece."""
     bricks = _numbered(model.take(rows), 0)
     connection = connect(bricks, catalogue)
     need = needed(bricks, catalogue, connection, deepest=deepest, room=room)
+    plan = partial(planned, hold=hold, progress=progress)
     if wish == "none":
-        return Piece(rows, bricks.take(rows[:0]), need, planned(bricks, catalogue, need, ways=(), hold=hold))
+        return Piece(rows, bricks.take(rows[:0]), need, plan(bricks, catalogue, need, ways=()))
     if len(need.enclosed):
         bricks, connection = with_inside_carried(bricks, catalogue, connection, need.enclosed)
         need = needed(bricks, catalogue, connection, deepest=deepest, room=room)
-    plan = planned(bricks, catalogue, need, ways=_worth_trying(need) if wish == "best" else (wish,), hold=hold)
-    return Piece(rows, bricks.take(np.arange(len(rows), len(bricks))), need, plan)
+    found = plan(bricks, catalogue, need, ways=_worth_trying(need) if wish == "best" else (wish,))
+    return Piece(rows, bricks.take(np.arange(len(rows), len(bricks))), need, found)
