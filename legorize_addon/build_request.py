@@ -13,6 +13,7 @@ from .core.progress import Progress
 from .core.settings import Settings
 from .core.units import MM_PER_METRE
 from .hidden_sources import orphans
+from .learned_files import resolved
 from .properties import current_build
 from .reading.shown import has_surface
 from .view import readable
@@ -41,6 +42,8 @@ class Order:
         What could not be read literally.
     settings : Settings
         The user's choices.
+    samples : str
+        Path of the file that the settings name in ``learned_from``.
     mm_per_unit : float
         World mm per Blender unit.
     replaces : tuple of int
@@ -53,6 +56,7 @@ class Order:
     mesh: TriangleMesh
     remarks: tuple[str, ...]
     settings: Settings
+    samples: str
     mm_per_unit: float
     replaces: tuple[int, ...]
 
@@ -72,7 +76,9 @@ class Order:
         """Run the core; no Blender in here."""
         from .core.pipeline import legorize
 
-        return legorize(self.mesh, self.settings, progress)
+        build = legorize(self.mesh, replace(self.settings, learned_from=self.samples), progress)
+        # the scene keeps the name that holds on every machine
+        return replace(build, settings=self.settings)
 
 
 def chosen_sources(context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -139,6 +145,7 @@ def order_of(context: bpy.types.Context, sources: Sequence[bpy.types.Object], se
         mesh=mesh,
         remarks=remarks,
         settings=settings,
+        samples=resolved(settings.learned_from),
         mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
         replaces=tuple(model.session_uid for model in replaced_by(context, sources)),
     )

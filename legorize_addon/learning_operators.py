@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import bpy
@@ -14,11 +13,11 @@ from .build_request import chosen_sources, order_of
 from .build_state import state_of
 from .builds import builds_of, is_own, sources_of
 from .core.catalogue import load_catalogue
-from .core.errors import BuildError
 from .core.files.single import write_whole
 from .core.model import Bricks, UnitGrid
 from .core.progress import Progress, part
 from .core.settings import Settings
+from .learned_files import new_file, own_versions, resolved
 from .operators import Reporting, Working
 from .properties import settings_of
 
@@ -27,9 +26,6 @@ if TYPE_CHECKING:
 
 _LAYING: Final = 0.9
 """Share of the time that laying the models takes, of laying and learning."""
-
-STEM: Final = "samples_v"
-"""Beginning of the names of the files; the version follows."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -109,19 +105,19 @@ class LEGORIZE_OT_learn(Working, bpy.types.Operator):
         from .core.layout.learning import samples_text, version_of
 
         settings = settings_of(context.scene.legorize.settings)
-        text = samples_text(settings.learned_from)
+        text = samples_text(resolved(settings.learned_from))
         version = max(version_of(text), *own_versions()) + 1
         return Lessons(tuple(_lessons(context, settings)), text, version, settings.seed)
 
     def _show(self, context: bpy.types.Context, order: Lessons, text: str) -> set[str]:
         from .core.layout.svm import read
 
-        path = own_folder() / f"{STEM}{order.version}.csv"
+        path, name = new_file(order.version)
         write_whole(path, text)
-        context.scene.legorize.settings.learned_from = str(path)
+        context.scene.legorize.settings.learned_from = name
         samples, facts = read(text)
         told = f"Learned version {order.version} from {len(samples.pays)} samples, {len(order.models)} models more than"
-        self.report({"INFO"}, f"{told} before ({facts['cross-validation']}).")
+        self.report({"INFO"}, f"{told} before ({facts['cross-validation']}): {path}.")
         return {"FINISHED"}
 
 
@@ -142,34 +138,6 @@ class LEGORIZE_OT_forget(Reporting, bpy.types.Operator):
         """Clear the name of the file."""
         context.scene.legorize.settings.learned_from = ""
         return {"FINISHED"}
-
-
-def own_folder() -> Path:
-    """Return the user's folder for what was learned, which an update of the extension leaves alone.
-
-    Raises
-    ------
-    BuildError
-        It cannot be made.
-    """
-    # the extension itself: this package lies in it
-    extension = ".".join(__package__.split(".")[:3])
-    try:
-        folder = bpy.utils.extension_path_user(extension, path="learned", create=True)
-    except ValueError:
-        # run from its sources, and not installed as an extension
-        folder = bpy.utils.user_resource("CONFIG", path="legorize", create=True)
-    except OSError as error:
-        raise BuildError(f"The user's folder cannot be made ({error.strerror}): check its rights.") from error
-    if not folder:
-        raise BuildError("There is no folder for the user's files: set one in the preferences of Blender.")
-    return Path(folder)
-
-
-def own_versions() -> list[int]:
-    """Return the versions that lie in the user's folder, ascending; 0 before them, so that there is one at least."""
-    names = [path.stem.removeprefix(STEM) for path in own_folder().glob(f"{STEM}*.csv")]
-    return [0, *sorted(int(name) for name in names if name.isdecimal())]
 
 
 def _lessons(context: bpy.types.Context, settings: Settings) -> Iterator[Lesson]:

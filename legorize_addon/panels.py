@@ -54,7 +54,7 @@ class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
             stage, share = running.progress
             text = progress_text(stage, share, running.seconds_left, stopping=running.stopping)
             self.layout.progress(factor=share, type="BAR", text=text)
-            self.layout.label(text="Esc stops; nothing is changed before the end")
+            self.layout.label(text="Esc stops")
             return
         button = self.layout.column()
         button.scale_y = 1.6

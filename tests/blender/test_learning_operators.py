@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import legorize_addon
-from legorize_addon import learning_operators
+from legorize_addon import learned_files, learning_operators
 from legorize_addon.core.catalogue import ASSETS
 from legorize_addon.core.layout.svm import read
-from legorize_addon.learning_operators import own_folder, own_versions
+from legorize_addon.learned_files import own_folder, own_versions, resolved
 from legorize_addon.panels import classes
 from legorize_addon.properties import current_build, settings_of
 from legorize_addon.scene import BUILD_KEY, read_bricks
@@ -33,7 +33,7 @@ def addon() -> Iterator[None]:
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return an empty folder that stands for the user's own."""
-    monkeypatch.setattr(learning_operators, "own_folder", lambda: tmp_path)
+    monkeypatch.setattr(learned_files, "own_folder", lambda: tmp_path)
     return tmp_path
 
 
@@ -62,7 +62,7 @@ def test_learning_adds_a_version(ball, folder: Path) -> None:
     """Samples of the selected object follow the shipped ones in a new file, which the next build uses."""
     assert bpy.ops.legorize.learn() == {"FINISHED"}
     path = folder / "samples_v2.csv"
-    assert chosen() == str(path)
+    assert chosen() == path.name
     samples, facts = read(path.read_text(encoding="utf-8"))
     shipped, _ = read(SHIPPED)
     np.testing.assert_array_equal(samples.levels[: len(shipped.pays)], shipped.levels)
@@ -81,7 +81,7 @@ def test_what_was_built_can_be_built_again(ball, folder: Path) -> None:
     second = chosen()
     assert bpy.ops.legorize.learn() == {"FINISHED"}
     assert own_versions() == [0, 2, 3]
-    assert read(Path(chosen()).read_text(encoding="utf-8"))[1]["version"] == "3"
+    assert read(Path(resolved(chosen())).read_text(encoding="utf-8"))[1]["version"] == "3"
     learned = built()
     assert current_build(bpy.context.scene)[BUILD_KEY]["settings"]["learned_from"] == chosen()
     assert bpy.ops.legorize.forget() == {"FINISHED"}
@@ -90,7 +90,36 @@ def test_what_was_built_can_be_built_again(ball, folder: Path) -> None:
     assert not bpy.ops.legorize.forget.poll()
     bpy.context.scene.legorize.settings.learned_from = str(folder / "samples_v3.csv")
     assert built() == learned
-    assert Path(second).exists()
+    assert Path(resolved(second)).exists()
+
+
+def test_saved_scene_keeps_its_samples_beside_it(ball, folder: Path, tmp_path_factory) -> None:
+    """The scene and its samples may go to another machine, or outlive the extension's own folder."""
+    home, moved = tmp_path_factory.mktemp("home"), tmp_path_factory.mktemp("elsewhere") / "moved"
+    bpy.ops.wm.save_as_mainfile(filepath=str(home / "saved.blend"))
+    assert bpy.ops.legorize.learn() == {"FINISHED"}
+    assert chosen() == "//samples_v2.csv"
+    assert not list(folder.iterdir())
+    before = built()
+    assert current_build(bpy.context.scene)[BUILD_KEY]["settings"]["learned_from"] == "//samples_v2.csv"
+    bpy.ops.wm.save_mainfile()
+    home.rename(moved)
+    bpy.ops.wm.open_mainfile(filepath=str(moved / "saved.blend"))
+    assert resolved(chosen()) == str(moved / "samples_v2.csv")
+    assert built() == before
+    assert own_versions() == [0, 2]
+
+
+def test_name_is_looked_for_beside_the_scene_and_in_the_users_folder(folder: Path, tmp_path_factory) -> None:
+    """A bare name is a file beside the .blend, else one of the user's own; a path is a path; nothing is nothing."""
+    home = tmp_path_factory.mktemp("home")
+    assert resolved("") == ""
+    assert resolved(str(home / "x.csv")) == str(home / "x.csv")
+    assert resolved("x.csv") == str(folder / "x.csv")
+    bpy.ops.wm.save_as_mainfile(filepath=str(home / "saved.blend"))
+    assert resolved("x.csv") == str(folder / "x.csv")
+    (home / "x.csv").touch()
+    assert resolved("x.csv") == str(home / "x.csv")
 
 
 def test_selected_model_is_learned_as_it_was_built(ball, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -20,6 +20,7 @@ import bpy
 SAMPLE, FOLDER = sys.argv[sys.argv.index("--") + 1 :]
 TAB = "Legorize"
 BUTTON = "LEGORIZE_OT_build"
+BUTTON_HEIGHT = 40  # pixels, with the gap below it
 LIMIT = 600.0  # seconds that any one wait may take
 
 Wait = Iterator[float]  # seconds in which Blender goes on by itself
@@ -67,7 +68,8 @@ def build_undo_cancel(sample: str, seen: dict[str, Any]) -> Wait:
 
     bpy.context.scene.legorize.settings.width = 120
     yield from click_button(seen)
-    yield 0.2
+    yield from wait_until(lambda: job().running().seconds_left is not None)
+    yield 0.3
     camera = start_screenshot("4-running")  # the work goes on meanwhile
     yield 0.3
     yield from press("ESC")
@@ -112,9 +114,11 @@ def delete_and_show(sample: str, seen: dict[str, Any]) -> Wait:
     yield from select_in_outliner(build.name)
     in_outliner("collection_hierarchy_delete")
     yield 1.0
+    frame_all(view_area())  # the tab is laid out anew
+    yield 1.0
     seen["deleted"] = scene_content(sample)
     screenshot("8-deleted")
-    yield from click_until(lambda: not bpy.data.objects[sample].hide_viewport, seen["button"][1] - 24)
+    yield from click_until(lambda: not bpy.data.objects[sample].hide_viewport, seen["button"][1] - BUTTON_HEIGHT)
     yield 1.0
     seen["shown_again"] = scene_content(sample)
     seen["selected"] = [each.name for each in bpy.context.view_layer.objects if each.select_get()]
@@ -159,12 +163,17 @@ def builds() -> list[Any]:
 
 def listening(told: list[Any]) -> bool:
     """Note how far the job says that it is; return whether it goes on."""
-    from bl_ext.user_default.legorize.legorize_addon import job
-
-    at_work = job.running()
+    at_work = job().running()
     if at_work:
         told.append([*at_work.progress, at_work.seconds_left])
     return running()
+
+
+def job() -> Any:
+    """Return the add-on's module that knows of the work in its thread."""
+    from bl_ext.user_default.legorize.legorize_addon import job
+
+    return job
 
 
 def select_in_outliner(name: str) -> Wait:

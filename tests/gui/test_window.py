@@ -130,6 +130,51 @@ def test_progress_is_shown(seen: dict[str, Any], place: Path) -> None:
     assert (np.abs(top[1] - top[0]).max(axis=-1) > 20).mean() > 0.02
 
 
+def test_progress_never_goes_back(seen: dict[str, Any]) -> None:
+    """One bar over all stages, which only grows; from the second stage on there is a time left."""
+    stages, shares, left = zip(*seen["told"], strict=True)
+    assert list(shares) == sorted(shares)
+    assert len(set(stages)) > 2
+    later = [seconds for stage, share, seconds in seen["told"] if share > 0.2 and stage != stages[0]]
+    assert later
+    assert None not in later
+    assert left[0] is None
+
+
+def test_settings_are_locked_meanwhile(seen: dict[str, Any], place: Path) -> None:
+    """While it runs, the settings below the bar are paler."""
+    before, running = (sidebar(place, name, seen["region"])[100:200] for name in ("5-cancelled", "4-running"))
+    assert (running.min(axis=-1) > 150).sum() < 0.7 * (before.min(axis=-1) > 150).sum()
+
+
+def test_stopped_job_says_that_nothing_was_changed(seen: dict[str, Any]) -> None:
+    """One line below the button is left of it."""
+    assert seen["said"] == "Stopped: nothing was changed."
+
+
+def test_copy_is_removed_by_itself(seen: dict[str, Any], place: Path) -> None:
+    """A model that was duplicated in the outliner outlives its copy, brick by brick."""
+    for each in ("builds", "bricks", "instances"):
+        assert seen["copied"][each] == 2 * seen["small"][each] > 0
+    assert seen["copy_removed"] == seen["small"]
+    assert vivid(viewport(place, "7-copy-removed", seen["region"])) > 0.02
+
+
+def test_original_of_a_deleted_model_is_a_click_away(seen: dict[str, Any]) -> None:
+    """After "Delete Hierarchy" the tab offers the hidden original; a click shows and selects it."""
+    assert seen["hidden"]
+    assert seen["deleted"]["builds"] == 0
+    assert seen["shown_again"] == seen["before"]
+    assert len(seen["selected"]) == 1
+
+
+def test_moved_model_is_built_again_where_it_is(seen: dict[str, Any]) -> None:
+    """A model that was moved with the keyboard stays there, and so does the heat map."""
+    assert seen["moved"][0] == pytest.approx(seen["unmoved"][0] + 10, abs=1e-4)
+    assert seen["rebuilt"] == pytest.approx(seen["moved"], abs=1e-4)
+    assert seen["heat_map"]
+
+
 def test_escape_cancels(seen: dict[str, Any]) -> None:
     """Esc ends a big run within a few seconds and leaves the scene as it was."""
     assert seen["seconds_to_stop"] < 5
