@@ -47,6 +47,10 @@ _BASE: Final = 0.003
 """Share of the diagonal within which points of the base lie: the soles of a figure, not the curve of its back."""
 
 
+_SAMPLES: Final = 1_000_000
+"""Triangles that are enough to find the middle of a surface."""
+
+
 def turned_upright(mesh: TriangleMesh, up: str) -> tuple[TriangleMesh, Floats]:
     """Turn a mesh so that one of its axes points up.
 
@@ -119,11 +123,15 @@ def steadiness(vertices: Floats, faces: NDArray[np.integer]) -> float:
     # takes a while to load, and only files without an axis need it
     from scipy.spatial import ConvexHull, QhullError
 
-    corners = vertices[faces]
+    used = np.zeros(len(vertices), dtype=bool)
+    used[faces] = True
+    points = vertices[used]
+    ground = points[:, 2].min()
+    base = points[points[:, 2] <= ground + _BASE * math.hypot(*np.ptp(points, axis=0))][:, :2]
+    corners = vertices[faces[:: len(faces) // _SAMPLES + 1]]
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    ground = corners[..., 2].min()
-    reach = _BASE * math.hypot(*np.ptp(corners.reshape(-1, 3), axis=0))
-    base = corners[corners[..., 2] <= ground + reach][:, :2]
+    if not areas.any():
+        return FALLEN
     middle = areas @ corners.mean(axis=1) / areas.sum()
     try:
         edges = ConvexHull(base).equations

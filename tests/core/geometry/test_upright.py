@@ -148,6 +148,16 @@ def test_steadiness_of_what_falls() -> None:
     assert steadiness(np.array([(0.0, 0, 0), (1, 0, 0), (0, 0, 1)]), np.array([(0, 1, 2)])) == FALLEN
 
 
+def test_steadiness_takes_what_faces_use() -> None:
+    """Vertices of no face do not count; a surface without area stands nowhere; many triangles are sampled."""
+    shape = box((2, 1, 3))
+    vertices, faces = np.array(shape.vertices), np.array(shape.faces)
+    alone = steadiness(np.concatenate([vertices, [(0, 0, -50), (9, 9, 9)]]), faces)
+    assert alone == steadiness(vertices, faces)
+    assert steadiness(vertices * (1, 0, 0), faces) == FALLEN
+    assert steadiness(vertices, np.repeat(faces, 300_000, axis=0)) == pytest.approx(alone, abs=0.1)
+
+
 def mesh(vertices: np.ndarray) -> TriangleMesh:
     """Return a mesh of vertices."""
     n = len(vertices) - 2
