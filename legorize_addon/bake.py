@@ -24,7 +24,14 @@ from .core.errors import MeshError
 from .node_links import SEE_THROUGH, NotAProduct, Place, colour_input, follow, surface_output
 from .read_colours import Floats
 from .read_materials import Paint
-from .reading.emitting import PASSED_ON, emit_opacity, fix_missing_images, fix_object_values, replace_by_emission
+from .reading.emitting import (
+    PASSED_ON,
+    emit_opacity,
+    fix_missing_images,
+    fix_object_values,
+    keep_hidden_apart,
+    replace_by_emission,
+)
 from .reading.expressions import Expression
 from .reading.object_values import ObjectValues
 from .reading.opacity import opacity
@@ -256,6 +263,7 @@ def _emitting(
     for tree in _own_trees(undo, copy.node_tree):
         fix_object_values(tree, values)
         fix_missing_images(tree)
+        keep_hidden_apart(tree)
         emit(tree)
     target = copy.node_tree.nodes.new("ShaderNodeTexImage")
     target.image = image

@@ -63,7 +63,7 @@ def read_objects(
     Raises
     ------
     MeshError
-        If there is nothing to read, an image is missing, or a colour cannot be baked.
+        If there is nothing to read, an image does not fit in memory, or a colour cannot be baked.
     """
     album, left_out = Album(), LeftOut()
     pieces = _pieces(depsgraph, list(objects), album, left_out)

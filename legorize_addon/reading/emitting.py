@@ -70,6 +70,19 @@ def fix_missing_images(tree: bpy.types.NodeTree) -> None:
                 _put(tree, (_GREY, _GREY, _GREY, 1.0), output)
 
 
+def keep_hidden_apart(tree: bpy.types.NodeTree) -> None:
+    """Look images up texel by texel where their alpha counts: between texels the hidden would colour the seen.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+        Is changed.
+    """
+    for node in tree.nodes:
+        if node.bl_idname == "ShaderNodeTexImage" and node.outputs["Alpha"].is_linked:
+            node.interpolation = "Closest"
+
+
 def _put(tree: bpy.types.NodeTree, value: Sequence[float], output: Any) -> None:
     """Let a plain value take the place of an output."""
     if output.type == "VALUE":

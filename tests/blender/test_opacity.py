@@ -163,7 +163,6 @@ def test_what_must_be_baked_is_baked_with_its_alpha() -> None:
         nodes.add("TexImage", image=add_image(texels, alpha)),
         nodes.add("VertexColor", layer_name="Col"),
     )
-    texture.interpolation = "Closest"
     with_alpha(nodes, texture.outputs["Alpha"])
     obj = add_quad(nodes.colour(multiplied(nodes, texture.outputs["Color"], attribute.outputs["Color"])))
     layer = obj.data.color_attributes.new("Col", "FLOAT_COLOR", "CORNER")
