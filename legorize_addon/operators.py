@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 TICK: Final = 0.1
 """Seconds between two looks at a running job."""
 
+SAID: Final = 6.0
+"""Seconds for which a sentence stays in the status bar: about as long as one of Blender's own."""
+
 NAVIGATION: Final = frozenset(
     {"MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM"}
 )
@@ -46,6 +49,8 @@ class Reporting:
         except Cancelled:
             self.report({"INFO"}, STOPPED)
             bpy.context.window_manager.legorize_said = STOPPED
+            if not bpy.app.background:
+                _say_in_status_bar(bpy.context, STOPPED)
         return {"CANCELLED"}
 
 
@@ -269,6 +274,24 @@ def _redraw(context: bpy.types.Context) -> None:
                 area.tag_redraw()
 
 
+def _say_in_status_bar(context: bpy.types.Context, sentence: str) -> None:
+    context.workspace.status_text_set(f"Legorize: {sentence}")
+    _forget_status()
+    bpy.app.timers.register(_clear_status, first_interval=SAID)
+
+
+def _clear_status() -> None:
+    if not job.running():
+        for workspace in bpy.data.workspaces:
+            workspace.status_text_set(None)
+
+
+def _forget_status() -> None:
+    """Let no timer outlive what it belongs to."""
+    if bpy.app.timers.is_registered(_clear_status):
+        bpy.app.timers.unregister(_clear_status)
+
+
 @persistent
 def _stop_jobs(*arguments: Any) -> None:
     job.stop()
@@ -297,6 +320,7 @@ def register() -> None:
 def unregister() -> None:
     """Undo :func:`register`, after stopping what runs."""
     job.stop()
+    _forget_status()
     bpy.app.handlers.load_post.remove(_hide_linked_sources)
     bpy.app.handlers.load_pre.remove(_stop_jobs)
     _unregister_classes()

@@ -13,6 +13,7 @@ from typing import Final
 import bpy
 
 from .build_state import BuildState
+from .builds import is_own
 from .nodes import HEAT_PARTS, PARTS, SECTION, brick_trees, bricks_modifier, get_input, is_brick_material, set_input
 from .part_meshes import MESH_KEY, PART_KEY
 
@@ -30,6 +31,8 @@ def is_parts(collection: bpy.types.Collection) -> bool:
 
 def sweep() -> None:
     """Remove the parts that nothing shows any more, with their meshes and materials, points and trees without users."""
+    # a deleted collection's state held its root and plane until it went, so that Blender left them without users
+    _remove_unused(thing for thing in bpy.data.objects if is_own(thing))
     doomed = [tree for tree in _trees() if not _used_from_outside(tree)]
     variants = {variant for tree in doomed for collection in tree for variant in collection.objects}
     bpy.data.batch_remove([*variants, *(collection for tree in doomed for collection in tree)])

@@ -74,6 +74,20 @@ def test_original_of_a_deleted_model_is_offered(cube, delete) -> None:
         assert content() == before
 
 
+def test_what_the_state_held_goes_too(cube) -> None:
+    """Objects that Blender left in the file without users, as the deleted state held them, are cleared up."""
+    before = content()
+    bpy.ops.legorize.build()
+    build = current_build(bpy.context.scene)
+    for collection in [*build.children_recursive, build]:
+        for thing in list(collection.objects):
+            collection.objects.unlink(thing)
+        bpy.data.collections.remove(collection)
+    assert [thing for thing in bpy.data.objects if thing != cube and not thing.users]
+    bpy.ops.legorize.show_originals()
+    assert content() == before
+
+
 def test_button_builds_the_original_again(cube) -> None:
     """With nothing selected the big button works on what a deleted model hid, and still knows how it was before."""
     bpy.ops.legorize.build()

@@ -126,13 +126,17 @@ def delete_and_show(sample: str, seen: dict[str, Any]) -> Wait:
 
 
 def move_and_rebuild(seen: dict[str, Any]) -> Wait:
-    """Build, move the model with the keyboard, turn the heat map on, and click the button again."""
+    """Build, move the model with a key and the mouse, turn the heat map on, and click the button again."""
     yield from build_small(seen)
     [build] = builds()
     seen["unmoved"] = list(build["legorize"]["root"].location)
     yield from press("G")
-    for key in ("X", "ONE", "ZERO", "RET"):
-        yield from press(key)
+    area = view_area()
+    x, y = area.x + area.width // 2, area.y + area.height // 2
+    simulate("MOUSEMOVE", "NOTHING", x, y)
+    yield 0.3
+    simulate("LEFTMOUSE", "PRESS", x, y)
+    simulate("LEFTMOUSE", "RELEASE", x, y)
     yield 0.5
     bpy.context.scene.legorize.heat_map = True
     frame_all(view_area())
