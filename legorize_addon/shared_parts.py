@@ -32,7 +32,8 @@ def is_parts(collection: bpy.types.Collection) -> bool:
 def sweep() -> None:
     """Remove the parts that nothing shows any more, with their meshes and materials, points and trees without users."""
     # a deleted collection's state held its root and plane until it went, so that Blender left them without users
-    _remove_unused(thing for thing in bpy.data.objects if is_own(thing))
+    while unused := [thing for thing in bpy.data.objects if is_own(thing) and thing.users == 0]:
+        bpy.data.batch_remove(unused)  # the plane is free once the points are gone
     doomed = [tree for tree in _trees() if not _used_from_outside(tree)]
     variants = {variant for tree in doomed for collection in tree for variant in collection.objects}
     bpy.data.batch_remove([*variants, *(collection for tree in doomed for collection in tree)])
