@@ -27,6 +27,7 @@ def readable_extensions() -> frozenset[str]:
             known -= _DRACO
         if known & _MESHOPT and not io_scene_gltf2.is_meshopt_available():
             known -= _MESHOPT
-    if not bpy.app.build_options.image_webp:
+    # not every build says so
+    if not getattr(bpy.app.build_options, "image_webp", True):
         known -= _WEBP
     return frozenset(known)
