@@ -193,15 +193,16 @@ def _whole_runs(place: Path, model: Path, runs: int) -> Tally:
     before = labels[-1]
     for kill, number in zip(range(runs), itertools.cycle(SIGNALS)):
         wanted = labels.index(before) ^ 1
+        earlier = set(leftovers(place))
         running = _run(model, out, WIDTHS[wanted])
         status = _ended(running, taken * (kill + 0.5) / runs, number)
         after = state(out)
-        left = leftovers(place)
+        left = set(leftovers(place))
         tally.counts["done"] += 1
         tally.counts["old" if after == before else "new" if after == labels[wanted] else "torn_or_mixed"] += 1
         tally.counts["wrong_status"] += not _fits(status, number, changed=after != before)
         # who is killed can clear nothing up; the next run does
-        tally.counts["leftovers"] += len(left) if number != signal.SIGKILL else 0
+        tally.counts["leftovers"] += len(left - earlier) if number != signal.SIGKILL else 0
         tally.counts["user_files"] += not _has_mine(out)
         before = after if after in labels else before
     _finished(_run(model, out, WIDTHS[labels.index(before) ^ 1]))
