@@ -5,6 +5,7 @@
     python scripts/benchmark.py slicing   [MESH ...] [--out DIR]   against trimesh and shapely
     python scripts/benchmark.py units     [MESH ...] [--out DIR]   against trimesh, the exact rule, dense sampling
     python scripts/benchmark.py pipeline  [MESH ...] [--out DIR]   every stage, every result
+    python scripts/benchmark.py budget    [MESH ...] [--out DIR]   estimates against what builds take
     python scripts/benchmark.py detail    [MESH ...] [--judge DIR] what plates gain and cost
     python scripts/benchmark.py hollowing [MESH ...] [--out DIR]   against a shell of two cells
     python scripts/benchmark.py stability [MESH ...] [--out DIR]   against HiGHS, and the StableLego cases
@@ -37,6 +38,7 @@ sys.path.insert(0, str(ROOT))
 
 from legorize_addon.core.errors import LegorizeError  # noqa: E402 - found through the line above
 from scripts.benchmarks import (  # noqa: E402
+    budget,
     building,
     detail,
     goals,
@@ -93,6 +95,8 @@ def measured(options: argparse.Namespace) -> list[Table]:
         )
     if options.command == "pipeline":
         return pipeline.measure(paths, widths=options.widths, repeats=options.repeats)
+    if options.command == "budget":
+        return budget.measure(paths, widths=options.widths)
     if options.command == "detail":
         return detail.measure(paths, widths=options.widths, judge=options.judge, out=options.out)
     if options.command == "stability":
@@ -121,6 +125,7 @@ def parser() -> argparse.ArgumentParser:
         ("slicing", "slices with loops, colours and areas", 48, 3),
         ("units", "unit bricks with their colours", 100, 3),
         ("pipeline", "every stage on every model", None, 1),
+        ("budget", "estimates against what builds take", None, None),
         ("detail", "what plates gain and cost", None, None),
         ("hollowing", "what hollowing leaves", 64, None),
         ("stability", "whether models stand", None, 3),
@@ -156,7 +161,7 @@ def add_options(name: str, command: argparse.ArgumentParser) -> None:
     elif name == "units":
         command.add_argument("--triangles", **counts, default=[0, 94_000], help=text)
         command.add_argument("--points", type=int, default=2_000_000, help="of the dense sampling")
-    elif name in ("pipeline", "goals"):
+    elif name in ("pipeline", "goals", "budget"):
         command.add_argument("--widths", **counts, default=[24, 48, 96], help="studs (default: %(default)s)")
     elif name == "stability":
         command.add_argument("--widths", **counts, default=[24, 48], help="studs (default: %(default)s)")

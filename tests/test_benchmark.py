@@ -439,3 +439,12 @@ def test_failed_judge_is_one_sentence(box: Path, tmp_path: Path, capsys: pytest.
     (tmp_path / "judge.py").write_text("raise SystemExit('no such brick')\n")
     assert benchmark.main(["judge", str(box), "--judge", str(tmp_path), "--width", "8", "--out", str(tmp_path)]) == 1
     assert capsys.readouterr().err.endswith("judge.py failed on " + str(box) + ": no such brick\n")
+
+
+def test_budget_command(box: Path, tmp_path: Path) -> None:
+    """One row a build, with the estimate beside what it took, and the errors over all of them."""
+    tables = run(tmp_path, "budget", box, "--widths", 12)
+    [row] = tables["budget"]
+    assert row["bricks_ratio"] == pytest.approx(row["bricks_expected"] / row["bricks"])
+    assert 50 < row["megabytes"] < 5000
+    assert [error["what"] for error in tables["budget_errors"]] == ["bricks", "seconds", "megabytes"]
