@@ -15,7 +15,6 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
-from sklearn.cluster import KMeans
 
 from .catalogue import Catalogue
 from .colour_difference import ciede2000, lab_from_srgb
@@ -185,6 +184,9 @@ def dominant_colours(texels: Bytes, *, n_colours: int, rng: np.random.Generator)
     rgb = _unpacked(colours)
     if len(colours) <= n_colours:
         return rgb
+    # takes longer to load than a small model to build, and plain colours need none
+    from sklearn.cluster import KMeans
+
     found = KMeans(n_clusters=n_colours, n_init=1, max_iter=_ITERATIONS, random_state=int(rng.integers(2**31))).fit(
         rgb.astype(np.float64), sample_weight=count
     )

@@ -30,12 +30,10 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.exceptions import ConvergenceWarning
-from sklearn.svm import SVC
 
 from ..catalogue import ASSETS
 from ..connection import NOBODY
@@ -47,6 +45,9 @@ from .placements import segment_sums
 from .problem import Problem
 from .sample_file import MOST_MODELS, check_both_kinds, facts_and_rows, parameter
 from .shapes import Index
+
+if TYPE_CHECKING:
+    from sklearn.svm import SVC
 
 Levels = NDArray[np.int16]
 
@@ -143,6 +144,10 @@ class Machine:
             The fitting comes to no end.
         """
         mean, deviation = (measure(samples.levels, axis=0, dtype=np.float64) for measure in (np.mean, np.std))
+        # takes longer to load than a small model to build, and the machine is asked in the quick layout alone
+        from sklearn.exceptions import ConvergenceWarning
+        from sklearn.svm import SVC
+
         svc = SVC(C=c, gamma=gamma, kernel="rbf", tol=_TOLERANCE, max_iter=_MOST_STEPS)
         # samples that are the same weigh as many as they are: the same machine, and faster
         kind, weight = np.unique(np.column_stack([samples.levels, samples.pays]), axis=0, return_counts=True)
