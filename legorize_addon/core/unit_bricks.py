@@ -31,7 +31,7 @@ from .grid import Grid
 from .levels import Levels
 from .mesh import TriangleMesh
 from .model import COLOUR_ANY, COLOUR_EMPTY, Cover, Floats, Mask, Role, UnitGrid, ground_of
-from .progress import Progress, silent
+from .progress import Progress, part, silent
 from .samples import horizontal_samples, standing_pieces, surface_area, trajectory_samples
 from .thin_features import thin_cells
 from .trajectories import Trajectories
@@ -102,18 +102,7 @@ def unit_bricks(
     progress("unit bricks", 0.2)
     if not closed:
         share[air_around(samples, grid.shape, on_ground=True).fills(grid.shape)] = 0
-    solid = half_covered(share)
-    progress("unit bricks", 0.25)
-    if keep_thin:
-        solid |= thin_cells(samples, solid)
-        progress("unit bricks", 0.35)
-        solid |= under_steps(solid)
-    progress("unit bricks", 0.4)
-    if detail is not None:
-        solid = settled(solid, share, detail)
-    progress("unit bricks", 0.5)
-    if keep_thin:
-        solid |= bridging_cells(solid, surface_area(samples, grid.shape))
+    solid = _solid(share, samples, keep_thin=keep_thin, detail=detail, progress=part(progress, 0.2, 0.6))
     progress("unit bricks", 0.6)
     air = outer_air(solid)
     progress("unit bricks", 0.65)
@@ -131,6 +120,23 @@ def unit_bricks(
     if detail is not None:
         colour = settled_colours(colour, seen, ballot, detail)
     return _unit_grid(colour, grid)
+
+
+def _solid(share: Floats, samples: Samples, *, keep_thin: bool, detail: Detail | None, progress: Progress) -> Mask:
+    """Return the cells that are filled: by half, or because the surface would else be lost."""
+    solid = half_covered(share)
+    progress("unit bricks", 0.1)
+    if keep_thin:
+        solid |= thin_cells(samples, solid)
+        progress("unit bricks", 0.4)
+        solid |= under_steps(solid)
+    progress("unit bricks", 0.5)
+    if detail is not None:
+        solid = settled(solid, share, detail)
+    progress("unit bricks", 0.7)
+    if keep_thin:
+        solid |= bridging_cells(solid, surface_area(samples, share.shape))
+    return solid
 
 
 def _shares(trajectories: Trajectories, pieces: Pieces, levels: Levels, grid: Grid) -> Floats:
