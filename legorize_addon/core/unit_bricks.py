@@ -32,7 +32,7 @@ from .levels import Levels
 from .mesh import TriangleMesh
 from .model import COLOUR_ANY, COLOUR_EMPTY, Cover, Floats, Mask, Role, UnitGrid, ground_of
 from .progress import Progress, part, silent
-from .samples import horizontal_samples, standing_pieces, surface_area, trajectory_samples
+from .samples import Samples, horizontal_samples, standing_pieces, surface_area, trajectory_samples
 from .thin_features import thin_cells
 from .trajectories import Trajectories
 from .units import BRICK, CELL_AREA, PLATE, PLATES_PER_BRICK
