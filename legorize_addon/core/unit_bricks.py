@@ -32,7 +32,7 @@ from .levels import Levels
 from .mesh import TriangleMesh
 from .model import COLOUR_ANY, COLOUR_EMPTY, Cover, Floats, Mask, Role, UnitGrid, ground_of
 from .progress import Progress, part, silent
-from .samples import Samples, horizontal_samples, standing_pieces, surface_area, trajectory_samples
+from .samples import SurfaceSamples, horizontal_samples, standing_pieces, surface_area, trajectory_samples
 from .thin_features import thin_cells
 from .trajectories import Trajectories
 from .units import BRICK, CELL_AREA, PLATE, PLATES_PER_BRICK
@@ -122,7 +122,9 @@ def unit_bricks(
     return _unit_grid(colour, grid)
 
 
-def _solid(share: Floats, samples: Samples, *, keep_thin: bool, detail: Detail | None, progress: Progress) -> Mask:
+def _solid(
+    share: Floats, samples: SurfaceSamples, *, keep_thin: bool, detail: Detail | None, progress: Progress
+) -> Mask:
     """Return the cells that are filled: by half, or because the surface would else be lost."""
     solid = half_covered(share)
     progress("unit bricks", 0.1)
