@@ -15,6 +15,7 @@
     python scripts/benchmark.py building  [MESH ...] [--out DIR]   building orders, followed from their files
     python scripts/benchmark.py judge     [MESH ...] --judge DIR   an external judge, on our bricks and on a peer's
     python scripts/benchmark.py kills    [MESH] [--runs N] [--out DIR] killed runs: old or new results, nothing left
+    python scripts/benchmark.py fuzz     [--cases N] [--seed S]    random bodies with random settings, within limits
     python scripts/benchmark.py sliders  [--bricks N] [--out DIR] what Blender takes to show layers and sections
 
 Without a mesh the bundled sample is measured; ``--models DIR`` takes all model
@@ -41,6 +42,7 @@ from scripts.benchmarks import (  # noqa: E402
     budget,
     building,
     detail,
+    fuzz,
     goals,
     hollowing,
     judge,
@@ -75,6 +77,8 @@ def main(arguments: Sequence[str]) -> int:
 
 def measured(options: argparse.Namespace) -> list[Table]:
     """Return the tables of the chosen benchmark."""
+    if options.command == "fuzz":
+        return fuzz.measure(cases=options.cases, seed=options.seed, first=options.first)
     if options.command == "sliders":
         # its module brings Blender along, which the others do without
         from scripts.benchmarks import sliders
@@ -145,6 +149,11 @@ def parser() -> argparse.ArgumentParser:
         if repeats is not None:
             command.add_argument("--repeats", type=int, default=repeats, help="runs (default: %(default)s)")
         add_options(name, command)
+    command = commands.add_parser("fuzz", help="random cases", description="random bodies with random settings")
+    command.add_argument("--cases", type=int, default=100, help="how many (default: %(default)s)")
+    command.add_argument("--seed", type=int, default=0, help="of the cases (default: %(default)s)")
+    command.add_argument("--first", type=int, default=0, help="number of the first case (default: %(default)s)")
+    command.add_argument("--out", metavar="DIR", type=Path, default=OUT, help="for results")
     command = commands.add_parser("sliders", help="the sliders in Blender", description="the sliders in Blender")
     command.add_argument("--bricks", type=int, default=50_000, help="of the model (default: %(default)s)")
     command.add_argument("--out", metavar="DIR", type=Path, default=OUT, help="for results")

@@ -30,6 +30,7 @@
 ``stability``           whether it stands: forces in balance, or a collapse, as proof (``statics``,
                         ``equilibrium``, ``collapse``, ``tipping``)
 ``remarks``             what does not hold or stand, and what a builder has to know, in sentences
+                        (``separation``: why components are not one)
 ``segmentation``        pieces that are built on the table and joined, where that saves supports
 ``supports``            what stands below bricks while the model is built; what stays of it
 ``building``            the order in which every brick finds hold, and its check (``building_remarks``)

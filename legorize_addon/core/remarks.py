@@ -9,6 +9,7 @@ import numpy as np
 
 from .catalogue import Catalogue
 from .model import NOBODY, Bricks, Ints
+from .separation import reasons
 from .units import PLATES_PER_BRICK
 from .verdict import Verdict
 
@@ -36,7 +37,8 @@ def remarks(bricks: Bricks, found: Stability, catalogue: Catalogue) -> tuple[str
         over, what tears, what is not decided. Empty if the model stands in one
         piece.
     """
-    sentences = [*_hanging(bricks, found), *_apart(found)]
+    why = _why(bricks, catalogue) if len(np.unique(found.component)) > 1 else ""
+    sentences = [*_hanging(bricks, found, why), *_apart(found, why)]
     if found.standing is Verdict.COLLAPSES:
         sentences += _reasons(bricks, found, catalogue)
     if found.standing is Verdict.UNDECIDED:
@@ -78,7 +80,16 @@ def _reasons(bricks: Bricks, found: Stability, catalogue: Catalogue) -> list[str
     return sentences or ["The model collapses under its own weight: make it thicker where the heat map is red."]
 
 
-def _hanging(bricks: Bricks, found: Stability) -> Iterator[str]:
+def _why(bricks: Bricks, catalogue: Catalogue) -> str:
+    """Return why the components are not one."""
+    # what this imports takes long to load, and the names above are asked for without it
+    from .connection import connect
+
+    links = connect(bricks, catalogue)
+    return reasons(links.owner, links.component)
+
+
+def _hanging(bricks: Bricks, found: Stability, why: str) -> Iterator[str]:
     """Count what touches nothing on the ground."""
     rows = found.unsupported
     if len(rows) == 0:
@@ -87,19 +98,16 @@ def _hanging(bricks: Bricks, found: Stability) -> Iterator[str]:
     low, high = (layer_of(bricks, int(row)) for row in rows[_ends(bricks.corner[rows, 2])])
     where = f"layer {low}" if low == high else f"layers {low} to {high}"
     hang, among = counted(len(rows), "brick hangs", "bricks hang"), counted(bodies, "body", "bodies")
-    yield (
-        f"{hang} in the air in {among} ({where}): no stud joins them to what stands on the ground; let these parts of "
-        "the mesh touch the others."
-    )
+    yield f"{hang} in the air in {among} ({where}): no stud joins them to what stands on the ground; {why}."
 
 
-def _apart(found: Stability) -> Iterator[str]:
+def _apart(found: Stability, why: str) -> Iterator[str]:
     """Count the pieces that stand beside each other."""
     pieces = np.unique(found.component[found.statics.rows], return_counts=True)[1]
     if len(pieces) > 1:
         yield (
             f"The model stands in {len(pieces)} pieces that no brick joins, the smallest of "
-            f"{counted(int(pieces.min()), 'brick', 'bricks')}: let their meshes touch if it should be one."
+            f"{counted(int(pieces.min()), 'brick', 'bricks')}: {why}."
         )
 
 

@@ -162,6 +162,11 @@ class Bench:
                 pieces += tiles
         return pieces
 
+    def reaches(self, strap: Laid, seam: Seam) -> bool:
+        """Tell whether a strap meets something at both ends of a seam: a brick that it cuts, or one below or above."""
+        levels = (seam.level, strap.level - 1, strap.level + strap.form.height)
+        return all(any(self.at(level, end) != NOBODY for level in levels) for end in seam.ends)
+
     def holds(self, pieces: list[Laid]) -> bool:
         """Tell whether pieces in the place of bricks hold to each other and to all that the bricks held to."""
         place = {(piece.level, square): row for row, piece in enumerate(pieces) for square in piece.squares}

@@ -167,7 +167,7 @@ def _strap(bench: Bench, seam: Seam, colour: Plane, height: int, most_wrong: int
         return False
     for strap in _straps(bench, seam, cut, colour, height, most_wrong)[:_TRIED]:
         pieces = bench.cut(cut, strap)
-        if pieces is not None and bench.holds([strap, *pieces]):
+        if pieces is not None and bench.reaches(strap, seam) and bench.holds([strap, *pieces]):
             bench.put(cut, [strap, *pieces])
             return True
     return False

@@ -9,6 +9,7 @@ from legorize_addon.core.connection import connect
 from legorize_addon.core.layout import lay
 from legorize_addon.core.layout.cutting import Bench, Laid, Seam
 from legorize_addon.core.layout.problem import owners
+from legorize_addon.core.model import COLOUR_EMPTY
 
 from .cells import CATALOGUE, RED, WHITE, grid_of
 
@@ -68,6 +69,18 @@ def test_plate_that_loses_a_cell_does_not_hold():
     whole = plate(bench, {(x, 0) for x in range(4)}, 0)
     assert bench.cut([0], whole) == []
     assert bench.holds([whole])
+
+
+def test_added_plate_has_to_reach_both_sides():
+    """A plate that is added under one brick alone joins nothing; under two of them it does."""
+    cells = np.full((2, 3, 1, 4), COLOUR_EMPTY)
+    cells[1, :, 0, :2] = RED
+    cells[0, 0, 0, 3] = RED
+    bench = bench_of(cells)
+    strap = plate(bench, {(1, 0), (2, 0)}, 2)
+    assert bench.holds([strap])
+    assert not bench.reaches(strap, Seam(2, ((1, 0), (2, 0))))
+    assert bench.reaches(plate(bench, {(0, 0), (1, 0)}, 2), Seam(2, ((0, 0), (1, 0))))
 
 
 def test_brick_cannot_be_laid_in_a_plate():

@@ -10,7 +10,9 @@ from scipy import ndimage
 
 from legorize_addon.core.connection import NOBODY, connect
 from legorize_addon.core.layout import lay
-from legorize_addon.core.layout.straps import strapped
+from legorize_addon.core.layout.cutting import Bench, Seam
+from legorize_addon.core.layout.problem import owners, with_margins
+from legorize_addon.core.layout.straps import _strap, strapped
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Role
 
 from .cells import CATALOGUE, RED, WHITE, assert_covers, grid_of, planes
@@ -76,6 +78,19 @@ def test_what_stands_beside_is_joined_by_one_plate():
     assert wrong(grid, bricks, after).sum() == 1
     np.testing.assert_array_equal(after.owner != NOBODY, before.owner != NOBODY)
     assert CATALOGUE.exists_in(bricks.part, bricks.colour).all()
+
+
+def test_no_plate_is_added_that_joins_nothing():
+    """Where a place is offered at which one side has nothing to hold to, no plate is laid."""
+    bricks = laid(two_plates())
+    links = connect(bricks, CATALOGUE)
+    colour = with_margins(two_plates().colour, COLOUR_EMPTY)
+    bench = Bench(bricks, owners(links, colour.shape), CATALOGUE)
+    before = len(bench.laid)
+    assert not _strap(bench, Seam(3, ((4, 0), (5, 0))), colour, 1, 0)
+    assert not _strap(bench, Seam(3, ((3, 0), (4, 0))), colour, 1, 0)
+    assert len(bench.laid) == before
+    assert _strap(bench, Seam(3, ((1, 0), (2, 0))), colour, 1, 0)
 
 
 def test_cell_that_is_seen_least_changes():

@@ -1,0 +1,143 @@
+"""What must hold of every model, whatever it was made of, found out without the code that made it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+
+from legorize_addon.core.build import Build
+from legorize_addon.core.catalogue import Catalogue, Part
+from legorize_addon.core.checks import failed_checks
+from legorize_addon.core.model import COLOUR_ANY, SUPPORTS, Cover
+from legorize_addon.core.report import report
+
+Cell = tuple[int, int, int]
+
+_PLATES: Final = 3
+
+
+def faults(build: Build, catalogue: Catalogue) -> list[str]:
+    """Return what is wrong with a build, a sentence each; empty if nothing is."""
+    parts = cells_of(build, catalogue)
+    found = faults_of_bricks(build, catalogue)
+    n = n_components(parts)
+    if n != build.connection.n_components:
+        found.append(f"The connection has {build.connection.n_components} components, but there are {n}.")
+    checks = failed_checks(report(build, catalogue, version="0", mm_per_unit=1.0))
+    if (n > 1) != any(check.startswith("Components") for check in checks):
+        found.append(f"There are {n} components, but the checks say: {checks}.")
+    if n > 1 and not any("in the air" in note or "pieces" in note for note in build.notes):
+        found.append(f"There are {n} components, of which no remark tells.")
+    if len(set(build.notes)) < len(build.notes):
+        found.append("A remark stands there twice.")
+    return found
+
+
+def faults_of_bricks(build: Build, catalogue: Catalogue) -> list[str]:
+    """Return what is wrong with the bricks alone: cells without or with several of them, colours."""
+    return [*_cover(build, cells_of(build, catalogue)), *_colours(build, catalogue)]
+
+
+def cells_of(build: Build, catalogue: Catalogue) -> list[set[Cell]]:
+    """Return the cells (plate, y, x) of every brick of a build."""
+    bricks = build.bricks
+    rows = zip(bricks.part.tolist(), bricks.turn.tolist(), bricks.corner.tolist(), strict=True)
+    return [
+        {
+            (z + up, y + dy, x + dx)
+            for dx, dy in _squares(catalogue.parts[part], turn)
+            for up in range(catalogue.parts[part].height)
+        }
+        for part, turn, (x, y, z) in rows
+    ]
+
+
+def _squares(part: Part, turn: int) -> set[tuple[int, int]]:
+    """Return the stud squares of a part, turned counter-clockwise and put back to its lowest corner."""
+    squares = {(x, y) for x in range(part.length) for y in range(part.width)} - ({(1, 1)} if part.corner else set())
+    for _ in range(turn):
+        squares = {(-y, x) for x, y in squares}
+    low = min(x for x, _ in squares), min(y for _, y in squares)
+    return {(x - low[0], y - low[1]) for x, y in squares}
+
+
+def _cover(build: Build, parts: list[set[Cell]]) -> Iterator[str]:
+    """Compare the cells of the bricks with those that must and may be built."""
+    count = Counter(cell for cells in parts for cell in cells)
+    twice = sum(n > 1 for n in count.values())
+    if twice:
+        yield f"{twice} cells are in more than one brick."
+    roles = build.bricks.role.tolist()
+    # pillars under ceilings are cells that must be built as well; posts that came later are not
+    own = {cell for cells, role in zip(parts, roles, strict=True) if role not in SUPPORTS for cell in cells}
+    cover = build.hollow.cover.reshape(-1, *build.hollow.cover.shape[2:])
+    must, may = (
+        {tuple(cell) for cell in np.argwhere(cells).tolist()} for cells in (cover == Cover.MUST, cover != Cover.EMPTY)
+    )
+    if must - set(count):
+        yield f"{len(must - set(count))} cells that must be built are empty."
+    if own - may:
+        yield f"{len(own - may)} cells are built that must be empty."
+
+
+def _colours(build: Build, catalogue: Catalogue) -> Iterator[str]:
+    """Find bricks of parts that do not exist in their colour, or in another colour than their cells show."""
+    bricks = build.bricks
+    codes = [colour.code for colour in catalogue.colours]
+    never = sum(
+        code not in codes or not catalogue.exists[part, codes.index(code)]
+        for part, code in zip(bricks.part.tolist(), bricks.colour.tolist(), strict=True)
+    )
+    if never:
+        yield f"{never} bricks were never made in their colour."
+    shown = build.hollow.colour.reshape(-1, *build.hollow.colour.shape[2:])
+    wrong = sum(
+        code not in {int(shown[cell]) for cell in cells} - {COLOUR_ANY} and any(shown[cell] >= 0 for cell in cells)
+        for cells, code, role in zip(
+            cells_of(build, catalogue), bricks.colour.tolist(), bricks.role.tolist(), strict=True
+        )
+        if role not in SUPPORTS
+    )
+    if wrong:
+        yield f"{wrong} bricks show a colour that none of their cells has."
+
+
+def n_components(parts: list[set[Cell]]) -> int:
+    """Count what hangs together by studs: a cell of one brick right above a cell of another."""
+    owner = {cell: number for number, cells in enumerate(parts) for cell in cells}
+    home = list(range(len(parts)))
+    for (z, y, x), number in owner.items():
+        other = owner.get((z + 1, y, x), number)
+        home[_root(home, number)] = _root(home, other)
+    return len({_root(home, number) for number in range(len(parts))})
+
+
+def n_lumps(build: Build) -> int:
+    """Count what hangs together by the faces of the cells that must be built."""
+    cover = build.hollow.cover.reshape(-1, *build.hollow.cover.shape[2:])
+    cells = [tuple(cell) for cell in np.argwhere(cover == Cover.MUST).tolist()]
+    number = {cell: row for row, cell in enumerate(cells)}
+    home = list(range(len(cells)))
+    for (z, y, x), row in number.items():
+        for beside in ((z + 1, y, x), (z, y + 1, x), (z, y, x + 1)):
+            home[_root(home, row)] = _root(home, number.get(beside, row))
+    return len({_root(home, row) for row in range(len(cells))})
+
+
+def _root(home: list[int], number: int) -> int:
+    while home[number] != number:
+        home[number] = home[home[number]]
+        number = home[number]
+    return number
+
+
+def same(first: Build, second: Build) -> bool:
+    """Tell whether two builds are the same, brick by brick and sentence by sentence."""
+    tables = all(
+        np.array_equal(getattr(first.supports.bricks, name), getattr(second.supports.bricks, name))
+        for name in first.bricks.__slots__
+    )
+    return tables and first.notes == second.notes
