@@ -14,25 +14,13 @@ from __future__ import annotations
 
 def register() -> None:
     """Register everything with Blender."""
-    from . import export_operators, learning_operators, operators, panels, properties
-    from .ui import build_larger
+    from . import ui
 
-    properties.register()
-    operators.register()
-    build_larger.register()
-    export_operators.register()
-    learning_operators.register()
-    panels.register()
+    ui.register()
 
 
 def unregister() -> None:
     """Undo :func:`register`; a running job is stopped."""
-    from . import export_operators, learning_operators, operators, panels, properties
-    from .ui import build_larger
+    from . import ui
 
-    panels.unregister()
-    learning_operators.unregister()
-    export_operators.unregister()
-    build_larger.unregister()
-    operators.unregister()
-    properties.unregister()
+    ui.unregister()

@@ -13,16 +13,18 @@ from numpy.typing import NDArray
 from scipy.stats import wilcoxon
 from sklearn.linear_model import LogisticRegression
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.layout import exact, linear
-from legorize_addon.core.layout.bound import bound
-from legorize_addon.core.layout.exchange import exchange, fewer_small
-from legorize_addon.core.layout.features import gauss_normalised
-from legorize_addon.core.layout.greedy import cover
-from legorize_addon.core.layout.problem import Problem
-from legorize_addon.core.layout.svm import LEVELS, Machine, Samples, changes, improved, read, shipped
-from legorize_addon.core.layout.svm_training import tasks
-from legorize_addon.core.model import Bricks, Mask, UnitGrid
+from legorize_addon.core.arrays import Mask
+from legorize_addon.core.layout.learning.energies import gauss_normalised
+from legorize_addon.core.layout.learning.svm import LEVELS, Machine, Samples, changes, improved, read, shipped
+from legorize_addon.core.layout.learning.svm_training import tasks
+from legorize_addon.core.layout.problem.problem import Problem
+from legorize_addon.core.layout.solvers import exact, linear
+from legorize_addon.core.layout.solvers.exchange import exchange, fewer_small
+from legorize_addon.core.layout.solvers.greedy import cover
+from legorize_addon.core.measures.lower_bound import bound
+from legorize_addon.core.model.bricks import Bricks
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.core.model.unit_grid import UnitGrid
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from scripts.benchmarks.meshes import read_mesh

@@ -45,30 +45,30 @@ try:
 
     import bpy
 
-    from legorize_addon.contact_sheet import render_contact_sheet
     from legorize_addon.core.build import Build
-    from legorize_addon.core.catalogue import load_catalogue
-    from legorize_addon.core.checks import failed_checks
     from legorize_addon.core.errors import BuildError, LegorizeError, SettingsError, enough_memory
     from legorize_addon.core.files.folder import new_folder, temporary_of, writing
     from legorize_addon.core.files.manifest import changed
-    from legorize_addon.core.files.outputs import texts
     from legorize_addon.core.files.paths import named, readable
-    from legorize_addon.core.model import Role
+    from legorize_addon.core.model.bricks import Role
+    from legorize_addon.core.model.catalogue import load_catalogue
     from legorize_addon.core.pipeline import legorize
     from legorize_addon.core.progress import Meter, Overall, Progress, duration, part
-    from legorize_addon.core.report import report
+    from legorize_addon.core.report.checks import failed_checks
+    from legorize_addon.core.report.outputs import texts
+    from legorize_addon.core.report.report import report
     from legorize_addon.core.settings import Settings, choices, setting_type
     from legorize_addon.core.units import MM_PER_METRE
-    from legorize_addon.heat_map import show_heat_map
-    from legorize_addon.read_mesh import read_rendered
     from legorize_addon.reading.importers import load
+    from legorize_addon.reading.objects import read_rendered
     from legorize_addon.reading.quiet import quiet
-    from legorize_addon.render import AZIMUTH, View, render_still
-    from legorize_addon.result import show_result
-    from legorize_addon.section import AXES, Section
-    from legorize_addon.steps import explode
-    from legorize_addon.view import cut_away, roles_shown, show_role
+    from legorize_addon.render.contact_sheet import render_contact_sheet
+    from legorize_addon.render.still import AZIMUTH, View, render_still
+    from legorize_addon.scene.section import AXES, Section
+    from legorize_addon.view.heat_map import show_heat_map
+    from legorize_addon.view.show_result import show_result
+    from legorize_addon.view.steps import explode
+    from legorize_addon.view.visibility import cut_away, roles_shown, show_role
 except ModuleNotFoundError as missing:
     print(f"Legorize needs the Python package {missing.name}: install its extension, or the packages.", file=sys.stderr)
     sys.exit(1)

@@ -27,9 +27,10 @@ import sklearn
 ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from legorize_addon.core.catalogue import load_catalogue  # noqa: E402 - found through the line above
-from legorize_addon.core.layout.svm_training import N_SAMPLES, Trained, samples_of, train, written  # noqa: E402
-from legorize_addon.core.model import Bricks, UnitGrid  # noqa: E402
+from legorize_addon.core.layout.learning.svm_training import N_SAMPLES, Trained, samples_of, train, written  # noqa: E402
+from legorize_addon.core.model.bricks import Bricks  # noqa: E402
+from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402 - found through the line above
+from legorize_addon.core.model.unit_grid import UnitGrid  # noqa: E402
 from legorize_addon.core.pipeline import legorize  # noqa: E402
 from legorize_addon.core.settings import Settings  # noqa: E402
 from scripts.training_models import KINDS, made  # noqa: E402

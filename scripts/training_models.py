@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from legorize_addon.core.mesh import TriangleMesh
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

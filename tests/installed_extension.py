@@ -37,7 +37,7 @@ def main(path: str) -> None:
     points = [each for each in builds[0].all_objects if each.type == "MESH"]
     found["bricks"] = sum(len(each.data.vertices) for each in points)
     found["source_faces"] = len(source.data.polygons)
-    learning = importlib.import_module(f"{NAME}.legorize_addon.learned_files")
+    learning = importlib.import_module(f"{NAME}.legorize_addon.ui.learned_files")
     found["own_folder"] = str(learning.own_folder())
     bpy.ops.preferences.addon_disable(module=NAME)
     found["left_behind"] = [name for name in ("legorize",) if hasattr(bpy.types.Scene, name)]

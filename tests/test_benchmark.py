@@ -14,14 +14,14 @@ trimesh = pytest.importorskip("trimesh", reason="benchmarks need the dependency 
 pytest.importorskip("shapely", reason="benchmarks need the dependency group checks")
 Image = pytest.importorskip("PIL.Image", reason="benchmarks need pillow")
 
-from legorize_addon.core.catalogue import load_catalogue  # noqa: E402 - after the packages that may be missing
-from legorize_addon.core.connection import connect  # noqa: E402
 from legorize_addon.core.errors import BuildError, MeshError  # noqa: E402
-from legorize_addon.core.model import COLOUR_EMPTY, Cover, UnitGrid  # noqa: E402
+from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402 - after the packages that may be missing
+from legorize_addon.core.model.contact_graph import connect  # noqa: E402
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Cover, UnitGrid  # noqa: E402
 from legorize_addon.core.pipeline import legorize  # noqa: E402
 from legorize_addon.core.settings import Settings  # noqa: E402
-from legorize_addon.core.slicing import slice_mesh  # noqa: E402
-from legorize_addon.core.trajectories import link_loops  # noqa: E402
+from legorize_addon.core.slicing.slices import slice_mesh  # noqa: E402
+from legorize_addon.core.slicing.trajectories import link_loops  # noqa: E402
 from scripts import benchmark  # noqa: E402
 from scripts.benchmarks import clock, goals, hollowing, judge, layout_figures, meshes, slicing, surface  # noqa: E402
 from scripts.benchmarks.stablelego import placed  # noqa: E402

@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("trimesh", reason="benchmarks need the dependency group checks")
 pytest.importorskip("shapely", reason="benchmarks need the dependency group checks")
 
-from legorize_addon.core.catalogue import load_catalogue
+from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from scripts import benchmark

@@ -15,11 +15,12 @@ trimesh = pytest.importorskip("trimesh", reason="benchmarks need the dependency 
 pytest.importorskip("shapely", reason="benchmarks need the dependency group checks")
 pytest.importorskip("networkx", reason="benchmarks need networkx")
 
-from legorize_addon.core.catalogue import load_catalogue  # noqa: E402 - after the packages that may be missing
-from legorize_addon.core.connection import NOBODY, connect  # noqa: E402
 from legorize_addon.core.errors import BuildError  # noqa: E402
-from legorize_addon.core.layout import features  # noqa: E402
-from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Bricks, Cover, UnitGrid  # noqa: E402
+from legorize_addon.core.layout.learning import energies as features  # noqa: E402
+from legorize_addon.core.model.bricks import NOBODY, Bricks  # noqa: E402
+from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402 - after the packages that may be missing
+from legorize_addon.core.model.contact_graph import connect  # noqa: E402
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid  # noqa: E402
 from scripts import benchmark  # noqa: E402
 from scripts.benchmarks import annealing, baselines, layout_goals, merging, peer, rules, tiling, volumes  # noqa: E402
 from scripts.benchmarks.baselines import LayerWay  # noqa: E402

@@ -8,19 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .building.proof import Proof
+from .arrays import Floats
+from .building import Proof
 from .colours import SurfaceColours
-from .connection import Connection
-from .marking import Marks
 from .mesh import Repairs, TriangleMesh
-from .model import Bricks, Floats, UnitGrid
-from .overhangs import Offsets
-from .segmentation import Joint
+from .model import Bricks, Connection, UnitGrid
 from .settings import Settings
-from .slicing import Slices
-from .stability import Stability
-from .supports import Supports
-from .trajectories import Trajectories
+from .slicing import Marks, Slices, Trajectories
+from .statics import Stability
+from .supports import Joint, Supports
+from .unit_bricks import Offsets
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -18,12 +18,10 @@ from typing import Any, Final
 import numpy as np
 
 from .errors import LimitError
-from .geometry.upright import turned
-from .grid import ALPHA
-from .mesh import TriangleMesh, checked_vertices
+from .mesh import TriangleMesh, checked_vertices, scale_of_extent, turned
 from .progress import duration
 from .settings import Settings
-from .size import scale_of_extent
+from .slicing import ALPHA
 from .units import BRICK, PLATES_PER_BRICK, STUD
 
 AGAIN: Final = " again"

@@ -10,43 +10,36 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from .backing import with_backing
+from .arrays import Floats, Mask
 from .build import Build, Cut
-from .building.proof import Proof, prove_steps
-from .building_remarks import remarks_on_building, remarks_on_proof, remarks_on_split
-from .catalogue import Catalogue, load_catalogue
+from .building import Proof, prove_steps
 from .colours import SurfaceColours, chosen_palette, surface_colours
-from .connection import Connection, connect
-from .detail import Detail
 from .errors import enough_memory
 from .estimate import AGAIN, check_limits, estimate
-from .facing import facing_of
-from .geometry.upright import turned_upright
-from .grid import Grid, fit_grid
-from .holding import held_together
-from .hollowing import hollow
-from .layout import FILLER, lay
+from .layout import FILLER, lay, with_seen_coloured
+from .layout.joining import strapped
 from .layout.learning import learned_table
-from .layout.straps import strapped
-from .levels import levels_of
-from .marking import Marks, differing_layers
-from .mesh import Repairs, TriangleMesh, repair, scaled
-from .model import Bricks, Floats, Mask, UnitGrid
-from .offset_bricks import with_offset_bricks
-from .overhangs import Offsets
+from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scaled, turned_upright
+from .model import Bricks, Catalogue, Connection, UnitGrid, connect, load_catalogue
 from .progress import Overall, Progress, part, silent
-from .remarks import remarks
-from .seen_filler import with_seen_coloured
-from .segmentation import Joint, segmented
+from .report import remarks, remarks_on_building, remarks_on_proof, remarks_on_split
 from .settings import Settings
-from .size import check_any, model_scale
-from .slicing import adaptive_heights, slice_mesh
-from .stability import Stability, stability
-from .supports import Supports, supported, with_falling_propped, with_floating_carried
-from .texturing.cutouts import remarks_on_unseen, seen_part
-from .texturing.reduced_images import with_reduced_images
-from .trajectories import Trajectories, link_loops
-from .unit_bricks import unit_bricks
+from .shell import held_together, hollow
+from .slicing import (
+    Grid,
+    Marks,
+    Trajectories,
+    adaptive_heights,
+    differing_layers,
+    fit_grid,
+    levels_of,
+    link_loops,
+    slice_mesh,
+)
+from .statics import Stability, stability
+from .supports import Joint, Supports, segmented, supported, with_falling_propped, with_floating_carried
+from .texturing import remarks_on_unseen, seen_part, with_reduced_images
+from .unit_bricks import Detail, Offsets, facing_of, unit_bricks, with_backing, with_offset_bricks
 from .units import PLATES_PER_BRICK
 
 

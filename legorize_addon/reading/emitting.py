@@ -7,8 +7,8 @@ from typing import Any, Final
 
 import bpy
 
-from ..node_links import SEE_THROUGH, Source
-from ..read_images import is_missing
+from .images import is_missing
+from .node_links import SEE_THROUGH, Source
 from .object_values import ObjectValues, constant
 
 PASSED_ON: Final = ("ShaderNodeMixShader", "ShaderNodeAddShader", "ShaderNodeGroup", "NodeGroupInput", "NodeReroute")

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..read_colours import Floats
-from ..read_images import Album
-from ..read_materials import Paint
+from .colours import Floats
+from .images import Album
+from .materials import Paint
 
 Ints = NDArray[np.int32]
 

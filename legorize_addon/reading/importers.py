@@ -9,10 +9,9 @@ from typing import Any, Final, NamedTuple
 
 import bpy
 
-from ..builds import builds
 from ..core.errors import MeshError, SettingsError
 from ..core.files.sources import check_source, unchanged
-from ..scene import clear_build
+from ..scene import builds, clear_build
 from .at_rest import ANIMATED, fbx_is_animated, without_animation
 from .gltf_importer import readable_extensions
 from .losses import told_losses

@@ -12,7 +12,7 @@ from typing import Any, Final
 
 import bpy
 
-from ..node_links import Source
+from .node_links import Source
 
 RGBA = tuple[float, float, float, float]
 

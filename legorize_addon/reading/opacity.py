@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from typing import Any, Final
 
-from ..node_links import SEE_THROUGH, NotAProduct, Place, Source, follow
 from .expressions import OPERANDS, OPERATIONS, Expression, mixed, operation
+from .node_links import SEE_THROUGH, NotAProduct, Place, Source, follow
 from .object_values import constant
 from .textures import read_texture
 

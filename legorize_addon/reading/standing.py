@@ -11,7 +11,7 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ..core.geometry.upright import TURNS, stands_better
+from ..core.mesh import TURNS, stands_better
 
 AXES: Final = MappingProxyType({".obj": "y", ".ply": "z", ".stl": "z", ".glb": "y", ".gltf": "y", ".fbx": "z"})
 """Axis of a file's coordinates that Blender's importer takes for up; of .fbx, which name theirs, that of Blender."""

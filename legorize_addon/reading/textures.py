@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from mathutils import Euler
 
-from ..node_links import NotAProduct, Place, Source, follow
+from .node_links import NotAProduct, Place, Source, follow
 
 Affine = tuple[tuple[float, float, float], tuple[float, float, float]]
 """Two rows of three numbers, applied to (u, v, 1)."""

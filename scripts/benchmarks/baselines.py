@@ -7,20 +7,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from legorize_addon.core.catalogue import Catalogue
-from legorize_addon.core.connection import NOBODY
-from legorize_addon.core.hollowing import hollow
-from legorize_addon.core.layout import FILLER
-from legorize_addon.core.layout.placements import placements
-from legorize_addon.core.layout.problem import Problem, pose, with_margins
-from legorize_addon.core.layout.shapes import shapes
-from legorize_addon.core.layout.sheets import split
-from legorize_addon.core.layout.table import bricks_of, gathered
-from legorize_addon.core.model import COLOUR_EMPTY, Bricks, Cover, UnitGrid
+from legorize_addon.core.layout.lay import FILLER
+from legorize_addon.core.layout.problem.placements import placements
+from legorize_addon.core.layout.problem.problem import Problem, pose, with_margins
+from legorize_addon.core.layout.problem.shapes import shapes
+from legorize_addon.core.layout.problem.sheets import split
+from legorize_addon.core.layout.problem.table import bricks_of, gathered
+from legorize_addon.core.model.bricks import NOBODY, Bricks
+from legorize_addon.core.model.catalogue import Catalogue
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.shell.hollowing import hollow
 from legorize_addon.core.units import PLATES_PER_BRICK
-
-from .rules import Index, Way
-from .seams import Layer
+from scripts.benchmarks.rules import Index, Way
+from scripts.benchmarks.seams import Layer
 
 Lay = Callable[[UnitGrid, Catalogue, np.random.Generator], Bricks]
 LayerWay = Callable[[Layer, np.random.Generator], Index]

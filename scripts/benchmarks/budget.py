@@ -13,9 +13,8 @@ import numpy as np
 
 from legorize_addon.core.estimate import estimate
 from legorize_addon.core.settings import Settings
-
-from .meshes import read_mesh
-from .tables import Row, Table
+from scripts.benchmarks.meshes import read_mesh
+from scripts.benchmarks.tables import Row, Table
 
 ROOT: Final = Path(__file__).resolve().parents[2]
 

@@ -8,17 +8,16 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
-from legorize_addon.core.building.order_file import build_order_csv
-from legorize_addon.core.catalogue import Catalogue, load_catalogue
-from legorize_addon.core.ldraw import write_ldr
-from legorize_addon.core.mesh import TriangleMesh
-from legorize_addon.core.model import Bricks
+from legorize_addon.core.files.build_order_csv import build_order_csv
+from legorize_addon.core.files.ldraw import write_ldr
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.bricks import Bricks
+from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-
-from .followed import follow
-from .supports import with_fixtures
-from .tables import Row, Table
+from scripts.benchmarks.followed import follow
+from scripts.benchmarks.supports import with_fixtures
+from scripts.benchmarks.tables import Row, Table
 
 
 def measure(paths: Sequence[Path], *, widths: Sequence[int], split: int) -> list[Table]:

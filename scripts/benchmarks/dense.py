@@ -11,16 +11,16 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.cell_colours import chosen, counted, likeliest_colours
-from legorize_addon.core.colours import SurfaceColours
-from legorize_addon.core.coverage import Pieces
-from legorize_addon.core.eight_neighbours import excluded_neighbours, participants
-from legorize_addon.core.grid import Grid
-from legorize_addon.core.mesh import TriangleMesh
-from legorize_addon.core.samples import SurfaceSamples, face_normals, inner_cells
-from legorize_addon.core.trajectories import Trajectories
-from legorize_addon.core.unit_bricks import outer_air
+from legorize_addon.core.colours.dominant import SurfaceColours
+from legorize_addon.core.geometry.neighbourhoods import outer_air
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.core.slicing.coverage import Pieces
+from legorize_addon.core.slicing.lattice import Grid
+from legorize_addon.core.slicing.trajectories import Trajectories
+from legorize_addon.core.unit_bricks.colour_votes import chosen, counted, likeliest_colours
+from legorize_addon.core.unit_bricks.longest_trajectory import excluded_neighbours, participants
+from legorize_addon.core.unit_bricks.surface_samples import SurfaceSamples, face_normals, inner_cells
 from legorize_addon.core.units import BRICK, STUD
 
 Codes = NDArray[np.int16]

@@ -10,15 +10,14 @@ from typing import Any, Final
 import numpy as np
 
 from legorize_addon.core.build import Build
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.ldraw import write_ldr
+from legorize_addon.core.files.ldraw import write_ldr
+from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-
-from .judge import judged
-from .meshes import read_mesh
-from .surface import likeness, seen_surface
-from .tables import Row, Table
+from scripts.benchmarks.judge import judged
+from scripts.benchmarks.meshes import read_mesh
+from scripts.benchmarks.surface import likeness, seen_surface
+from scripts.benchmarks.tables import Row, Table
 
 GAIN: Final = 0.25
 KEPT: Final = 2 / 3

@@ -6,10 +6,10 @@ from typing import Final
 
 import numpy as np
 
-from legorize_addon.core.catalogue import Catalogue
-from legorize_addon.core.connection import NOBODY, Connection
-from legorize_addon.core.layout import features
-from legorize_addon.core.model import Bricks
+from legorize_addon.core.layout.learning import energies as features
+from legorize_addon.core.model.bricks import NOBODY, Bricks
+from legorize_addon.core.model.catalogue import Catalogue
+from legorize_addon.core.model.contact_graph import Connection
 
 ENERGIES: Final = ("e_unit_connection", "e_vertical", "e_horizontal", "e_symmetry", "e_efficiency")
 """The paper's energies of a layer."""

@@ -10,8 +10,8 @@ from typing import Final
 
 import numpy as np
 
-from legorize_addon.core.catalogue import Catalogue, footprint
-from legorize_addon.core.ldraw import read_ldr
+from legorize_addon.core.files.ldraw import read_ldr
+from legorize_addon.core.model.catalogue import Catalogue, footprint
 
 Cell = tuple[int, int, int]
 

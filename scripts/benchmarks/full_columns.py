@@ -13,10 +13,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from legorize_addon.core.model import Mask
+from legorize_addon.core.arrays import Mask
 from legorize_addon.core.supports.boxes import TALL, Boxes
+from legorize_addon.core.supports.clearance import Room
 from legorize_addon.core.supports.columns import Cells, covered, with_room
-from legorize_addon.core.supports.room import Room
 from legorize_addon.core.units import PLATES_PER_BRICK
 
 FLAT: Final = ((6, 2), (4, 2), (6, 1), (3, 2), (4, 1), (2, 2), (3, 1), (2, 1), (1, 1))

@@ -11,13 +11,12 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Final
 
-from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import LegorizeError
+from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
-
-from .fuzz_cases import case
-from .fuzz_checks import cells_of, faults, n_components, n_lumps, same
-from .tables import Row, Table
+from scripts.benchmarks.fuzz_cases import case
+from scripts.benchmarks.fuzz_checks import cells_of, faults, n_components, n_lumps, same
+from scripts.benchmarks.tables import Row, Table
 
 Work = Callable[[int, int], tuple[str, str]]
 """Tells the outcome of a case, and what is to be said of it."""

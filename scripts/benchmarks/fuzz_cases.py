@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from legorize_addon.core.mesh import TriangleMesh
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.settings import Settings, choices, setting_type
 
 Body = tuple[np.ndarray, np.ndarray]

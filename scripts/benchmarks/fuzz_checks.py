@@ -9,10 +9,11 @@ from typing import Final
 import numpy as np
 
 from legorize_addon.core.build import Build
-from legorize_addon.core.catalogue import Catalogue, Part
-from legorize_addon.core.checks import failed_checks
-from legorize_addon.core.model import COLOUR_ANY, SUPPORTS, Cover
-from legorize_addon.core.report import report
+from legorize_addon.core.model.bricks import SUPPORTS
+from legorize_addon.core.model.catalogue import Catalogue, Part
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, Cover
+from legorize_addon.core.report.checks import failed_checks
+from legorize_addon.core.report.report import report
 
 Cell = tuple[int, int, int]
 

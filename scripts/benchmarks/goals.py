@@ -12,20 +12,21 @@ from typing import Final
 
 import numpy as np
 
-from legorize_addon.core.bodies import free_bodies
 from legorize_addon.core.build import Build
-from legorize_addon.core.catalogue import Catalogue, load_catalogue
-from legorize_addon.core.connection import Connection, connect
-from legorize_addon.core.layout import bound, lay
-from legorize_addon.core.model import SUPPORTS, Bricks
+from legorize_addon.core.files.shopping import count_parts, not_made
+from legorize_addon.core.layout.lay import lay
+from legorize_addon.core.measures.lower_bound import bound
+from legorize_addon.core.model.bricks import SUPPORTS, Bricks
+from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
+from legorize_addon.core.model.contact_graph import Connection, connect
+from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.pipeline import legorize
-from legorize_addon.core.remarks import remarks
+from legorize_addon.core.report.remarks import remarks
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.shopping import count_parts, not_made
-from legorize_addon.core.stability import Verdict, stability
-from legorize_addon.core.statics import CAUTIOUS_HOLD, HOLD
-
-from .layout_figures import (
+from legorize_addon.core.shell.near_bodies import free_bodies
+from legorize_addon.core.statics.forces import CAUTIOUS_HOLD, HOLD
+from legorize_addon.core.statics.stability import stability
+from scripts.benchmarks.layout_figures import (
     articulations,
     coinciding_seams,
     colours_lost,
@@ -35,8 +36,8 @@ from .layout_figures import (
     must_cells,
     single,
 )
-from .meshes import read_mesh
-from .tables import Row, Table, Value
+from scripts.benchmarks.meshes import read_mesh
+from scripts.benchmarks.tables import Row, Table, Value
 
 TRIANGLES: Final = 20_000
 """Meshes of so many triangles and more have no limit of time, and are not built wider than ``WIDE`` studs."""

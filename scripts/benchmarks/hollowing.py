@@ -13,19 +13,19 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from legorize_addon.core.build import Build
-from legorize_addon.core.catalogue import Catalogue, load_catalogue
-from legorize_addon.core.holding import held_together
-from legorize_addon.core.hollowing import hollow
-from legorize_addon.core.layout import FILLER, lay
-from legorize_addon.core.model import COLOUR_EMPTY, Bricks, Cover, UnitGrid
+from legorize_addon.core.files.shopping import count_parts, masses
+from legorize_addon.core.geometry.neighbourhoods import outer_air
+from legorize_addon.core.layout.lay import FILLER, lay
+from legorize_addon.core.model.bricks import Bricks
+from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Cover, UnitGrid
 from legorize_addon.core.pipeline import legorize
-from legorize_addon.core.report import report
+from legorize_addon.core.report.report import report
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.shopping import count_parts, masses
-from legorize_addon.core.unit_bricks import outer_air
-
-from .meshes import read_mesh
-from .tables import Row, Table
+from legorize_addon.core.shell.cohesion import held_together
+from legorize_addon.core.shell.hollowing import hollow
+from scripts.benchmarks.meshes import read_mesh
+from scripts.benchmarks.tables import Row, Table
 
 Mask = NDArray[np.bool_]
 

@@ -16,15 +16,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import BuildError
-from legorize_addon.core.ldraw import write_ldr
-from legorize_addon.core.mesh import TriangleMesh, repair
+from legorize_addon.core.files.ldraw import write_ldr
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, repair
+from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-
-from .meshes import read_mesh
-from .tables import Row, Table, Value
+from scripts.benchmarks.meshes import read_mesh
+from scripts.benchmarks.tables import Row, Table, Value
 
 COLOUR: Final = 0.9
 """Largest error of colour over the floor, as a share of the peer's."""

@@ -23,7 +23,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Final
 
-from .tables import Row, Table
+from scripts.benchmarks.tables import Row, Table
 
 ROOT: Final = Path(__file__).resolve().parents[2]
 WIDTHS: Final = (5, 7)

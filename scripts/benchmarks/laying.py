@@ -6,17 +6,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from legorize_addon.core.catalogue import Catalogue
-from legorize_addon.core.connection import NOBODY, Connection, connect
-from legorize_addon.core.layout.problem import owners, with_margins
-from legorize_addon.core.model import COLOUR_ANY, Bricks, Cover, UnitGrid
-from legorize_addon.core.shopping import count_parts, not_made
-
-from .baselines import Lay
-from .clock import least_seconds
-from .energies import energies
-from .layout_figures import articulations, coinciding_seams, colours_lost, single
-from .tables import Row
+from legorize_addon.core.files.shopping import count_parts, not_made
+from legorize_addon.core.layout.problem.problem import owners, with_margins
+from legorize_addon.core.model.bricks import NOBODY, Bricks
+from legorize_addon.core.model.catalogue import Catalogue
+from legorize_addon.core.model.contact_graph import Connection, connect
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, Cover, UnitGrid
+from scripts.benchmarks.baselines import Lay
+from scripts.benchmarks.clock import least_seconds
+from scripts.benchmarks.energies import energies
+from scripts.benchmarks.layout_figures import articulations, coinciding_seams, colours_lost, single
+from scripts.benchmarks.tables import Row
 
 
 @dataclass(frozen=True, slots=True, eq=False)

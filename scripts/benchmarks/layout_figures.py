@@ -9,16 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter
 
-from legorize_addon.core.catalogue import Catalogue
-from legorize_addon.core.connection import NOBODY, Connection
-from legorize_addon.core.layout import FILLER
-from legorize_addon.core.layout.live import Live
-from legorize_addon.core.layout.placements import placements
-from legorize_addon.core.layout.problem import owners
-from legorize_addon.core.layout.programme import shares
-from legorize_addon.core.layout.shapes import Shapes, shapes
-from legorize_addon.core.layout.sheets import Sheets, split
-from legorize_addon.core.model import Bricks, Ints, Mask, UnitGrid
+from legorize_addon.core.arrays import Ints, Mask
+from legorize_addon.core.layout.lay import FILLER
+from legorize_addon.core.layout.problem.candidates import Live
+from legorize_addon.core.layout.problem.placements import placements
+from legorize_addon.core.layout.problem.problem import owners
+from legorize_addon.core.layout.problem.shapes import Shapes, shapes
+from legorize_addon.core.layout.problem.sheets import Sheets, split
+from legorize_addon.core.layout.solvers.covering_lp import shares
+from legorize_addon.core.model.bricks import NOBODY, Bricks
+from legorize_addon.core.model.catalogue import Catalogue
+from legorize_addon.core.model.contact_graph import Connection
+from legorize_addon.core.model.unit_grid import UnitGrid
 from legorize_addon.core.units import PLATES_PER_BRICK
 
 GROUND: Final = -1

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from .tables import Row
+from scripts.benchmarks.tables import Row
 
 RANDOM, GREEDY, STAGGERED = "B0 random merge", "B1 largest first", "B2 staggered"
 SEARCHED, SEARCHED_FEW, ANNEALED = "B3 A*", "B3 A* for few bricks", "B4 annealing"

@@ -19,23 +19,23 @@ from typing import Final
 
 import numpy as np
 
-from legorize_addon.core.catalogue import Catalogue, load_catalogue
-from legorize_addon.core.connection import NOBODY
-from legorize_addon.core.holding import held_together
-from legorize_addon.core.hollowing import hollow
-from legorize_addon.core.layout import bound, lay
-from legorize_addon.core.layout.problem import owners, with_margins
-from legorize_addon.core.layout.straps import strapped
-from legorize_addon.core.model import Bricks, UnitGrid
+from legorize_addon.core.layout.joining.ties import strapped
+from legorize_addon.core.layout.lay import lay
+from legorize_addon.core.layout.problem.problem import owners, with_margins
+from legorize_addon.core.measures.lower_bound import bound
+from legorize_addon.core.model.bricks import NOBODY, Bricks
+from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
+from legorize_addon.core.model.unit_grid import UnitGrid
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-
-from . import annealing, merging, staggering, tiling
-from .baselines import Lay, at_once, shell_of, upwards
-from .clock import least_seconds
-from .laying import Laid, cells_of, figures, timed
-from .layout_figures import colours_lost, fewest_singles
-from .layout_goals import (
+from legorize_addon.core.shell.cohesion import held_together
+from legorize_addon.core.shell.hollowing import hollow
+from scripts.benchmarks import annealing, merging, staggering, tiling
+from scripts.benchmarks.baselines import Lay, at_once, shell_of, upwards
+from scripts.benchmarks.clock import least_seconds
+from scripts.benchmarks.laying import Laid, cells_of, figures, timed
+from scripts.benchmarks.layout_figures import colours_lost, fewest_singles
+from scripts.benchmarks.layout_goals import (
     ANNEALED,
     FAST,
     FASTER,
@@ -49,12 +49,12 @@ from .layout_goals import (
     UNLEARNED,
     goals_met,
 )
-from .meshes import read_mesh
-from .peer import STRATEGIES, laid_by_peer
-from .rules import by_key, largest_in_rows
-from .seams import EQUAL, FEW
-from .tables import Row, Table
-from .volumes import count_rows, volume_rows
+from scripts.benchmarks.meshes import read_mesh
+from scripts.benchmarks.peer import STRATEGIES, laid_by_peer
+from scripts.benchmarks.rules import by_key, largest_in_rows
+from scripts.benchmarks.seams import EQUAL, FEW
+from scripts.benchmarks.tables import Row, Table
+from scripts.benchmarks.volumes import count_rows, volume_rows
 
 MANIFEST: Final = Path(__file__).resolve().parents[2] / "blender_manifest.toml"
 

@@ -12,10 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from legorize_addon.core.layout.problem import Problem
-from legorize_addon.core.layout.shapes import Shapes
-
-from .rules import Index
+from legorize_addon.core.layout.problem.problem import Problem
+from legorize_addon.core.layout.problem.shapes import Shapes
+from scripts.benchmarks.rules import Index
 
 _SHEET, _SHAPE, _ROW = 40, 32, 16
 """Bits below sheet, shape and y in the keys of placements."""

@@ -10,12 +10,12 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.colours import SurfaceColours, chosen_palette, surface_colours
+from legorize_addon.core.colours.dominant import SurfaceColours, chosen_palette, surface_colours
 from legorize_addon.core.errors import MeshError
-from legorize_addon.core.mesh import Repairs, TriangleMesh, repair, scaled
+from legorize_addon.core.mesh.size import model_scale
+from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh, repair, scaled
+from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.size import model_scale
 from legorize_addon.core.units import MM_PER_METRE
 
 Floats = NDArray[np.float64]

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from legorize_addon.core.errors import BuildError
-from legorize_addon.core.model import COLOUR_ANY, UnitGrid
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, UnitGrid
 
 PROGRAM: Final = Path(__file__).with_name("peer_layout.py")
 

@@ -11,18 +11,17 @@ import numpy as np
 from scipy import ndimage
 
 from legorize_addon.core.build import Build
-from legorize_addon.core.catalogue import Catalogue, load_catalogue
-from legorize_addon.core.mesh import TriangleMesh
-from legorize_addon.core.model import Cover
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
+from legorize_addon.core.model.unit_grid import Cover
 from legorize_addon.core.pipeline import legorize
-from legorize_addon.core.report import report
+from legorize_addon.core.report.report import report
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.units import BRICK, STUD
-
-from .clock import seconds
-from .meshes import as_trimesh, read_mesh
-from .tables import Row, Table
-from .units import filled_voxels
+from scripts.benchmarks.clock import seconds
+from scripts.benchmarks.meshes import as_trimesh, read_mesh
+from scripts.benchmarks.tables import Row, Table
+from scripts.benchmarks.units import filled_voxels
 
 LIMITS: Final = {48: 2.0, 96: 10.0}
 """CPU seconds allowed by width in studs."""

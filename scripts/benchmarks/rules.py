@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from legorize_addon.core.layout.live import Live
-from legorize_addon.core.layout.problem import Problem
+from legorize_addon.core.layout.problem.candidates import Live
+from legorize_addon.core.layout.problem.problem import Problem
 
 Index = NDArray[np.intp]
 Way = Callable[[Problem, np.random.Generator], Index]

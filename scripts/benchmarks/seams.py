@@ -21,12 +21,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 
-from legorize_addon.core.connection import NOBODY
-from legorize_addon.core.layout.problem import Problem
-from legorize_addon.core.layout.shapes import Shapes, pattern_bits
-from legorize_addon.core.model import COLOUR_EMPTY
-
-from .rules import Index
+from legorize_addon.core.layout.problem.problem import Problem
+from legorize_addon.core.layout.problem.shapes import Shapes, pattern_bits
+from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY
+from scripts.benchmarks.rules import Index
 
 Plane = NDArray[np.int32]
 

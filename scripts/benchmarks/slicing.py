@@ -12,14 +12,13 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from legorize_addon.core.mesh import TriangleMesh
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.slicing import Slices, slice_mesh
-from legorize_addon.core.trajectories import Trajectories, link_loops
-
-from .clock import least_seconds
-from .meshes import Model, as_trimesh, prepared, subdivided
-from .tables import Row, Table
+from legorize_addon.core.slicing.slices import Slices, slice_mesh
+from legorize_addon.core.slicing.trajectories import Trajectories, link_loops
+from scripts.benchmarks.clock import least_seconds
+from scripts.benchmarks.meshes import Model, as_trimesh, prepared, subdivided
+from scripts.benchmarks.tables import Row, Table
 
 Floats = NDArray[np.float64]
 

@@ -11,14 +11,13 @@ import bpy
 import numpy as np
 
 from legorize_addon.core.building.moves import Action, Moves
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.model import Bricks, Role
-from legorize_addon.scene import show_build
-from legorize_addon.section import AXES, Section
-from legorize_addon.steps import explode
-from legorize_addon.view import cut_away, roles_shown, show_layers, show_role, show_steps
-
-from .tables import Row, Table
+from legorize_addon.core.model.bricks import Bricks, Role
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.scene.collections import show_build
+from legorize_addon.scene.section import AXES, Section
+from legorize_addon.view.steps import explode
+from legorize_addon.view.visibility import cut_away, roles_shown, show_layers, show_role, show_steps
+from scripts.benchmarks.tables import Row, Table
 
 LIMIT: Final = 50.0
 """Goal for each slider in ms."""

@@ -10,19 +10,19 @@ from typing import Final
 import numpy as np
 from scipy.optimize import linprog
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.collapse import least_hold
-from legorize_addon.core.connection import connect
-from legorize_addon.core.model import Bricks
+from legorize_addon.core.model.bricks import Bricks
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.stability import Verdict, stability
-from legorize_addon.core.statics import CAUTIOUS_HOLD, HOLD, Ground, Statics, statics
-
-from .clock import least_seconds, seconds
-from .meshes import read_mesh
-from .stablelego import CASES, Case, placed, stair
-from .tables import Row, Table
+from legorize_addon.core.statics.collapse import least_hold
+from legorize_addon.core.statics.forces import CAUTIOUS_HOLD, HOLD, Ground, Statics, statics
+from legorize_addon.core.statics.stability import stability
+from scripts.benchmarks.clock import least_seconds, seconds
+from scripts.benchmarks.meshes import read_mesh
+from scripts.benchmarks.stablelego import CASES, Case, placed, stair
+from scripts.benchmarks.tables import Row, Table
 
 LIMITS: Final = ((2500, 0.5), (10_000, 4.0))
 """Goals: bricks, and CPU seconds of the certificate of so many."""

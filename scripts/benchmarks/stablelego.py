@@ -15,9 +15,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from legorize_addon.core.catalogue import Catalogue
-from legorize_addon.core.model import Bricks
-from legorize_addon.core.statics import GRAVITY
+from legorize_addon.core.model.bricks import Bricks
+from legorize_addon.core.model.catalogue import Catalogue
+from legorize_addon.core.statics.forces import GRAVITY
 
 Place = tuple[str, int, int, int, int]
 """LDraw number, x and y in studs, z in plates, quarter turns."""

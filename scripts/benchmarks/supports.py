@@ -15,22 +15,21 @@ from typing import Final
 
 import numpy as np
 
-from legorize_addon.core.catalogue import Catalogue, load_catalogue
-from legorize_addon.core.mesh import TriangleMesh
-from legorize_addon.core.model import Bricks, Role
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.bricks import Bricks, Role
+from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.supports.beams import beams
 from legorize_addon.core.supports.boxes import OUTSIDE_COLOUR, Boxes, bricks_of_boxes, joined_upwards
 from legorize_addon.core.supports.columns import columns, pillars
-from legorize_addon.core.supports.need import Need, needed
+from legorize_addon.core.supports.demand import Need, needed
 from legorize_addon.core.supports.tree import tree
+from scripts.benchmarks.clock import least_seconds
+from scripts.benchmarks.full_columns import full_columns
+from scripts.benchmarks.meshes import read_mesh
+from scripts.benchmarks.tables import Row, Table
 from tests.core.overhanging import overhanging
-
-from .clock import least_seconds
-from .full_columns import full_columns
-from .meshes import read_mesh
-from .tables import Row, Table
 
 FIXTURE_SIZE: Final = 400.0
 """Of the four fixtures in mm; they are scaled to the width anyway."""

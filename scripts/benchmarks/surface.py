@@ -14,17 +14,16 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from legorize_addon.core.build import Build
-from legorize_addon.core.catalogue import Catalogue
-from legorize_addon.core.colour_difference import ciede2000, lab_from_srgb
-from legorize_addon.core.exposure import reached_by_air
-from legorize_addon.core.mesh import TriangleMesh
-from legorize_addon.core.model import CELL_SIZE, COLOUR_ANY
-from legorize_addon.core.samples import SurfaceSamples, face_normals
-from legorize_addon.core.texels import texel_at
-from legorize_addon.core.unit_bricks import outer_air
+from legorize_addon.core.colours.difference import ciede2000, lab_from_srgb
+from legorize_addon.core.colours.texels import texel_at
+from legorize_addon.core.geometry.neighbourhoods import outer_air
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.catalogue import Catalogue
+from legorize_addon.core.model.unit_grid import CELL_SIZE, COLOUR_ANY
+from legorize_addon.core.unit_bricks.surface_samples import SurfaceSamples, face_normals
+from legorize_addon.core.unit_bricks.visibility import reached_by_air
 from legorize_addon.core.units import PLATE, STUD
-
-from .dense import scattered
+from scripts.benchmarks.dense import scattered
 
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]

@@ -15,10 +15,9 @@ from typing import Final
 
 import numpy as np
 
-from legorize_addon.core.layout.live import Live
-
-from .rules import Index
-from .seams import EQUAL, LARGEST, Layer, Weights
+from legorize_addon.core.layout.problem.candidates import Live
+from scripts.benchmarks.rules import Index
+from scripts.benchmarks.seams import EQUAL, LARGEST, Layer, Weights
 
 OPEN: Final = 2000
 """Open tilings at most."""

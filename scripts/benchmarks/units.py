@@ -12,22 +12,27 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.coverage import Pieces, covered_area, cut_at_grid
-from legorize_addon.core.grid import Grid, fit_grid
-from legorize_addon.core.levels import Levels, levels_of
-from legorize_addon.core.model import COLOUR_EMPTY
-from legorize_addon.core.samples import SurfaceSamples, horizontal_samples, standing_pieces, trajectory_samples
+from legorize_addon.core.geometry.neighbourhoods import outer_air, visible
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.slicing import adaptive_heights, slice_mesh
-from legorize_addon.core.trajectories import Trajectories, link_loops, linked
-from legorize_addon.core.unit_bricks import half_covered, outer_air, unit_bricks, visible
+from legorize_addon.core.slicing.coverage import Pieces, covered_area, cut_at_grid
+from legorize_addon.core.slicing.lattice import Grid, fit_grid
+from legorize_addon.core.slicing.levels import Levels, levels_of
+from legorize_addon.core.slicing.slices import adaptive_heights, slice_mesh
+from legorize_addon.core.slicing.trajectories import Trajectories, link_loops, linked
+from legorize_addon.core.unit_bricks.generation import half_covered, unit_bricks
+from legorize_addon.core.unit_bricks.surface_samples import (
+    SurfaceSamples,
+    horizontal_samples,
+    standing_pieces,
+    trajectory_samples,
+)
 from legorize_addon.core.units import BRICK, CELL_AREA, PLATE
-
-from .clock import least_seconds, seconds
-from .dense import dense_likeliest, dense_longest, dense_samples
-from .meshes import Model, as_trimesh, prepared, subdivided, textured
-from .tables import Row, Table
+from scripts.benchmarks.clock import least_seconds, seconds
+from scripts.benchmarks.dense import dense_likeliest, dense_longest, dense_samples
+from scripts.benchmarks.meshes import Model, as_trimesh, prepared, subdivided, textured
+from scripts.benchmarks.tables import Row, Table
 
 Codes = NDArray[np.int16]
 Floats = NDArray[np.float64]

@@ -7,12 +7,11 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from legorize_addon.core.catalogue import Catalogue, footprint
-from legorize_addon.core.model import Bricks
-from legorize_addon.core.shopping import count_parts
+from legorize_addon.core.files.shopping import count_parts
+from legorize_addon.core.model.bricks import Bricks
+from legorize_addon.core.model.catalogue import Catalogue, footprint
 from legorize_addon.core.units import PLATES_PER_BRICK
-
-from .tables import Row
+from scripts.benchmarks.tables import Row
 
 ROUNDING: Final = 0.01
 """What the percentages may add up to besides 100."""

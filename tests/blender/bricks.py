@@ -8,9 +8,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.model import Bricks, Role
-from legorize_addon.scene import show_build
+from legorize_addon.core.model.bricks import Bricks, Role
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.scene.collections import show_build
 
 
 def table(rows: Sequence[Sequence[int]]) -> Bricks:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from legorize_addon.core.mesh import TriangleMesh
-from legorize_addon.read_mesh import read_objects
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.reading.objects import read_objects
 
 CORNERS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
 QUAD_UVS = [(0, 0), (1, 0), (1, 1), (0, 1)]

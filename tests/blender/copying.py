@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from legorize_addon.build_state import BUILD_KEY
-from legorize_addon.nodes import HEAT_PARTS, PARTS, SECTION, bricks_modifier, get_input, set_input
+from legorize_addon.scene.instancing import HEAT_PARTS, PARTS, SECTION, bricks_modifier, get_input, set_input
+from legorize_addon.scene.state import BUILD_KEY
 
 
 def duplicate_collection(build: bpy.types.Collection, *, linked: bool = False) -> bpy.types.Collection:

@@ -21,16 +21,16 @@ import bpy
 import numpy as np
 import pytest
 
-from legorize_addon.core.catalogue import load_catalogue
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.files import folder
-from legorize_addon.core.ldraw import read_ldr
+from legorize_addon.core.files.ldraw import read_ldr
+from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.settings import Settings
-from legorize_addon.heat_map import heat_map_shown
-from legorize_addon.scene import builds as scene_builds
-from legorize_addon.scene import read_bricks
-from legorize_addon.steps import exploded, steps_done
-from legorize_addon.view import shown_bricks, shown_corners
+from legorize_addon.scene.builds import builds as scene_builds
+from legorize_addon.scene.collections import read_bricks
+from legorize_addon.view.heat_map import heat_map_shown
+from legorize_addon.view.steps import exploded, steps_done
+from legorize_addon.view.visibility import shown_bricks, shown_corners
 from tests.blender.builders import add_image, add_object, image_material
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import strategies as st
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.model import Bricks, Role
+from legorize_addon.core.model.bricks import Bricks, Role
+from legorize_addon.core.model.catalogue import load_catalogue
 
 CATALOGUE = load_catalogue()
 ORIENTATIONS = [(row, turn) for row, part in enumerate(CATALOGUE.parts) for turn in range(part.turns)]

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from legorize_addon.core.mesh import TriangleMesh
-
-from .solids import box, joined, mesh_of, reversed_mesh
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from tests.core.solids import box, joined, mesh_of, reversed_mesh
 
 
 def overhanging(size: float) -> dict[str, TriangleMesh]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from legorize_addon.core.mesh import TriangleMesh
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 
 BOX_FACES = np.array(
     [

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.connection import connect
-from legorize_addon.core.stability import stability
-from legorize_addon.core.statics import GRAVITY, statics
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.statics.forces import GRAVITY, statics
+from legorize_addon.core.statics.stability import stability
 from scripts.benchmarks.stablelego import placed
 
 CATALOGUE = load_catalogue()

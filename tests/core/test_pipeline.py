@@ -9,13 +9,14 @@ import pytest
 from scipy import ndimage
 
 from legorize_addon.core.build import Build
-from legorize_addon.core.catalogue import footprint, load_catalogue
 from legorize_addon.core.errors import BuildError, Cancelled, LegorizeError, LimitError, MeshError, SettingsError
-from legorize_addon.core.mesh import TriangleMesh
-from legorize_addon.core.model import COLOUR_ANY, Cover, Role
+from legorize_addon.core.mesh.size import model_scale
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.bricks import Role
+from legorize_addon.core.model.catalogue import footprint, load_catalogue
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, Cover
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.size import model_scale
 from tests.core.light import holes
 from tests.core.solids import box, joined, mesh_of, moebius, reversed_mesh, sheet, sphere, tube, without
 from tests.core.textured import blob, cylinder, hollow_box, painted, rgb_of, split_at_x, table, torus

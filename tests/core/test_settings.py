@@ -9,7 +9,7 @@ import pytest
 
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.settings import Settings, choices, setting_type
-from legorize_addon.core.statics import HOLD
+from legorize_addon.core.statics.forces import HOLD
 
 ENTRIES = {entry.name: entry for entry in fields(Settings)}
 NUMBERS = [name for name, entry in ENTRIES.items() if setting_type(entry) in (int, float)]

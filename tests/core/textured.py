@@ -6,17 +6,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.colours import SurfaceColours, surface_colours
-from legorize_addon.core.coverage import Pieces, cut_at_grid
-from legorize_addon.core.grid import Grid, fit_grid
-from legorize_addon.core.levels import Levels, levels_of
-from legorize_addon.core.mesh import TriangleMesh
-from legorize_addon.core.model import UnitGrid
-from legorize_addon.core.samples import SurfaceSamples, horizontal_samples, standing_pieces, trajectory_samples
-from legorize_addon.core.slicing import adaptive_heights, slice_mesh
-from legorize_addon.core.trajectories import Trajectories, link_loops
-from legorize_addon.core.unit_bricks import unit_bricks
+from legorize_addon.core.colours.dominant import SurfaceColours, surface_colours
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.core.model.unit_grid import UnitGrid
+from legorize_addon.core.slicing.coverage import Pieces, cut_at_grid
+from legorize_addon.core.slicing.lattice import Grid, fit_grid
+from legorize_addon.core.slicing.levels import Levels, levels_of
+from legorize_addon.core.slicing.slices import adaptive_heights, slice_mesh
+from legorize_addon.core.slicing.trajectories import Trajectories, link_loops
+from legorize_addon.core.unit_bricks.generation import unit_bricks
+from legorize_addon.core.unit_bricks.surface_samples import (
+    SurfaceSamples,
+    horizontal_samples,
+    standing_pieces,
+    trajectory_samples,
+)
 from tests.core.solids import box, joined, mesh_of, reversed_mesh, sphere
 
 CODES = np.array([0, 1, 2, 4, 14, 15, 25, 28], dtype=np.int16)

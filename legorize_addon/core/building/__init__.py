@@ -1,12 +1,26 @@
-"""In which order a model is built.
+"""The order in which a model is built, so that every brick is pushed onto something that holds."""
 
-==================  =====================================================================
-``moves``           a brick placed, a support taken out, a piece joined
-``links``           what touches what on the way
-``order``           every brick pushed onto something that holds
-``balance``         towers that would fall over on the way
-``walk``            the order followed move by move: the check
-``proof``           every step tested by forces, where that is asked for
-``order_file``      ``build_order.csv``
-==================  =====================================================================
-"""
+from __future__ import annotations
+
+from .check import Walk, walk
+from .contacts import Links, links
+from .moves import Action, Moves
+from .order import ordered
+from .proof import Proof, prove_steps
+from .towers import STEADY, Tipping, no_prop, tipping
+
+__all__ = [
+    "STEADY",
+    "Action",
+    "Links",
+    "Moves",
+    "Proof",
+    "Tipping",
+    "Walk",
+    "links",
+    "no_prop",
+    "ordered",
+    "prove_steps",
+    "tipping",
+    "walk",
+]

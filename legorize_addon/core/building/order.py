@@ -13,8 +13,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..connection import NOBODY, Rows, stacked
-from ..model import Bricks, Mask
+from ..arrays import Mask
+from ..model import NOBODY, Bricks, Rows, stacked
 from ..progress import Progress, silent
 from .moves import Action, Moves
 

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..catalogue import Catalogue
-from ..connection import connect
-from ..model import Bricks, Ints
+from ..arrays import Ints
+from ..model import Bricks, Catalogue, Verdict, connect
 from ..progress import Progress, silent
-from ..stability import Verdict, stability
+from ..statics import stability
 from .moves import Action, Moves
 
 

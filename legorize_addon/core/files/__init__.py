@@ -1,1 +1,25 @@
-"""What is written: files of the model, and the folder that they come in."""
+"""What is written: LDraw documents, lists for shops, and the folder that they come in."""
+
+from __future__ import annotations
+
+from .build_order_csv import build_order_csv
+from .ldraw import ldraw_matrix, write_ldr
+from .ldraw_mpd import write_mpd
+from .paths import named
+from .shopping import PartsList, count_parts, masses, not_made, pick_a_brick_csv
+from .single import replacing, write_whole
+
+__all__ = [
+    "PartsList",
+    "build_order_csv",
+    "count_parts",
+    "ldraw_matrix",
+    "masses",
+    "named",
+    "not_made",
+    "pick_a_brick_csv",
+    "replacing",
+    "write_ldr",
+    "write_mpd",
+    "write_whole",
+]

@@ -1,1 +1,19 @@
-"""Pure functions on points and arrays."""
+"""Helpers on plain arrays that know nothing of bricks: ranges, cuts at grid lines, support polygons, neighbourhoods."""
+
+from __future__ import annotations
+
+from .grid_lines import split_at_lattice
+from .neighbourhoods import outer_air, visible
+from .ranges import ranges
+from .support_polygon import beyond, corners, hull, inside
+
+__all__ = [
+    "beyond",
+    "corners",
+    "hull",
+    "inside",
+    "outer_air",
+    "ranges",
+    "split_at_lattice",
+    "visible",
+]

@@ -18,12 +18,12 @@ from typing import Final
 
 import numpy as np
 
-from ..model import Ints
+from ..arrays import Ints
 from ..units import PLATES_PER_BRICK
+from .beam_links import links
 from .boxes import TALL, Area, Boxes, boxes_of, cells_of
+from .clearance import Room
 from .columns import Cells, covered, with_room
-from .links import links
-from .room import Room
 
 LONGEST: Final = 6
 """Studs of the longest beam."""

@@ -12,8 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..catalogue import Catalogue
-from ..model import Bricks, Role
+from ..model import Bricks, Catalogue, Role
 from ..units import PLATES_PER_BRICK
 
 Boxes = NDArray[np.int32]

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from ..model import Mask
+from ..arrays import Mask
 from ..units import PLATES_PER_BRICK
 from .boxes import Area, Boxes, boxes_of, cells_of
-from .room import Room
+from .clearance import Room
 
 Cells = NDArray[np.integer]
 

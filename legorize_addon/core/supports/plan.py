@@ -12,18 +12,16 @@ from typing import Final, Literal
 
 import numpy as np
 
-from ..building.balance import STEADY, Tipping, no_prop, tipping
-from ..building.order import ordered
-from ..catalogue import Catalogue
-from ..connection import Connection, Rows, connect
-from ..model import Bricks, Floats, Ints, Mask, Role, joined
-from ..outline import corners, inside
+from ..arrays import Floats, Ints, Mask
+from ..building import STEADY, Tipping, no_prop, ordered, tipping
+from ..geometry import corners, inside
+from ..model import Bricks, Catalogue, Connection, Role, Rows, Verdict, connect, joined
 from ..progress import Progress, part, silent
-from ..stability import Verdict, stability
+from ..statics import stability
 from .beams import beams
 from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, joined_upwards
 from .columns import columns
-from .need import Need
+from .demand import Need
 from .tree import tree
 
 Way = Literal["tree", "columns", "beams", "none"]

@@ -21,11 +21,11 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..connection import Rows
-from ..model import Floats, Ints, Mask
+from ..arrays import Floats, Ints, Mask
+from ..model import Rows
 from ..units import PLATES_PER_BRICK
 from .boxes import Area, Boxes, boxes_of, cells_of
-from .room import Room
+from .clearance import Room
 
 LONGEST_NODE: Final = 4
 """Studs that the brick of a node spans at most."""

@@ -1,1 +1,12 @@
 """Textures at the size of the model: what of them is seen, how finely, and as which colours."""
+
+from __future__ import annotations
+
+from .cutouts import remarks_on_unseen, seen_part
+from .reduced_images import with_reduced_images
+
+__all__ = [
+    "remarks_on_unseen",
+    "seen_part",
+    "with_reduced_images",
+]

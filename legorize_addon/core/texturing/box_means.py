@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from ..model import Floats
-from ..ranges import ranges
+from ..arrays import Floats
+from ..geometry import ranges
 
 
 def box_means(values: NDArray[np.floating], shape: tuple[int, ...]) -> Floats:

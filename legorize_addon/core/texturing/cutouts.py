@@ -15,10 +15,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints, Mask
+from ..colours import texel_at
 from ..errors import MeshError
 from ..mesh import Repairs, TriangleMesh, repair
-from ..model import Floats, Ints, Mask
-from ..texels import texel_at
 from ..units import STUD
 from .splitting import Triangles, split_edges
 

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ..colour_difference import linear_from_srgb, srgb_from_linear
-from ..model import Floats, Mask
+from ..arrays import Floats, Mask
+from ..colours import linear_from_srgb, srgb_from_linear
 from .box_means import box_means
 
 _CLEAR: Final = 32.0

@@ -22,9 +22,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..colour_difference import linear_from_srgb, srgb_from_linear
+from ..arrays import Floats, Ints
+from ..colours import linear_from_srgb, srgb_from_linear
 from ..mesh import TriangleMesh
-from ..model import Floats, Ints
 from ..units import STUD
 from .box_means import box_means
 from .fine_textures import with_means

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import Floats, Ints, Mask
+from ..arrays import Floats, Ints, Mask
 
 # corners of the parts by number: 0 to 2 the corners, 3 to 5 the middles of the edges 0-1, 1-2 and 2-0
 _PARTS: Final = {

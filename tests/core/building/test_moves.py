@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from legorize_addon.core.building.moves import Action, Moves
-from legorize_addon.core.connection import NOBODY
+from legorize_addon.core.model.bricks import NOBODY
 
 
 def test_step_of_a_brick_is_that_of_its_placing():

@@ -8,11 +8,12 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.building.links import links
+from legorize_addon.core.building.check import walk
+from legorize_addon.core.building.contacts import links
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import ordered
-from legorize_addon.core.building.walk import walk
-from legorize_addon.core.connection import NOBODY, connect
+from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.model.contact_graph import connect
 from tests.core.standing import CATALOGUE, table
 
 FOOT_BEAM_HANGER = (("3004", 0, 0, 0), ("3009", 0, 0, 3), ("3024", 5, 0, 2))

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from legorize_addon.core.building.links import links
+from legorize_addon.core.building.contacts import links
 from legorize_addon.core.building.order import ordered
 from legorize_addon.core.building.proof import prove_steps
-from legorize_addon.core.building_remarks import remarks_on_proof
 from legorize_addon.core.errors import Cancelled
-from legorize_addon.core.supports import supported
+from legorize_addon.core.report.building_remarks import remarks_on_proof
+from legorize_addon.core.supports.assembly_plan import supported
 from tests.core.standing import CATALOGUE, table
 
 BRIDGE = (("3005", 0, 0, 0), ("3010", 0, 0, 3), ("3005", 7, 0, 0), ("3010", 4, 0, 3), ("3008", 0, 0, 6))

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.connection import NOBODY, connect
-from legorize_addon.core.layout.placements import placements
-from legorize_addon.core.layout.problem import GROUND, pose, with_margins
-from legorize_addon.core.layout.shapes import shapes
-from legorize_addon.core.layout.sheets import split
-from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.layout.problem.placements import placements
+from legorize_addon.core.layout.problem.problem import GROUND, pose, with_margins
+from legorize_addon.core.layout.problem.shapes import shapes
+from legorize_addon.core.layout.problem.sheets import split
+from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid
 
 CATALOGUE = load_catalogue()
 

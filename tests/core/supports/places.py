@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import strategies as st
 
-from legorize_addon.core.catalogue import load_catalogue
-from legorize_addon.core.connection import NOBODY
+from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.supports.boxes import sizes_in
-from legorize_addon.core.supports.room import Room
+from legorize_addon.core.supports.clearance import Room
 
 CATALOGUE = load_catalogue()
 WHITE = 15

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from legorize_addon.core.connection import NOBODY, connect
-from legorize_addon.core.model import Role
+from legorize_addon.core.model.bricks import NOBODY, Role
+from legorize_addon.core.model.contact_graph import connect
 from legorize_addon.core.supports.boxes import boxes_of, bricks_of_boxes, joined_upwards, sizes_in
 from legorize_addon.core.supports.columns import pillars
 from scripts.benchmarks.full_columns import full_columns

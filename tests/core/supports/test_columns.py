@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from legorize_addon.core.connection import NOBODY
+from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.supports.columns import columns, covered, pillars, with_room
 from scripts.benchmarks.full_columns import FLAT, TALL_SIZES, full_columns
 from tests.core.supports.places import assert_sound, ceiling, ceilings, room_under, triples

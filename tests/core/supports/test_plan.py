@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.connection import connect
-from legorize_addon.core.supports.need import needed
+from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.supports.demand import needed
 from legorize_addon.core.supports.plan import planned
 from tests.core.standing import CATALOGUE, table
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from legorize_addon.core.connection import NOBODY
+from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.supports.tree import tree
 from tests.core.supports.places import assert_sound, ceilings, contacts_between, owners, room_under, triples
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.errors import MeshError
-from legorize_addon.core.mesh import TriangleMesh, repair
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, repair
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.texturing.cutouts import remarks_on_unseen, without_unseen

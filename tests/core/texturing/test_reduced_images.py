@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from legorize_addon.core.colour_difference import linear_from_srgb, srgb_from_linear
-from legorize_addon.core.mesh import TriangleMesh
+from legorize_addon.core.colours.difference import linear_from_srgb, srgb_from_linear
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.texturing.reduced_images import TEXELS_PER_STUD, with_reduced_images

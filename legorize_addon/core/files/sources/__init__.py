@@ -12,4 +12,7 @@ from __future__ import annotations
 
 from .preflight import check_source, unchanged
 
-__all__ = ["check_source", "unchanged"]
+__all__ = [
+    "check_source",
+    "unchanged",
+]

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from legorize_addon.core.files.sources import check_source
 from legorize_addon.core.files.sources.fbx import named_files
+from legorize_addon.core.files.sources.preflight import check_source
 from tests.core.files.sources.written import refusal
 
 TEXT = b'; FBX 7.4.0 project file\nFBXHeaderExtension: {}\nRelativeFilename: "paint.png"\n'

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from legorize_addon.core.files.sources import check_source
+from legorize_addon.core.files.sources.preflight import check_source
 from tests.core.files.sources.written import changed, refusal, write_glb
 
 Json = dict[str, Any]

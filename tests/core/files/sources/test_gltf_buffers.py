@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from legorize_addon.core.files.sources import check_source
+from legorize_addon.core.files.sources.preflight import check_source
 from tests.core.files.sources.written import box_data, box_document, refusal
 
 Json = dict[str, Any]

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from legorize_addon.core.files.sources import check_source
+from legorize_addon.core.files.sources.preflight import check_source
 from tests.core.files.sources.written import CORNERS, TRIANGLES, passed_or_refused, ply, ply_header, refusal
 
 FORMS = ("ascii", "binary_little_endian", "binary_big_endian")

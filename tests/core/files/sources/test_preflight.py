@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from legorize_addon.core.errors import MeshError
-from legorize_addon.core.files.sources import check_source, unchanged
+from legorize_addon.core.files.sources.preflight import check_source, unchanged
 from tests.core.files.sources.written import TRIANGLES, box_data, box_document, glb, obj, ply, refusal, stl
 
 FACES = TRIANGLES.tolist()

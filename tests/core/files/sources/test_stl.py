@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from legorize_addon.core.files.sources import check_source
+from legorize_addon.core.files.sources.preflight import check_source
 from tests.core.files.sources.written import refusal, stl, stl_text
 
 

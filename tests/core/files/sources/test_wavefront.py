@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from legorize_addon.core.files.sources import check_source
+from legorize_addon.core.files.sources.preflight import check_source
 from tests.core.files.sources.written import obj, refusal
 
 

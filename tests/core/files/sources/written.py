@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.errors import MeshError
-from legorize_addon.core.files.sources import check_source
+from legorize_addon.core.files.sources.preflight import check_source
 
 CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype="<f4")
 TRIANGLES = np.array(

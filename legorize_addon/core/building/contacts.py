@@ -1,0 +1,66 @@
+"""Which bricks touch while a model is built: supports only touch what stands on the same table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import Ints, Mask
+from ..model import Bricks, Catalogue, Connection, Rows, connect
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Links:
+    """Contacts of bricks on their way.
+
+    Attributes
+    ----------
+    pairs : (n_pairs, 2) int32 array
+        Lower and upper brick of each contact.
+    studs : (n_pairs,) int32 array
+        Studs that the two share.
+    collisions : int
+        Most cells that more than one brick claims at the same time.
+    """
+
+    pairs: Rows
+    studs: Rows
+    collisions: int
+
+
+def links(bricks: Bricks, catalogue: Catalogue, *, temporary: Mask) -> Links:
+    """Find the contacts of a model in pieces, each with its supports.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        Model and supports, n rows. The supports of a piece above 0 may lie in
+        cells of other pieces, which they never meet.
+    catalogue : Catalogue
+    temporary : (n,) bool array
+        Bricks of supports.
+
+    Returns
+    -------
+    Links
+    """
+    stays = np.flatnonzero(~temporary)
+    found = [_among(bricks, catalogue, stays, np.ones(len(stays), dtype=bool))]
+    for number in np.unique(bricks.piece[temporary]).tolist():
+        # those of the first piece are still there when the others are joined
+        with_it = ~temporary if number == 0 else ~temporary & (bricks.piece == number)
+        rows = np.flatnonzero(with_it | (temporary & (bricks.piece == number)))
+        found.append(_among(bricks, catalogue, rows, temporary[rows]))
+    return Links(
+        pairs=np.concatenate([each.pairs for each in found]),
+        studs=np.concatenate([each.studs for each in found]),
+        collisions=max(each.collisions for each in found),
+    )
+
+
+def _among(bricks: Bricks, catalogue: Catalogue, rows: Ints, wanted: Mask) -> Links:
+    """Return the contacts among some bricks of which one at least is wanted."""
+    connection: Connection = connect(bricks.take(rows), catalogue)
+    kept = wanted[connection.pairs].any(axis=1)
+    return Links(rows[connection.pairs[kept]].astype(np.int32), connection.studs[kept], connection.collisions)

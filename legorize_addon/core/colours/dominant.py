@@ -1,0 +1,321 @@
+"""Dominant colours of the textures, and the brick colours that stand for them.
+
+References
+----------
+Paper, Algorithm 1 (k-means over the texels, every texel takes its nearest
+centre); G. Sharma, W. Wu and E. N. Dalal, "The CIEDE2000 color-difference
+formula", Color Research and Application 30(1), 2005.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+from ..arrays import Floats, Mask
+from ..errors import SettingsError
+from ..mesh import TriangleMesh
+from ..model import Catalogue
+from .difference import ciede2000, lab_from_srgb
+from .texels import border_table, boxes_varied, texel_at
+
+_SAMPLES: Final = 30_000
+"""Texels drawn for the clustering; more change the centres by less than a byte."""
+
+_ITERATIONS: Final = 20
+
+Bytes = NDArray[np.uint8]
+Codes = NDArray[np.int16]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SurfaceColours:
+    """The brick colour of every texel.
+
+    Attributes
+    ----------
+    centres : (m, 3) uint8 array
+        Dominant colours, sRGB.
+    codes : (m,) int16 array
+        LDraw code of the brick colour that stands for each dominant colour.
+    labels : tuple of (h, w) uint8 arrays
+        Dominant colour of every texel, one array an image; row 0 is v = 0.
+    borders : tuple of (h + 1, w + 1) int32 arrays
+        Summed-area tables of the texels whose brick colour differs from that of
+        the texel to the right or above.
+    clamp : (n_images,) bool array
+        Whether coordinates outside an image take its edge texel; else it repeats.
+    """
+
+    centres: Bytes
+    codes: Codes
+    labels: tuple[Bytes, ...]
+    borders: tuple[NDArray[np.int32], ...]
+    clamp: Mask
+
+    def at(self, image: NDArray[np.integer], uv: Floats) -> Codes:
+        """Return the brick colours at points of the images.
+
+        Parameters
+        ----------
+        image : (k,) int array
+            Image of each point.
+        uv : (k, 2) float64 array
+            Image coordinates.
+
+        Returns
+        -------
+        (k,) int16 array
+            LDraw codes.
+        """
+        found = np.zeros(len(image), dtype=np.int16)
+        for row, labels in enumerate(self.labels):
+            here = np.flatnonzero(image == row)
+            column, line = texel_at(uv.take(here, axis=0), labels.shape, clamp=bool(self.clamp[row]))
+            found[here] = self.codes[labels[line, column]]
+        return found
+
+    def varied(self, image: NDArray[np.integer], low: Floats, high: Floats) -> Mask:
+        """Return whether boxes of an image may hold more than one brick colour.
+
+        Parameters
+        ----------
+        image : (k,) int array
+        low, high : (k, 2) float64 arrays
+            Corners of the boxes in image coordinates.
+
+        Returns
+        -------
+        (k,) bool array
+            False only where one colour fills the box; boxes across the rim of an
+            image that repeats count as varied unless the image has one colour.
+        """
+        found = np.zeros(len(image), dtype=bool)
+        for row, table in enumerate(self.borders):
+            if table[-1, -1] == 0:
+                continue
+            here = np.flatnonzero(image == row)
+            boxes = low.take(here, axis=0), high.take(here, axis=0)
+            found[here] = boxes_varied(table, *boxes, clamp=bool(self.clamp[row]))
+        return found
+
+    def of_faces(self, mesh: TriangleMesh) -> Codes:
+        """Return the one brick colour of each face, -1 where it may have several, shape (n_f,)."""
+        a, b, c = np.moveaxis(mesh.uvs, 1, 0)
+        varied = self.varied(mesh.face_image, np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c))
+        return np.where(varied, np.int16(-1), self.at(mesh.face_image, (a + b + c) / 3))
+
+    def image(self, row: int) -> Bytes:
+        """Return an image with every texel replaced by its brick's dominant colour, (h, w, 3) uint8."""
+        return self.centres[self.labels[row]]
+
+
+def surface_colours(
+    mesh: TriangleMesh,
+    catalogue: Catalogue,
+    *,
+    n_colours: int,
+    sampling: str,
+    palette: Codes,
+    one_to_one: bool,
+    rng: np.random.Generator,
+) -> SurfaceColours:
+    """Find the dominant colours of a mesh's images and the bricks' colours for them.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    catalogue : Catalogue
+    n_colours : int
+        Most dominant colours to find.
+    sampling : {"surface", "image"}
+        Weight texels by the surface they cover, or count each texel of every image once.
+    palette : (k,) int16 array
+        LDraw codes to choose from.
+    one_to_one : bool
+        Give every dominant colour a brick colour of its own.
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    SurfaceColours
+
+    Raises
+    ------
+    SettingsError
+        If a one-to-one choice has fewer brick colours than dominant colours.
+
+    References
+    ----------
+    Paper, Algorithm 1.
+    """
+    texels = _surface_texels(mesh, rng) if sampling == "surface" else _image_texels(mesh, rng)
+    centres = dominant_colours(texels, n_colours=n_colours, rng=rng)
+    codes = brick_colours(centres, catalogue, palette=palette, one_to_one=one_to_one)
+    labels = _nearest_centres(mesh.images, centres)
+    borders = tuple(border_table(codes[image]) for image in labels)
+    return SurfaceColours(centres, codes, labels, borders, mesh.image_clamp)
+
+
+def dominant_colours(texels: Bytes, *, n_colours: int, rng: np.random.Generator) -> Bytes:
+    """Return at most ``n_colours`` dominant colours of some texels.
+
+    Parameters
+    ----------
+    texels : (n, 3) uint8 array
+        sRGB.
+    n_colours : int
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    (m, 3) uint8 array
+        Sorted; the texels' own colours where there are no more than asked for.
+
+    References
+    ----------
+    Paper, Algorithm 1, line 1.
+    """
+    colours, count = np.unique(_packed(texels), return_counts=True)
+    rgb = _unpacked(colours)
+    if len(colours) <= n_colours:
+        return rgb
+    # takes longer to load than a small model to build, and plain colours need none
+    from sklearn.cluster import KMeans
+
+    found = KMeans(n_clusters=n_colours, n_init=1, max_iter=_ITERATIONS, random_state=int(rng.integers(2**31))).fit(
+        rgb.astype(np.float64), sample_weight=count
+    )
+    # the means anew: sums of whole numbers are exact, in whatever order the threads add
+    weight = np.bincount(found.labels_, count)
+    total = np.stack([np.bincount(found.labels_, count * channel) for channel in rgb.T.astype(np.float64)], axis=1)
+    mean = total[weight > 0] / weight[weight > 0, None]
+    return _unpacked(np.unique(_packed(np.round(mean).astype(np.uint8))))
+
+
+def brick_colours(centres: Bytes, catalogue: Catalogue, *, palette: Codes, one_to_one: bool = False) -> Codes:
+    """Return the brick colour nearest to each colour by CIEDE2000.
+
+    Parameters
+    ----------
+    centres : (m, 3) uint8 array
+        sRGB.
+    catalogue : Catalogue
+    palette : (k,) int16 array
+        LDraw codes to choose from.
+    one_to_one : bool
+        Choose different codes for all colours, with the least sum of differences.
+
+    Returns
+    -------
+    (m,) int16 array
+        LDraw codes.
+
+    Raises
+    ------
+    SettingsError
+        If a one-to-one choice has fewer brick colours than dominant colours.
+    """
+    rgb = catalogue.rgb[[catalogue.colour_row(int(code)) for code in palette]]
+    wanted = lab_from_srgb(centres)[:, None]
+    difference = ciede2000(wanted, lab_from_srgb(rgb)[None])
+    # LDraw's Black is a dark blue-grey, farther from pure black than Dark Brown is;
+    # the plastic is black, so whatever is nearer to pure black is Black as well
+    black = palette == 0
+    difference[:, black] = np.minimum(difference, ciede2000(wanted, np.zeros((1, 1, 3))))[:, black]
+    if not one_to_one:
+        nearest: Codes = palette[difference.argmin(axis=1)]
+        return nearest
+    if len(centres) > len(palette):
+        raise SettingsError(
+            f"{len(centres)} dominant colours cannot each have one of {len(palette)} brick colours of their own: "
+            f"ask for at most {len(palette)} colours or allow a larger palette."
+        )
+    chosen: Codes = palette[linear_sum_assignment(difference)[1]]
+    return chosen
+
+
+def chosen_palette(text: str, catalogue: Catalogue) -> Codes:
+    """Return the LDraw codes that a palette setting names; all default colours where it is empty.
+
+    Raises
+    ------
+    SettingsError
+        If a word is not the code of a colour that can be bought.
+    """
+    if not text.strip():
+        return catalogue.codes
+    known = {str(int(code)): code for code in catalogue.codes}
+    words = [word.strip() for word in text.split(",") if word.strip()]
+    unknown = [word for word in words if word not in known]
+    if unknown or not words:
+        raise SettingsError(
+            f"The palette names {', '.join(unknown) or 'nothing'}: use LDraw codes of colours made today, such as "
+            f"{', '.join(list(known)[:5])}."
+        )
+    return np.unique(np.array([known[word] for word in words], dtype=np.int16))
+
+
+def _surface_texels(mesh: TriangleMesh, rng: np.random.Generator) -> Bytes:
+    """Return texels drawn evenly over the surface, (n, 3) uint8."""
+    area = np.linalg.norm(mesh.normals, axis=1)
+    # one even comb instead of independent draws: every face gets its share, with no luck in it
+    comb = (np.arange(_SAMPLES) + rng.random()) / _SAMPLES * area.sum()
+    face = np.minimum(np.searchsorted(np.cumsum(area), comb), len(area) - 1)
+    a, b = rng.random((2, _SAMPLES))
+    root = np.sqrt(a)
+    weight = np.stack([1 - root, root * (1 - b), root * b], axis=1)
+    uv = (mesh.uvs[face] * weight[:, :, None]).sum(axis=1)
+    return _texels_at(mesh, mesh.face_image[face], uv)
+
+
+def _texels_at(mesh: TriangleMesh, image: NDArray[np.integer], uv: Floats) -> Bytes:
+    texels = np.empty((len(uv), 3), dtype=np.uint8)
+    for row, pixels in enumerate(mesh.images):
+        here = image == row
+        column, line = texel_at(uv[here], pixels.shape[:2], clamp=bool(mesh.image_clamp[row]))
+        texels[here] = pixels[line, column]
+    return texels
+
+
+def _image_texels(mesh: TriangleMesh, rng: np.random.Generator) -> Bytes:
+    """Return texels of the whole images, evenly thinned to the number of samples."""
+    texels = np.concatenate([image.reshape(-1, 3) for image in mesh.images])
+    if len(texels) <= _SAMPLES:
+        return texels
+    return texels[rng.choice(len(texels), _SAMPLES, replace=False)]
+
+
+def _nearest_centres(images: tuple[Bytes, ...], centres: Bytes) -> tuple[Bytes, ...]:
+    """Return the nearest centre of every texel by squared distance in sRGB, one (h, w) uint8 array an image.
+
+    References
+    ----------
+    Paper, Algorithm 1, lines 3 to 12.
+    """
+    # every colour is looked at once, however many texels have it; a table of all 2^24 beats sorting them
+    table = np.zeros(1 << 24, dtype=np.uint8)
+    for image in images:
+        table[_packed(image).ravel()] = 1
+    colours = np.flatnonzero(table).astype(np.uint32)
+    target = centres.astype(np.float32)
+    half_norm = (target**2).sum(axis=1) / 2
+    for start in range(0, len(colours), 1 << 18):
+        part = colours[start : start + (1 << 18)]
+        table[part] = (_unpacked(part).astype(np.float32) @ target.T - half_norm).argmax(axis=1)
+    return tuple(table[_packed(image)] for image in images)
+
+
+def _packed(rgb: Bytes) -> NDArray[np.uint32]:
+    """Return sRGB bytes as one number each."""
+    wide = rgb.astype(np.uint32)
+    packed: NDArray[np.uint32] = wide @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32)
+    return packed
+
+
+def _unpacked(packed: NDArray[np.uint32]) -> Bytes:
+    return np.stack([packed >> 16, packed >> 8 & 255, packed & 255], axis=-1).astype(np.uint8)

@@ -1,0 +1,13 @@
+"""One model out of loose components: exchanges, small windows laid anew, plates across the seams."""
+
+from __future__ import annotations
+
+from .repair import connect_loose
+from .ties import strapped
+from .windows import join_by_windows
+
+__all__ = [
+    "connect_loose",
+    "join_by_windows",
+    "strapped",
+]

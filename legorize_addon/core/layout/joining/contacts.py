@@ -1,0 +1,186 @@
+"""Where components of a layout come near to each other, and what it costs to join them there.
+
+A plate that joins two components lies across a seam between two stud squares. In
+each of them it takes the place of a part of a brick, or it is added in an empty
+cell, where it holds to the brick above or below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+from scipy import ndimage
+
+from ...arrays import Floats, Ints, Mask
+from ...geometry import outer_air
+from ...model import NOBODY, agree, ground_of
+from ...units import PLATES_PER_BRICK
+from ..problem import Index, Plane, Rows
+
+_PLACES: Final = 12
+"""Most places for each two components."""
+
+RECOLOURED: Final = 10.0
+_OPEN_FACE: Final = 0.1
+"""Price of a cell that is seen in the neighbour's colour, and of each face that it is seen from: a plate below an edge
+shows less, one on top shows more."""
+
+_HIDDEN: Final = 0.5
+_SEEN: Final = 8.0
+_ON_TOP: Final = 1.5
+"""Price of a cell that is added where nobody sees it and where it is seen; how much dearer it is on top of a brick."""
+
+_SEAM: Final = 0.01
+_LONGEST: Final = 30
+"""What each cell of the seam between two bricks is worth: a longer plate lies better; and how many count."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contacts:
+    """Places for plates that join two components.
+
+    Attributes
+    ----------
+    bricks : (n, 2) int64 array
+        Rows of the bricks that a plate there would hold to.
+    place : (n, 3) int64 array
+        The first cell of the seam: plane, y and x in the array of owners.
+    axis : (n,) int64 array
+        Axis on which the second cell follows, 1 or 2.
+    added : (n,) int64 array
+        How many of the two cells are empty.
+    price : (n,) float64 array
+        Colour and looks that a plate there costs.
+    """
+
+    bricks: Ints
+    place: Ints
+    axis: Ints
+    added: Ints
+    price: Floats
+
+    def take(self, rows: Index) -> Contacts:
+        """Return some of the places."""
+        return Contacts(*(getattr(self, name)[rows] for name in self.__slots__))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Reach:
+    """What a plate in each cell would hold to: what is cut for it there, or what lies above or below."""
+
+    brick: Rows
+    price: Floats
+    added: int
+    on_top: bool = False
+
+
+def contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) -> Contacts:
+    """Find where components could be joined, the cheapest places first.
+
+    Parameters
+    ----------
+    owner : (n_plates + 2, n_y, n_x) int32 array
+        Row of the brick in each cell, ``NOBODY`` where there is none.
+    component : (n,) int32 array
+        Component of each brick.
+    colour : (n_plates + 2, n_y, n_x) int16 array
+        LDraw code, ``COLOUR_ANY`` or ``COLOUR_EMPTY``.
+    plates : bool
+        Whether plates may be added; else only what touches is found.
+
+    Returns
+    -------
+    Contacts
+        Some for each two components that come near to each other.
+    """
+    reaches = list(_reaches(owner)) if plates else [_Reach(owner, np.zeros(owner.shape), 0)]
+    recoloured: Floats = RECOLOURED + _OPEN_FACE * _open_faces(owner).astype(np.float64)
+    stacked = _stacked(owner)
+    found = [
+        _across(axis, one, other, component, stacked, colour, recoloured)
+        for axis in (1, 2)
+        for one in reaches
+        for other in reaches
+    ]
+    every = Contacts(*(np.concatenate([getattr(each, name) for each in found]) for name in Contacts.__slots__))
+    return _chosen(_seams(every, len(component)), component)
+
+
+def _reaches(owner: Rows) -> Iterator[_Reach]:
+    """Yield what plates would hold to in full cells, and in empty ones below and above bricks."""
+    yield _Reach(owner, np.zeros(owner.shape), 0)
+    empty = owner == NOBODY
+    price = np.where(outer_air(~empty), _SEEN, _HIDDEN)
+    for step, more in ((-1, 1.0), (1, _ON_TOP)):
+        brick = np.roll(owner, step, axis=0)
+        brick[~empty] = NOBODY
+        # nothing is added below the ground or above the grid
+        brick[: ground_of(~empty)] = brick[-1] = NOBODY
+        yield _Reach(brick, price * more, 1, step == 1)
+
+
+def _stacked(owner: Rows) -> Mask:
+    """Tell which bricks lie on others or bear some, and that nobody does not, (n + 1,)."""
+    below, above = owner[:-1], owner[1:]
+    touch = (below != above) & (below != NOBODY) & (above != NOBODY)
+    stacked = np.zeros(owner.max() + 2, dtype=bool)
+    stacked[below[touch]] = stacked[above[touch]] = True
+    return stacked
+
+
+def _open_faces(owner: Rows) -> Ints:
+    """Count the faces of each cell that nothing touches."""
+    cross = ndimage.generate_binary_structure(3, 1).astype(np.int64)
+    touched: Ints = ndimage.convolve((owner != NOBODY).astype(np.int64), cross, mode="constant") - 1
+    return 2 * owner.ndim - touched
+
+
+def _across(
+    axis: int, one: _Reach, other: _Reach, component: Rows, stacked: Mask, colour: Plane, recoloured: Floats
+) -> Contacts:
+    """Return the seams along an axis between what two cells reach, if that is two components."""
+    low, high = (
+        tuple(part if each == axis else slice(None) for each in range(3)) for part in (slice(None, -1), slice(1, None))
+    )
+    label = np.append(component, NOBODY)
+    first, second = one.brick[low], other.brick[high]
+    near = (first != NOBODY) & (second != NOBODY) & (label[first] != label[second])
+    if one.on_top or other.on_top:
+        # a picture is flat on top
+        near &= stacked[first] | stacked[second]
+    place = np.argwhere(near)
+    differ = ~agree(colour[low][near], colour[high][near]) & (one.added + other.added == 0)
+    change = np.minimum(recoloured[low][near], recoloured[high][near])
+    return Contacts(
+        bricks=np.stack([first[near], second[near]], axis=1).astype(np.int64),
+        place=place,
+        axis=np.full(len(place), axis),
+        added=np.full(len(place), one.added + other.added),
+        price=one.price[low][near] + other.price[high][near] + np.where(differ, change, 0.0),
+    )
+
+
+def _seams(found: Contacts, n: int) -> Contacts:
+    """Keep the cheapest place of each seam between two of n bricks, in its middle plate if it has one."""
+    pair = np.sort(found.bricks, axis=1) @ [n, 1]
+    plane, y, x = found.place.T
+    off_middle = np.abs((plane - 1) % PLATES_PER_BRICK - 1)
+    order = np.lexsort((found.axis, x, y, plane, off_middle, found.price, found.added, pair))
+    seam = (pair * 3 + found.added)[order]
+    start = np.flatnonzero(np.diff(seam, prepend=-1))
+    length = np.minimum(np.diff(start, append=len(seam)), _LONGEST)
+    kept = found.take(order[start])
+    return replace(kept, price=kept.price - _SEAM * length)
+
+
+def _chosen(found: Contacts, component: Rows) -> Contacts:
+    """Keep the cheapest places for each two components, the cheapest first."""
+    pair = np.sort(component[found.bricks], axis=1) @ np.array([len(component), 1])
+    order = np.lexsort((found.price, pair))
+    start = np.flatnonzero(np.diff(pair[order], prepend=-1))
+    rank = np.arange(len(order)) - np.repeat(start, np.diff(start, append=len(order)))
+    order = np.sort(order[rank < _PLACES])
+    return found.take(order[np.argsort(found.price[order], kind="stable")])

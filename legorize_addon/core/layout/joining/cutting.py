@@ -1,0 +1,220 @@
+"""Bricks cut into plates, so that a plate can lie across what only touches sideways.
+
+A brick that gives away one plate of some of its cells becomes plates: the other
+two levels keep their outline, and what is left of the cut one lies between them
+or beside them. So it holds all that it held before, and the new plate besides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from ...model import NOBODY, Bricks, Catalogue, footprint
+from ...units import PLATES_PER_BRICK
+from ..problem import Rows
+
+Square = tuple[int, int]
+"""Stud square: x and y."""
+
+_OTHER_FORMS: Final = 2
+"""Turns of a part after which it covers the same squares again, unless it is a corner."""
+
+
+class Form(NamedTuple):
+    """A part in one of its orientations, and the squares that it covers."""
+
+    part: int
+    turn: int
+    height: int
+    squares: tuple[Square, ...]
+
+
+class Laid(NamedTuple):
+    """A form in its place: corner, lowest plate, colour and role."""
+
+    form: Form
+    corner: Square
+    level: int
+    colour: int
+    role: int
+
+    @property
+    def squares(self) -> set[Square]:
+        """The stud squares that it covers."""
+        x, y = self.corner
+        return {(x + dx, y + dy) for dx, dy in self.form.squares}
+
+
+class Seam(NamedTuple):
+    """Two stud squares side by side, at a level."""
+
+    level: int
+    ends: tuple[Square, Square]
+
+
+class Forms:
+    """What may be laid of each height in each colour, larger ones first."""
+
+    def __init__(self, catalogue: Catalogue) -> None:
+        """List the forms of all parts."""
+        self._catalogue = catalogue
+        self.of = {
+            (row, turn): Form(row, turn, part.height, tuple((int(x), int(y)) for x, y in footprint(part, turn)))
+            for row, part in enumerate(catalogue.parts)
+            for turn in range(4)
+        }
+        different = [
+            form
+            for (row, turn), form in self.of.items()
+            if catalogue.parts[row].corner
+            or turn < _OTHER_FORMS - (catalogue.parts[row].length == catalogue.parts[row].width)
+        ]
+        self._sorted = sorted(different, key=lambda form: -len(form.squares))
+        self._made: dict[tuple[int, int], list[Form]] = {}
+
+    def made(self, height: int, colour: int) -> list[Form]:
+        """Return the forms of a height that are made in a colour."""
+        key = height, colour
+        if key not in self._made:
+            exists = self._catalogue.exists_in(np.arange(len(self._catalogue.parts)), np.int16(colour))
+            self._made[key] = [form for form in self._sorted if form.height == height and exists[form.part]]
+        return self._made[key]
+
+    def within(self, squares: set[Square], through: Square, height: int, colour: int) -> Iterator[tuple[Form, Square]]:
+        """Yield what covers one square and none but the given ones, larger ones first, and its corner."""
+        for form in self.made(height, colour):
+            if len(form.squares) <= len(squares):
+                for x, y in form.squares:
+                    corner = through[0] - x, through[1] - y
+                    if all((corner[0] + dx, corner[1] + dy) in squares for dx, dy in form.squares):
+                        yield form, corner
+
+    def tiled(self, squares: set[Square], like: Laid, level: int, height: int) -> list[Laid] | None:
+        """Cover squares in the colour and role of a brick; None where its colour has not the parts for it."""
+        left, tiles = set(squares), []
+        while left:
+            found = next(self.within(left, min(left), height, like.colour), None)
+            if found is None:
+                return None
+            tiles.append(like._replace(form=found[0], corner=found[1], level=level))
+            left -= tiles[-1].squares
+        return tiles
+
+
+class Bench:
+    """A layout in which bricks are cut.
+
+    Attributes
+    ----------
+    forms : Forms
+    owner : (n_plates + 2, n_y, n_x) int32 array
+        Number of the brick in each cell, ``NOBODY`` where there is none; one
+        empty plane below and one above.
+    laid : list of Laid
+        Bricks by number; those that were cut stay here, but own nothing.
+    """
+
+    def __init__(self, bricks: Bricks, owner: Rows, catalogue: Catalogue) -> None:
+        """Take over a layout."""
+        self.forms = Forms(catalogue)
+        self.owner = owner
+        columns = (bricks.part, bricks.turn, bricks.corner, bricks.colour, bricks.role)
+        self.laid = [
+            Laid(self.forms.of[part, turn], (x, y), z, colour, role)
+            for part, turn, (x, y, z), colour, role in zip(*(each.tolist() for each in columns), strict=True)
+        ]
+        self._cut: set[int] = set()
+
+    def at(self, level: int, square: Square) -> int:
+        """Return the number of the brick in a cell."""
+        return int(self.owner[level + 1, square[1], square[0]])
+
+    def over_and_under(self, seam: Seam) -> list[int]:
+        """Return the numbers of the bricks right above and right below a seam."""
+        around = (self.at(seam.level + step, end) for step in (1, -1) for end in seam.ends)
+        return sorted({number for number in around if number != NOBODY})
+
+    def open_faces(self, level: int, square: Square) -> int:
+        """Count the sides of a cell that nothing touches."""
+        x, y = square
+        beside = self.owner[level + 1, max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2] != NOBODY
+        middle = min(y, 1), min(x, 1)
+        touched = int(beside[middle[0]].sum() + beside[:, middle[1]].sum()) - 2
+        return 6 - touched - sum(self.at(level + step, square) != NOBODY for step in (1, -1))
+
+    def cut(self, numbers: Sequence[int], strap: Laid) -> list[Laid] | None:
+        """Return what bricks become that make room for a strap; None if they cannot."""
+        pieces = []
+        for number in numbers:
+            brick, height = self.laid[number], strap.form.height
+            if brick.form.height not in (height, height * PLATES_PER_BRICK):
+                return None
+            for level in range(brick.level, brick.level + brick.form.height, height):
+                squares = brick.squares - strap.squares if level == strap.level else brick.squares
+                tiles = self.forms.tiled(squares, brick, level, height)
+                if tiles is None:
+                    return None
+                pieces += tiles
+        return pieces
+
+    def reaches(self, strap: Laid, seam: Seam) -> bool:
+        """Tell whether a strap meets something at both ends of a seam: a brick that it cuts, or one below or above."""
+        levels = (seam.level, strap.level - 1, strap.level + strap.form.height)
+        return all(any(self.at(level, end) != NOBODY for level in levels) for end in seam.ends)
+
+    def holds(self, pieces: list[Laid]) -> bool:
+        """Tell whether pieces in the place of bricks hold to each other and to all that the bricks held to."""
+        place = {(piece.level, square): row for row, piece in enumerate(pieces) for square in piece.squares}
+        height = pieces[0].form.height
+        # bricks around come after the pieces, by number
+        beside: list[set[int]] = [set() for _ in pieces]
+        around: dict[int, set[int]] = {}
+        for row, piece in enumerate(pieces):
+            for square in piece.squares:
+                for base, level in ((piece.level - height, piece.level - 1), (piece.level + height,) * 2):
+                    if (base, square) in place:
+                        beside[row].add(place[base, square])
+                    elif (number := self.at(level, square)) != NOBODY:
+                        around.setdefault(number, set()).add(row)
+        return _whole(beside + list(around.values()))
+
+    def put(self, numbers: Iterable[int], pieces: list[Laid]) -> None:
+        """Put pieces in the place of bricks."""
+        self._cut.update(numbers)
+        for piece in pieces:
+            x, y = np.array(sorted(piece.squares)).T
+            self.owner[piece.level + 1 : piece.level + 1 + piece.form.height, y, x] = len(self.laid)
+            self.laid.append(piece)
+
+    def bricks(self) -> Bricks:
+        """Return the layout as it is now."""
+        laid = [each for number, each in enumerate(self.laid) if number not in self._cut]
+        corner = np.array([(*each.corner, each.level) for each in laid], dtype=np.int32).reshape(-1, 3)
+        order = np.lexsort(tuple(corner.T))
+        return Bricks(
+            part=np.array([each.form.part for each in laid], dtype=np.int16),
+            corner=corner,
+            turn=np.array([each.form.turn for each in laid], dtype=np.uint8),
+            colour=np.array([each.colour for each in laid], dtype=np.int16),
+            role=np.array([each.role for each in laid], dtype=np.uint8),
+            piece=np.zeros(len(laid), dtype=np.int16),
+            step=corner[:, 2] // np.int32(PLATES_PER_BRICK),
+        ).take(order)
+
+
+def _whole(beside: list[set[int]]) -> bool:
+    """Tell whether all nodes hang together, given neighbours of each; a link may be told at one end alone."""
+    mutual: list[set[int]] = [set() for _ in beside]
+    for node, others in enumerate(beside):
+        mutual[node] |= others
+        for other in others:
+            mutual[other].add(node)
+    seen, ahead = {0}, [0]
+    while ahead:
+        new = mutual[ahead.pop()] - seen
+        seen |= new
+        ahead += new
+    return len(seen) == len(beside)

@@ -1,0 +1,207 @@
+"""Plates across seams, laid last, where no layout of the cells holds together.
+
+What is still loose once the bricks are laid is joined to what it touches by a
+plate across the seam, a *strap*, for which the bricks on both sides are cut. The
+strap has the colour of one side: where that would show, a plate is added below
+an edge, and only where there is no room for one are a cell or two in the
+neighbour's colour. Where there is nothing to cut, a plate is added below or above.
+The cheapest joints come first, as in a least spanning tree (Kruskal 1956).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from ...arrays import Ints
+from ...model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Connection, Cover, Role, UnitGrid, components, connect
+from ...units import PLATES_PER_BRICK
+from ..problem import Plane, Rows, owners, with_margins
+from .contacts import RECOLOURED, Contacts, contacts
+from .cutting import Bench, Laid, Seam, Square
+
+_ROUNDS: Final = 4
+"""Most rounds: in each, joints are looked for between what the rounds before have joined."""
+
+_TRIED: Final = 16
+"""Most straps tried at one place."""
+
+_MOST_WRONG: Final = 2
+"""Most stud squares of a strap that have to show another colour."""
+
+_FREE: Final = 0.6
+_DEAR: Final = RECOLOURED + 0.6
+"""Prices below which a second strap shows nowhere, and below which it shows in one cell of another colour."""
+
+_BRICKS_A_STRAP: Final = 6
+_MOST_STRAPS: Final = 6
+_BRICKS_A_COLOUR: Final = 40
+_MOST_COLOURS: Final = 1
+"""Bricks that hang on a joint for each further strap that does not show, and how many at most; and that does show."""
+
+
+def strapped(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, *, plates: bool) -> tuple[Bricks, UnitGrid]:
+    """Join the components of a layout by straps.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        A layout without collisions.
+    grid : UnitGrid
+        The cells that it covers.
+    catalogue : Catalogue
+    plates : bool
+        Whether bricks may be cut into plates, and plates be added; else straps
+        are bricks.
+
+    Returns
+    -------
+    bricks : Bricks
+        Cover the same cells, and a few more where there is nothing to cut, in
+        fewer components where straps could join them.
+    grid : UnitGrid
+        With the cells that were added, which must be built and have the role of
+        plates, and the colours that straps show.
+    """
+    links = connect(bricks, catalogue)
+    colour = with_margins(grid.colour, COLOUR_EMPTY)
+    for _ in range(_ROUNDS):
+        if links.n_components <= 1:
+            break
+        bench = Bench(bricks, owners(links, colour.shape), catalogue)
+        if not _joined(bench, links.component, colour, plates=plates):
+            break
+        bricks = bench.bricks()
+        links = connect(bricks, catalogue)
+        grid = _as_laid(grid, bricks, links)
+    return bricks, grid
+
+
+def _as_laid(grid: UnitGrid, bricks: Bricks, links: Connection) -> UnitGrid:
+    """Return the grid in the colours of the bricks that lie in cells of another colour or in none."""
+    owner = owners(links, with_margins(grid.colour, COLOUR_EMPTY).shape)[1:-1].reshape(grid.colour.shape)
+    added = (owner != NOBODY) & ~grid.solid
+    shown = (owner != NOBODY) & (grid.colour >= 0) | added
+    return replace(
+        grid,
+        colour=np.where(shown, bricks.colour[owner], grid.colour),
+        cover=np.where(added, np.uint8(Cover.MUST), grid.cover),
+        role=np.where(added, np.uint8(Role.PLATE), grid.role),
+    )
+
+
+def _joined(bench: Bench, component: Rows, colour: Plane, *, plates: bool) -> int:
+    """Lay straps between components, more of them where more hangs on them; return how many were laid."""
+    found = contacts(bench.owner, component, colour, plates=plates)
+    height = 1 if plates else PLATES_PER_BRICK
+    pairs = component[found.bricks]
+    seams = _seams(found)
+    home = np.arange(component.max() + 1)
+    laid = []
+    # no colour is given up where another place costs less
+    for rows, most_wrong in ((found.price < RECOLOURED, 0), (found.price > -np.inf, _MOST_WRONG)):
+        for row in np.flatnonzero(rows).tolist():
+            one, other = pairs[row]
+            if home[one] != home[other] and _strap(bench, seams[row], colour, height, most_wrong):
+                home[home == home[one]] = home[other]
+                laid.append(row)
+    for row in _more(found, pairs, laid, _hanging(pairs[laid], np.bincount(component))):
+        _strap(bench, seams[row], colour, height, 0 if found.price[row] < RECOLOURED else _MOST_WRONG)
+    return len(laid)
+
+
+def _seams(found: Contacts) -> list[Seam]:
+    """Return the seams of places."""
+    plane, y, x = found.place.T
+    ends = np.stack([x, y, x + (found.axis == 2), y + (found.axis == 1)], axis=1).tolist()
+    return [
+        Seam(level, ((x0, y0), (x1, y1))) for level, (x0, y0, x1, y1) in zip((plane - 1).tolist(), ends, strict=True)
+    ]
+
+
+def _hanging(joints: Rows, size: Ints) -> list[int]:
+    """Count the bricks that hang on each joint of a forest of components: those on its smaller side."""
+    beside: list[dict[int, int]] = [{} for _ in size]
+    for row, (one, other) in enumerate(joints.tolist()):
+        beside[one][other] = beside[other][one] = row
+    weight, hanging = size.tolist(), [0] * len(joints)
+    whole = np.bincount(components(joints, len(size)), size)[components(joints, len(size))]
+    leaves = [node for node, others in enumerate(beside) if len(others) == 1]
+    # leaves are taken off until none is left; each hands its weight on
+    for leaf in leaves:
+        if beside[leaf]:
+            other, row = beside[leaf].popitem()
+            hanging[row] = min(weight[leaf], int(whole[leaf]) - weight[leaf])
+            weight[other] += weight[leaf]
+            del beside[other][leaf]
+            if len(beside[other]) == 1:
+                leaves.append(other)
+    return hanging
+
+
+def _more(found: Contacts, pairs: Rows, laid: list[int], hanging: list[int]) -> Iterator[int]:
+    """Yield the places for more straps at joints on which much hangs: free ones, and a few of another colour."""
+    pairs = np.sort(pairs, axis=1)
+    for joint, bricks in zip(laid, hanging, strict=True):
+        if bricks >= _BRICKS_A_STRAP:
+            same = joint + 1 + np.flatnonzero((pairs[joint + 1 :] == pairs[joint]).all(axis=1))
+            free = same[found.price[same] < _FREE][: min(bricks // _BRICKS_A_STRAP, _MOST_STRAPS)]
+            dear = same[(found.price[same] >= _FREE) & (found.price[same] < _DEAR)]
+            yield from (
+                *free.tolist(),
+                *dear[: min(max(0, bricks // _BRICKS_A_COLOUR - len(free)), _MOST_COLOURS)].tolist(),
+            )
+
+
+def _strap(bench: Bench, seam: Seam, colour: Plane, height: int, most_wrong: int) -> bool:
+    """Lay a strap across a seam; return whether there is one that holds and is in the wrong colour in few squares."""
+    ends = [bench.at(seam.level, end) for end in seam.ends]
+    cut = sorted({number for number in ends if number != NOBODY})
+    # a strap laid before may reach across this seam already
+    if NOBODY not in ends and len(cut) == 1:
+        return False
+    for strap in _straps(bench, seam, cut, colour, height, most_wrong)[:_TRIED]:
+        pieces = bench.cut(cut, strap)
+        if pieces is not None and bench.reaches(strap, seam) and bench.holds([strap, *pieces]):
+            bench.put(cut, [strap, *pieces])
+            return True
+    return False
+
+
+def _straps(bench: Bench, seam: Seam, cut: list[int], colour: Plane, height: int, most_wrong: int) -> list[Laid]:
+    """Return what may lie across a seam, in the place of bricks or added: what shows least, then what lies on most."""
+    bricks = [bench.laid[number] for number in cut or bench.over_and_under(seam)]
+    level = seam.level if height == 1 else bricks[0].level
+    sides = [{end}.union(*(brick.squares for brick in bricks if end in brick.squares and cut)) for end in seam.ends]
+    role = min((brick.role for brick in bricks), key=lambda each: (each == Role.INSIDE, each)) if cut else Role.PLATE
+    offers = []
+    for code in sorted({brick.colour for brick in bricks}):
+        for form, corner in bench.forms.within(sides[0] | sides[1], seam.ends[0], height, code):
+            strap = Laid(form, corner, level, code, int(role))
+            wrong = _wrong(strap, colour)
+            if (
+                seam.ends[1] in strap.squares
+                and len(wrong) <= most_wrong * height
+                and (not wrong or _rests(bench, strap))
+            ):
+                faces = sum(bench.open_faces(each_level, square) for each_level, square in wrong)
+                rests = min(len(strap.squares & side) for side in sides)
+                offers.append((len(wrong), faces, -rests, -len(form.squares), corner, strap))
+    return [strap for *_, strap in sorted(offers, key=lambda offer: offer[:-1])]
+
+
+def _rests(bench: Bench, strap: Laid) -> bool:
+    """Tell whether there is something below or above a strap, as there is nothing for the pixels of a picture."""
+    levels = (strap.level - 1, strap.level + strap.form.height)
+    return any(bench.at(level, square) != NOBODY for level in levels for square in strap.squares)
+
+
+def _wrong(strap: Laid, colour: Plane) -> list[tuple[int, Square]]:
+    """Return the level and square of each cell of a strap that has to show another colour."""
+    levels = range(strap.level, strap.level + strap.form.height)
+    cells = [(level, square) for level in levels for square in sorted(strap.squares)]
+    shown = [int(colour[level + 1, y, x]) for level, (x, y) in cells]
+    return [cell for cell, code in zip(cells, shown, strict=True) if code >= 0 and code != strap.colour]

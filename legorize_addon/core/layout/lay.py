@@ -1,0 +1,237 @@
+"""From the cells of a model to its bricks, sheet after sheet.
+
+Bricks prefer to lie across the seams of what lies below and above already; none
+may hang in the air. No sheet touches the sheets two levels further, so every
+other one is laid at once: first quickly, for the sheets between to have
+something to lie across, and again when those are laid.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Final, Literal
+
+import numpy as np
+
+from ..arrays import Floats, Mask
+from ..errors import BuildError
+from ..model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Cover, UnitGrid, ground_of
+from ..progress import Progress, silent
+from ..units import PLATES_PER_BRICK
+from .joining import connect_loose, join_by_windows
+from .learning import improved, shipped
+from .problem import (
+    BRIDGE,
+    GROUND,
+    Index,
+    Placements,
+    Problem,
+    Rows,
+    Shapes,
+    Sheets,
+    bricks_of,
+    gathered,
+    placements,
+    pose,
+    shapes,
+    split,
+    with_margins,
+)
+from .solvers import exact, fewer_small, greedy, guessed_prices, linear
+
+FILLER: Final = 71
+"""LDraw code of Light Bluish Gray, in which nearly every part is made: for bricks that nobody sees."""
+
+_SLAB: Final = 1 << 15
+"""Cells that are laid together: enough to drown the cost of a numpy call, few
+enough for the memory (147 placements go through a cell in a wide area)."""
+
+_BATCH: Final = 5000
+"""Placements up to which sheets are put into one linear programme."""
+
+Tier = Literal["fast", "standard", "exact"]
+Way = Callable[[Problem, np.random.Generator], Index]
+
+_PASSES: Final[Mapping[Tier, tuple[tuple[Way, float], ...]]] = MappingProxyType(
+    {
+        "fast": ((greedy.cover, BRIDGE), (greedy.cover, BRIDGE)),
+        "standard": ((greedy.cover, BRIDGE), (linear.cover, 0.05), (linear.cover, 0.1)),
+        "exact": ((greedy.cover, BRIDGE), (exact.cover, 0.05), (exact.cover, 0.05)),
+    }
+)
+"""How the even sheets are laid, then the odd ones, and then the even ones again;
+and what lying across a seam saves then, in bricks: little across seams that do
+not stay, and for the fewest bricks less than a brick in most places."""
+
+
+def lay(
+    grid: UnitGrid,
+    catalogue: Catalogue,
+    *,
+    rng: np.random.Generator,
+    tier: Tier = "standard",
+    learned: bool = True,
+    table: Mask | None = None,
+    filler: int = FILLER,
+    join: bool = True,
+    progress: Progress = silent,
+) -> Bricks:
+    """Cover a model by bricks.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        The hollowed model.
+    catalogue : Catalogue
+        Parts and colours.
+    rng : numpy.random.Generator
+        Decides between equals; the same state gives the same bricks.
+    tier : str
+        How much is done for few bricks: ``"fast"`` (see :mod:`.greedy`),
+        ``"standard"`` (see :mod:`.linear`) or ``"exact"`` (see :mod:`.exact`).
+    learned : bool
+        Whether the fast tier makes the exchanges that :mod:`.svm` proposes.
+    table : (4, 16, 16, 24) bool array, optional
+        What it proposes, as :meth:`~.svm.Machine.table`; by default what was
+        learned from the shipped samples.
+    filler : int
+        LDraw code of the bricks that nobody sees.
+    join : bool
+        Whether bricks that hold to nothing are joined to the others in the end.
+    progress : Progress
+        Told before each batch of sheets.
+
+    Returns
+    -------
+    Bricks
+        Every must cell lies in one brick, every may cell in one or none, each
+        brick has the colour of its cells and is made in it. By ascending level,
+        one step a layer.
+
+    Raises
+    ------
+    BuildError
+        There is nothing to build, or a must cell cannot be covered, because no
+        part of one cell is made in its colour.
+    """
+    must = with_margins(grid.cover == Cover.MUST, False)
+    if not must.any():
+        raise BuildError("The model has 0 cells to build: make it larger.")
+    codes = np.unique(grid.colour[grid.colour >= 0])
+    work = [(each, shapes(catalogue, each.height, codes, filler)) for each in split(grid)]
+    owner = np.full(must.shape, NOBODY, dtype=np.int32)
+    owner[: ground_of(must)] = GROUND
+    slab_of_layer = np.cumsum(grid.solid.any(axis=1).sum(axis=(1, 2))) // _SLAB
+    worth = (shipped() if table is None else table) if tier == "fast" and learned else None
+    laid: list[Bricks] = []
+    slabs = np.unique(slab_of_layer)
+    for turn, slab in enumerate(slabs):
+        listed = _listed(work, slab_of_layer == slab, owner, must, tier)
+
+        def tell(share: float, turn: int = turn) -> None:
+            progress("layout", (turn + share) / len(slabs))
+
+        laid += _passed(listed, _PASSES[tier], owner, must, worth, rng, tell)
+    if not join:
+        return gathered(laid)
+    bricks = connect_loose(gathered(laid), grid, work, catalogue, rng, progress)
+    return join_by_windows(bricks, grid, work, catalogue, progress)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Listed:
+    """Sheets of one height, what may lie there, and what their cells are worth at a guess."""
+
+    sheets: Sheets
+    among: Shapes
+    found: Placements
+    price: Floats | None
+
+    def take(self, which: Index) -> _Listed:
+        """Return some of the sheets."""
+        sheet = np.repeat(np.arange(len(self.sheets)), self.sheets.n_cells)
+        price = None if self.price is None else self.price[np.isin(sheet, which)]
+        return _Listed(self.sheets.take(which), self.among, self.found.on(which, self.sheets.n_cells), price)
+
+
+def _listed(work: Sequence[tuple[Sheets, Shapes]], layers: Mask, owner: Rows, must: Mask, tier: Tier) -> list[_Listed]:
+    """List what may lie on the sheets of some layers."""
+    listed = []
+    for sheets, among in work:
+        inside = sheets.take(layers[sheets.level // PLATES_PER_BRICK])
+        if len(inside):
+            found = placements(inside, among)
+            price = guessed_prices(pose(inside, among, found, owner, must)) if tier == "standard" else None
+            listed.append(_Listed(inside, among, found, price))
+    return listed
+
+
+def _passed(
+    listed: Sequence[_Listed],
+    passes: Sequence[tuple[Way, float]],
+    owner: Rows,
+    must: Mask,
+    worth: Mask | None,
+    rng: np.random.Generator,
+    tell: Callable[[float], None],
+) -> list[Bricks]:
+    """Lay sheets in passes, every other one at once; write their bricks into `owner`; tell the share of passes done."""
+    halves: list[list[Bricks]] = [[], []]
+    first = int(owner.max()) + 1
+    for number, (way, bridge) in enumerate(passes):
+        halves[number % 2] = half = []
+        for each in _batches(listed, number % 2, np.inf if way is greedy.cover else _BATCH):
+            tell(number / len(passes))
+            problem = pose(each.sheets, each.among, each.found, owner, must, bridge)
+            half.append(_laid(replace(problem, price=each.price), owner, first, way, worth, rng))
+            first += len(half[-1])
+    return halves[0] + halves[1]
+
+
+def _batches(listed: Sequence[_Listed], half: int, most: float) -> Iterator[_Listed]:
+    """Yield every other sheet, as many at once as have at most so many placements."""
+    for each in listed:
+        which = np.flatnonzero(each.sheets.level // each.sheets.height % 2 == half)
+        count = np.bincount(each.found.corner[:, 2], minlength=len(each.sheets))[which]
+        for batch in np.split(which, _ends(count, most)) if len(which) else ():
+            yield each.take(batch)
+
+
+def _ends(count: Index, most: float) -> list[int]:
+    """Return where runs of numbers have to end so that no sum is above the most, unless one number is."""
+    ends, total = [], 0
+    for row, number in enumerate(count.tolist()):
+        total += number
+        if total > most and total > number:
+            ends.append(row)
+            total = number
+    return ends
+
+
+def _laid(problem: Problem, owner: Rows, first: int, way: Way, worth: Mask | None, rng: np.random.Generator) -> Bricks:
+    """Lay sheets that do not touch; write the numbers of their bricks, from `first`, into `owner`."""
+    sheets = problem.sheets
+    chosen = fewer_small(problem, way(problem, rng), rng)
+    if worth is not None:
+        chosen = improved(problem, chosen, rng, worth)
+    covering = problem.owner(chosen)
+    _check_covered(sheets, problem.must & (covering == NOBODY))
+    here = np.full(sheets.colour.shape, NOBODY, dtype=np.int32)
+    here.reshape(-1)[sheets.cells] = np.where(covering == NOBODY, NOBODY, first + covering)
+    # bricks and plates of a layer share its planes
+    for plate in range(1, sheets.height + 1):
+        planes = owner[sheets.level + plate]
+        owner[sheets.level + plate] = np.where(sheets.colour == COLOUR_EMPTY, planes, here)
+    return bricks_of(problem, chosen)
+
+
+def _check_covered(sheets: Sheets, missing: Mask) -> None:
+    if not missing.any():
+        return
+    code = sheets.colour.reshape(-1)[sheets.cells[missing]][0]
+    raise BuildError(
+        f"{np.count_nonzero(missing)} cells cannot be covered, the first of them in colour {code}, because no part "
+        "of one cell is made in it: leave it out of the palette."
+    )

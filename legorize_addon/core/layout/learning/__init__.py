@@ -1,0 +1,16 @@
+"""What a support vector machine has learned from samples of layouts, and the files of these samples."""
+
+from __future__ import annotations
+
+from .own_samples import learned_more, learned_table, samples_text, version_of
+from .svm import improved, read, shipped
+
+__all__ = [
+    "improved",
+    "learned_more",
+    "learned_table",
+    "read",
+    "samples_text",
+    "shipped",
+    "version_of",
+]

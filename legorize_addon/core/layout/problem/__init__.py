@@ -1,0 +1,41 @@
+"""The covering problem of one sheet: its cells, the shapes, the placements and what each costs."""
+
+from __future__ import annotations
+
+from .blocks import blocks
+from .candidates import Amounts, Live
+from .dominance import dominated
+from .placements import Placements, placements, segment_sums
+from .planes import spread
+from .problem import BRIDGE, GROUND, Problem, owners, pose, standing, with_margins
+from .shapes import Index, Plane, Rows, Shapes, pattern_bits, shapes
+from .sheets import Sheets, split
+from .table import bricks_of, gathered
+
+__all__ = [
+    "BRIDGE",
+    "GROUND",
+    "Amounts",
+    "Index",
+    "Live",
+    "Placements",
+    "Plane",
+    "Problem",
+    "Rows",
+    "Shapes",
+    "Sheets",
+    "blocks",
+    "bricks_of",
+    "dominated",
+    "gathered",
+    "owners",
+    "pattern_bits",
+    "placements",
+    "pose",
+    "segment_sums",
+    "shapes",
+    "split",
+    "spread",
+    "standing",
+    "with_margins",
+]

@@ -1,0 +1,197 @@
+"""The parts in all their orientations, and the colours they are made in.
+
+A *shape* is a part in one of its orientations: the 12 bricks give 24 shapes,
+and so do the 12 plates.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...arrays import Mask
+from ...model import Catalogue, footprint
+
+Plane = NDArray[np.int16]
+Rows = NDArray[np.int32]
+Index = NDArray[np.intp]
+Whole = NDArray[np.integer[Any]]
+"""Whole numbers of whatever type."""
+
+_PATTERN_SIDE: Final = 8
+"""Studs along the longest part."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shapes:
+    """The oriented parts of one height and the colours they are made in.
+
+    Attributes
+    ----------
+    part : (n_shapes,) int16 array
+        Row of the part in the catalogue.
+    turn : (n_shapes,) uint8 array
+        Quarter turns.
+    cells : tuple of (k, 2) int32 arrays
+        Cells (x, y) that each shape covers, from the corner of its bounding box.
+    size : (n_shapes,) intp array
+        Number of cells of each shape.
+    extent : (n_shapes, 2) intp array
+        Studs along x and y.
+    inner : (2, n_cells_of_all_shapes) bool array
+        For each of ``cells``, shape after shape: whether the next cell along x
+        (row 0) and along y (row 1) belongs to the same shape.
+    pattern : (n_shapes,) uint64 array
+        Cells of each shape as bits (see :func:`pattern_bits`).
+    within : (n_most, 3, n_shapes) intp array
+        The largest other shapes inside each shape: row, and where the corner
+        lies, x and y; rows of -1 where a shape has fewer than others.
+    pieces : tuple of (k, 3) intp arrays
+        For each shape a few of these that cover it together: row, x and y.
+        Empty where there are none.
+    codes : (n_codes,) int16 array
+        LDraw codes of the grid, ascending.
+    made : (n_shapes, n_codes + 1) bool array
+        Whether the part is made in each code; the last column, for bricks of
+        any colour, tells whether it is made at all.
+    hidden : (n_shapes,) int16 array
+        LDraw code that the part gets where nobody sees it.
+    """
+
+    part: NDArray[np.int16]
+    turn: NDArray[np.uint8]
+    cells: tuple[Rows, ...]
+    size: Index
+    extent: Index
+    inner: Mask
+    pattern: NDArray[np.uint64]
+    within: Index
+    pieces: tuple[Index, ...]
+    codes: Plane
+    made: Mask
+    hidden: Plane
+
+    def rows_of(self, part: Whole, turn: Whole) -> Index:
+        """Return the rows of parts of this height in the given turns, shape (k,)."""
+        known = self.part.astype(np.intp) * 4 + self.turn
+        return np.searchsorted(known, part.astype(np.intp) * 4 + turn)
+
+
+def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shapes:
+    """List the parts of one height in all their orientations.
+
+    Parameters
+    ----------
+    catalogue : Catalogue
+        Parts and colours.
+    height : int
+        Plates: 3 for bricks, 1 for plates.
+    codes : int16 array
+        LDraw codes that occur in the grid.
+    filler : int
+        LDraw code for bricks that nobody sees; a part that is not made in it
+        gets the first colour of the catalogue in which it is made.
+
+    Returns
+    -------
+    Shapes
+        In the order of the catalogue, then by quarter turn.
+    """
+    forms = _forms(catalogue, height)
+    codes = np.unique(codes)
+    # argmax finds the first colour in which a part is made
+    anywhere = catalogue.exists[forms.part]
+    in_filler = catalogue.exists_in(forms.part, filler)
+    return replace(
+        forms,
+        codes=codes,
+        made=np.column_stack([catalogue.exists_in(forms.part[:, None], codes), anywhere.any(axis=1)]),
+        hidden=np.where(in_filler, np.int16(filler), catalogue.codes[anywhere.argmax(axis=1)]),
+    )
+
+
+@lru_cache
+def _forms(catalogue: Catalogue, height: int) -> Shapes:
+    """Return the parts of one height in all their orientations, without any colour."""
+    oriented = [
+        (row, turn) for row, part in enumerate(catalogue.parts) if part.height == height for turn in range(part.turns)
+    ]
+    cells = tuple(footprint(catalogue.parts[row], turn) for row, turn in oriented)
+    extent = np.array([covered.max(axis=0) + 1 for covered in cells], dtype=np.intp)
+    pattern = np.array([pattern_bits(*covered.T).sum(dtype=np.uint64) for covered in cells])
+    within = _parts_within(extent, pattern)
+    return Shapes(
+        part=np.array([row for row, _ in oriented], dtype=np.int16),
+        turn=np.array([turn for _, turn in oriented], dtype=np.uint8),
+        cells=cells,
+        size=np.array([len(covered) for covered in cells], dtype=np.intp),
+        extent=extent,
+        inner=np.concatenate([_inner_edges(covered) for covered in cells], axis=1),
+        pattern=pattern,
+        within=within,
+        pieces=tuple(_pieces(within[:, :, row], pattern, whole) for row, whole in enumerate(pattern)),
+        codes=np.zeros(0, dtype=np.int16),
+        made=np.zeros((len(cells), 1), dtype=bool),
+        hidden=np.zeros(len(cells), dtype=np.int16),
+    )
+
+
+def _inner_edges(covered: Rows) -> Mask:
+    """Tell for each cell of a shape whether its next cells along x and y belong to it, shape (2, k)."""
+    filled = np.zeros(covered.max(axis=0) + 2, dtype=bool)
+    x, y = covered.T
+    filled[x, y] = True
+    return np.stack([filled[x + 1, y], filled[x, y + 1]])
+
+
+def pattern_bits(x: Whole, y: Whole) -> NDArray[np.uint64]:
+    """Give every cell of an 8 x 8 field a bit of its own, so that a set of cells becomes one number.
+
+    Parameters
+    ----------
+    x, y : integer arrays
+        Cells, counted from the corner of the set's bounding box, below 8.
+
+    Returns
+    -------
+    uint64 array
+        One bit each.
+    """
+    return np.uint64(1) << (x + _PATTERN_SIDE * y).astype(np.uint64)
+
+
+def _parts_within(extent: Index, pattern: NDArray[np.uint64]) -> Index:
+    """List the largest other shapes inside each shape (see ``Shapes.within``)."""
+    shape, x, y = (each.ravel() for each in np.indices((len(extent), _PATTERN_SIDE, _PATTERN_SIDE)))
+    fits = (extent[shape] + np.stack([x, y], axis=1) <= _PATTERN_SIDE).all(axis=1)
+    shape, x, y = shape[fits], x[fits], y[fits]
+    moved = pattern[shape] << (x + _PATTERN_SIDE * y).astype(np.uint64)
+    largest = [_largest(moved, outer) for outer in pattern]
+    table = np.full((max(map(len, largest)), 3, len(largest)), -1, dtype=np.intp)
+    for row, each in enumerate(largest):
+        table[: len(each), :, row] = np.stack([shape[each], x[each], y[each]], axis=1)
+    return table
+
+
+def _largest(patterns: NDArray[np.uint64], outer: np.uint64) -> Index:
+    """Return the patterns truly inside another one and inside no other such."""
+    within = np.flatnonzero(((patterns & ~outer) == 0) & (patterns != outer))
+    inner = patterns[within]
+    covered = ((inner[:, None] & ~inner) == 0) & (inner[:, None] != inner)
+    largest: Index = within[~covered.any(axis=1)]
+    return largest
+
+
+def _pieces(inner: Index, pattern: NDArray[np.uint64], whole: np.uint64) -> Index:
+    """Return rows of `inner` that cover a shape together, none if all of them do not."""
+    taken, covered = [], np.uint64(0)
+    for row, x, y in inner[inner[:, 0] >= 0]:
+        moved = pattern[row] << np.uint64(x + _PATTERN_SIDE * y)
+        if moved & ~covered:
+            taken.append((row, x, y))
+            covered |= moved
+    return np.array(taken if covered == whole else [], dtype=np.intp).reshape(-1, 3)

@@ -1,0 +1,102 @@
+"""Bricks that were laid in the filler's colour although they can be seen: they take the colour they are beside.
+
+What makes roofs and joints hold has no colour of its own, and mostly nobody sees
+it. Where it is seen, as under the chassis of a car, the colour of what it holds
+is right. Bricks take it after the layout, so that they could be laid freely.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+from scipy import ndimage
+
+from ..arrays import Ints, Mask
+from ..geometry import outer_air
+from ..model import COLOUR_ANY, NOBODY, Bricks, Catalogue, Connection, UnitGrid, ground_of
+
+_UPWARDS: Final = (1, 0, 0)
+_AROUND: Final = ((-1, 0, 0), (0, -1, 0), (0, 1, 0), (0, 0, -1), (0, 0, 1))
+"""Steps (plate, y, x) to the cell that a brick holds, and to the others beside it."""
+
+_ABOVE: Final = 100
+"""How many faces beside one face above counts for."""
+
+
+def with_seen_coloured(bricks: Bricks, grid: UnitGrid, connection: Connection, catalogue: Catalogue) -> Bricks:
+    """Colour the bricks of free colour that the outer air touches.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        A layout of the grid.
+    grid : UnitGrid
+        The hollowed model: cells of colour ``COLOUR_ANY`` may have any.
+    connection : Connection
+        Of the bricks.
+    catalogue : Catalogue
+
+    Returns
+    -------
+    Bricks
+        Those that were seen in a colour of nobody's choice have the commonest
+        colour of the coloured bricks right above them, or else beside them, in
+        which their part is made; they stay as they are where there is none.
+    """
+    free = _free(bricks, grid, connection)
+    # what lies on the ground is not seen from below
+    owner = connection.owner[ground_of(connection.owner != NOBODY) :]
+    seen = ndimage.binary_dilation(outer_air(owner != NOBODY), border_value=0) & (owner != NOBODY)
+    wanted = np.zeros(len(bricks), dtype=bool)
+    wanted[owner[seen]] = True
+    wanted &= free
+    # what has taken a colour hands it on
+    while (more := _coloured(bricks, connection, wanted, free, catalogue)) is not None:
+        bricks, taken = more
+        wanted[taken] = free[taken] = False
+    return bricks
+
+
+def _coloured(
+    bricks: Bricks, connection: Connection, wanted: Mask, free: Mask, catalogue: Catalogue
+) -> tuple[Bricks, Ints] | None:
+    """Colour the wanted bricks that have a coloured one beside them; return which, or None if there are none."""
+    brick, colour, faces = _beside(bricks, connection, np.append(wanted, False), free)
+    made = catalogue.exists_in(bricks.part[brick], colour)
+    brick, colour, faces = brick[made], colour[made], faces[made]
+    if not len(brick):
+        return None
+    order = np.lexsort((colour, -faces, brick))
+    first = order[np.unique(brick[order], return_index=True)[1]]
+    coloured = bricks.colour.copy()
+    coloured[brick[first]] = colour[first]
+    return replace(bricks, colour=coloured), brick[first]
+
+
+def _free(bricks: Bricks, grid: UnitGrid, connection: Connection) -> Mask:
+    """Tell which bricks cover no cell that has a colour."""
+    colour = grid.colour.reshape(-1, *grid.colour.shape[2:])
+    cell = np.argwhere(connection.owner != NOBODY)
+    owner = connection.owner[tuple(cell.T)]
+    z, y, x = (cell + connection.low[::-1]).T
+    free = np.ones(len(bricks), dtype=bool)
+    free[owner[colour[z, y, x] != COLOUR_ANY]] = False
+    return free
+
+
+def _beside(bricks: Bricks, connection: Connection, wanted: Mask, free: Mask) -> tuple[Ints, Ints, Ints]:
+    """Count the faces that each wanted brick has in common with coloured ones: brick, colour and faces."""
+    owner = np.pad(connection.owner, 1, constant_values=NOBODY)
+    at = np.argwhere(wanted[owner])
+    own = owner[tuple(at.T)]
+    found, weight = [], []
+    for step in (_UPWARDS, *_AROUND):
+        other = owner[tuple((at + step).T)]
+        counts = (other != NOBODY) & ~np.append(free, True)[other]
+        found.append(np.stack([own[counts], bricks.colour[other[counts]]], axis=1).astype(np.int64))
+        weight.append(np.full(np.count_nonzero(counts), _ABOVE if step == _UPWARDS else 1))
+    pairs, row = np.unique(np.concatenate(found).reshape(-1, 2), axis=0, return_inverse=True)
+    faces = np.bincount(row.reshape(-1), np.concatenate(weight), len(pairs)).astype(np.int64)
+    return pairs[:, 0], pairs[:, 1], faces

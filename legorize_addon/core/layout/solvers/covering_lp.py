@@ -1,0 +1,147 @@
+"""Covering a sheet as a linear programme.
+
+One variable a placement, its share; one row a cell: shares sum to 1 on every
+must cell and to 1 at most on every other one. The cost of the best shares is
+never above the cost of the best layout, and mostly the shares are whole.
+
+References
+----------
+Q. Huangfu, J. A. J. Hall, "Parallelizing the dual revised simplex method",
+Math. Prog. Comp. 10, 2018 (HiGHS, which solves them).
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+from scipy.optimize import Bounds, LinearConstraint, linprog, milp
+from scipy.sparse import csc_array
+
+from ...arrays import Floats, Mask
+from ..problem import Index, Live
+
+WHOLE: Final = 1e-6
+"""How far from a whole number a share may be for a whole one."""
+
+_BARE: Final = 100.0
+"""What a must cell without a brick costs, in bricks, where no brick of one cell is made."""
+
+_GAP: Final = 1e-4
+"""Share of the cost by which a whole solution may miss the best."""
+
+_MANY: Final = 8_000
+"""Placements above which prices are found by the interior point method: where many
+prices are as good as each other, as on wide areas, the simplex method goes in circles."""
+
+# for shares the search for simplifications takes longer than it saves
+_PLAIN: Final = (("presolve", False),)
+
+
+def shares(live: Live, must: Mask, cost: Floats) -> Floats:
+    """Find the cheapest shares.
+
+    Parameters
+    ----------
+    live : Live
+        Placements to choose among.
+    must : (n_cells,) bool array
+        Cells that have to be covered; those without a placement are left out.
+    cost : (n,) float64 array
+        Cost of each placement of `live`.
+
+    Returns
+    -------
+    (n,) float64 array
+        Share of each placement, 0 to 1.
+    """
+    found = _milp(live, must, cost, Bounds(0, np.inf), options=dict(_PLAIN))
+    return np.asarray(found[: len(live.rows)])
+
+
+def whole_shares(live: Live, must: Mask, cost: Floats, nodes: int) -> Floats | None:
+    """Find the cheapest shares that are 0 or 1, by branch and bound.
+
+    Parameters
+    ----------
+    live, must, cost
+        As for :func:`shares`.
+    nodes : int
+        Most nodes to look at.
+
+    Returns
+    -------
+    (n,) float64 array or None
+        Share of each placement; None if so many nodes did not suffice to find any.
+    """
+    options = {"node_limit": nodes, "mip_rel_gap": _GAP}
+    found = _milp(live, must, cost, Bounds(0, 1), integrality=1, options=options)
+    return None if found is None else np.rint(found[: len(live.rows)])
+
+
+def prices(live: Live, must: Mask, room: Floats) -> tuple[Index, Floats]:
+    """Find what each cell is worth at most, if no placement may be worth more than its room.
+
+    This is the dual of the programme of :func:`shares`, with the rooms as costs.
+
+    Parameters
+    ----------
+    live : Live
+        Placements.
+    must : (n_cells,) bool array
+        Cells that have to be covered.
+    room : (n,) float64 array
+        What the cells of each placement may be worth together.
+
+    Returns
+    -------
+    cell : (k,) intp array
+        The cells that placements cover.
+    price : (k,) float64 array
+        Worth of each, not above 0 where the cell need not be covered; the
+        greatest sum that there is, but for rounding errors.
+    """
+    used, matrix = _matrix(live, must)
+    rows, needed = matrix.tocsr(), must[used]
+    optional = {"A_ub": rows[~needed], "b_ub": np.ones(np.count_nonzero(~needed))} if not needed.all() else {}
+    found = linprog(
+        np.append(room, np.full(matrix.shape[1] - len(room), _BARE)),
+        A_eq=rows[needed],
+        b_eq=np.ones(np.count_nonzero(needed)),
+        **optional,
+        method="highs-ipm" if len(room) > _MANY else "highs-ds",
+        options=dict(_PLAIN),
+    )
+    price = np.zeros(len(used))
+    price[needed] = found.eqlin.marginals
+    price[~needed] = np.minimum(found.ineqlin.marginals, 0)
+    return used, price
+
+
+def _milp(live: Live, must: Mask, cost: Floats, bounds: Bounds, **options: Any) -> Any:
+    """Return the shares of the placements and of the bare cells, None if there are none."""
+    used, matrix = _matrix(live, must)
+    found = milp(
+        np.append(cost, np.full(matrix.shape[1] - len(cost), _BARE)),
+        constraints=LinearConstraint(matrix, must[used].astype(np.float64), np.ones(len(used))),
+        bounds=bounds,
+        **options,
+    )
+    return found.x
+
+
+def _matrix(live: Live, must: Mask) -> tuple[Index, csc_array]:
+    """Return the cells that placements cover, and which placement covers which.
+
+    The columns after those of the placements belong to must cells that might
+    stay bare, because they have no brick of their own.
+    """
+    there, single = np.zeros_like(must), np.zeros_like(must)
+    there[live.cells] = True
+    single[live.cells[np.repeat(live.size == 1, live.size)]] = True
+    row = np.cumsum(there) - 1
+    bare = np.flatnonzero(there & must & ~single)
+    rows = row[np.concatenate([live.cells, bare])]
+    start = np.append(0, np.cumsum(np.append(live.size, np.ones(len(bare), dtype=np.intp))))
+    used = np.flatnonzero(there)
+    return used, csc_array((np.ones(len(rows)), rows, start), shape=(len(used), len(start) - 1))

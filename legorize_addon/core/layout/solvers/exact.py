@@ -1,0 +1,58 @@
+"""The exact way of laying a sheet: what a linear programme leaves open is settled by branch and bound."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from ..problem import Index, Live, Problem, dominated
+from . import linear
+from .covering_lp import WHOLE, shares, whole_shares
+from .linear import dive
+
+_NODES: Final = 200
+"""Nodes of branch and bound for one component of a sheet. A limit in seconds would
+give other bricks on another machine."""
+
+_LEAST_GAIN: Final = 1e-6
+"""Bricks by which another layout of a component must be cheaper."""
+
+_SMALL: Final = 8_000
+_LARGE: Final = 14_000
+"""Placements above which a component is not tried, and above which a sheet is
+left to :mod:`.linear`: they would take minutes."""
+
+
+def cover(problem: Problem, rng: np.random.Generator) -> Index:
+    """Cover sheets at the least cost, as far as can be found out in reasonable time.
+
+    Parameters
+    ----------
+    problem : Problem
+        The sheets.
+    rng : numpy.random.Generator
+        Decides between equals.
+
+    Returns
+    -------
+    (n_bricks,) intp array
+        Rows of the placements to lay, never dearer than what :mod:`.linear` lays.
+    """
+    found, must, cost = problem.placements, problem.must, problem.cost
+    live = Live.of(found).only(~dominated(found, problem.shapes, must, cost))
+    laid = dive(live, must, cost).rows if len(live.rows) <= _LARGE else linear.cover(problem, rng)
+    group = Live.of(found).groups(len(must))
+    live = live.only((np.bincount(group[live.rows], minlength=len(found)) <= _SMALL)[group[live.rows]])
+    if not len(live.rows):
+        return laid
+    share = shares(live, must, cost[live.rows])
+    least = np.bincount(group[live.rows], weights=share * cost[live.rows], minlength=len(found))
+    spent = np.bincount(group[laid], weights=cost[laid], minlength=len(found))
+    tried = np.isin(np.arange(len(found)), group[live.rows])
+    for number in np.flatnonzero(tried & (spent > least + _LEAST_GAIN)):
+        part = live.only(group[live.rows] == number)
+        whole = whole_shares(part, must, cost[part.rows], _NODES)
+        if whole is not None and whole @ cost[part.rows] < spent[number] - _LEAST_GAIN:
+            laid = np.concatenate([laid[group[laid] != number], part.rows[whole > WHOLE]])
+    return laid

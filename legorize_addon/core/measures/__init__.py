@@ -1,0 +1,12 @@
+"""Figures about a model that building it never needs."""
+
+from __future__ import annotations
+
+from .lower_bound import bound
+from .pass_through import corner_windings, pass_through_types
+
+__all__ = [
+    "bound",
+    "corner_windings",
+    "pass_through_types",
+]

@@ -1,0 +1,145 @@
+"""How few bricks a model could be built of: a proven lower bound for every layout.
+
+Every cell gets a price, so that the cells of no placement are worth more than
+one brick together. Then no layout has fewer bricks than all cells are worth
+(weak duality), whoever lays it. The dual of the linear programme finds the best
+prices. On very wide sheets it finds those around the middle alone, whose cells keep
+an equal share of the largest part, or else block after block, the others staying
+as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+
+from ..arrays import Floats, Mask
+from ..layout.problem import Index, Live, Placements, Shapes, Sheets, blocks, dominated, placements, shapes, split
+from ..layout.solvers import prices
+from ..model import Catalogue, UnitGrid
+from ..progress import Progress, silent
+
+_BATCH: Final = 3000
+"""Placements from which no more sheets are put into one linear programme."""
+
+_SLAB: Final = 1 << 14
+"""Cells whose placements are listed at once."""
+
+_LARGE: Final = 30_000
+_WIDE: Final = 60_000
+_SIDE: Final = 32
+"""Placements above which the middle of wide areas keeps its prices, which loses up to
+two percent there; above which the rest is priced block after block; studs along a block."""
+
+_ROUNDING: Final = 1e-6
+"""What the prices of a component may lose by rounding."""
+
+
+def bound(grid: UnitGrid, catalogue: Catalogue, *, progress: Progress = silent) -> int:
+    """Return a number of bricks that no layout of a model falls below.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        The hollowed model. Which columns are laid in bricks and which in
+        plates is part of it; other layouts of it do not exist.
+    catalogue : Catalogue
+        Parts and colours.
+    progress : Progress
+        Told before each batch of sheets.
+
+    Returns
+    -------
+    int
+        At least one brick for each must cell that none shares with another one,
+        and so on: the sum over all components of the linear programme's bound,
+        rounded up.
+    """
+    codes = np.unique(grid.colour[grid.colour >= 0])
+    least = 0
+    for sheets in split(grid):
+        among = shapes(catalogue, sheets.height, codes, int(catalogue.codes[0]))
+        for share, part in _slabs(sheets):
+            found = placements(part, among)
+            for which in _batches(found, len(part)):
+                progress("bound", share)
+                least += _fewest(part.take(which), among, found.on(which, part.n_cells))
+    return least
+
+
+def _slabs(sheets: Sheets) -> Iterator[tuple[float, Sheets]]:
+    """Yield sheets that are listed at once, and the share of those before."""
+    slab = np.cumsum(sheets.n_cells) // _SLAB
+    for number in np.unique(slab):
+        yield float(np.mean(slab < number)), sheets.take(slab == number)
+
+
+def _batches(found: Placements, n_sheets: int) -> list[Index]:
+    """Divide sheets into batches of few placements."""
+    batch = np.cumsum(np.bincount(found.corner[:, 2], minlength=n_sheets)) // _BATCH
+    return [np.flatnonzero(batch == number) for number in np.unique(batch)]
+
+
+def _fewest(sheets: Sheets, among: Shapes, found: Placements) -> int:
+    """Return the bound of some sheets."""
+    cells = sheets.cells
+    must = sheets.must.reshape(-1)[cells]
+    everything = Live.of(found)
+    live = everything.only(~dominated(found, among, must, np.ones(len(found))))
+    sheet, y, x = np.unravel_index(cells, sheets.colour.shape)
+    price = cell_prices(live, must, np.stack([x, y, sheet], axis=1))
+    group = everything.groups(len(must))
+    of_cell = np.zeros(len(must), dtype=np.intp)
+    of_cell[found.cells] = np.repeat(group, found.size)
+    return int(np.ceil(np.bincount(of_cell, weights=price) - _ROUNDING).sum())
+
+
+def cell_prices(live: Live, must: Mask, corner: Index) -> Floats:
+    """Price cells so that no placement is worth more than one brick.
+
+    Parameters
+    ----------
+    live : Live
+        Placements that are not dominated.
+    must : (n_cells,) bool array
+        Cells that have to be covered.
+    corner : (n_cells, 3) intp array
+        Where the cells are: x and y in studs, number of the sheet.
+
+    Returns
+    -------
+    (n_cells,) float64 array
+        Prices in bricks, not above 0 where a cell need not be covered.
+    """
+    # to begin with, a brick is worth one brick if all of its must cells have no better one
+    needed = np.repeat(live.totals(must[live.cells]), live.size)
+    most = np.ones(len(must), dtype=np.int64)
+    np.maximum.at(most, live.cells, needed)
+    price = np.where(must, 1 / most, 0.0)
+    for part in _parts(live, corner):
+        inside = live.within(part)
+        touching = np.isin(live.rows, inside.rows, assume_unique=True)
+        room = 1 - _worth(live, np.where(part, 0.0, price))[touching]
+        cell, better = prices(inside, must, room)
+        price[cell] = better
+    return price / max(1.0, _worth(live, price).max(initial=0.0))
+
+
+def _parts(live: Live, corner: Index) -> Iterator[Mask]:
+    """Yield the cells that are priced together, again and again where they are not all of them."""
+    choice = np.bincount(live.cells, minlength=len(corner))
+    # the middle of a wide area can hardly be worth more
+    part = choice < (choice.max() if len(live.rows) > _LARGE else np.inf)
+    if len(live.within(part).rows) <= _WIDE:
+        # on a checkerboard all cells are alike, and well priced to begin with
+        yield from [part] if part.any() else []
+        return
+    for shift in (0, _SIDE // 2):
+        yield from (core & part for _, core in blocks(corner, shift, _SIDE) if (core & part).any())
+
+
+def _worth(live: Live, price: Floats) -> Floats:
+    """Sum the prices of the cells of each placement."""
+    return np.bincount(np.repeat(np.arange(len(live.rows)), live.size), weights=price[live.cells])

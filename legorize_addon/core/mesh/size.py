@@ -1,0 +1,95 @@
+"""How large the model gets, and whether that can be built."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from ..arrays import Floats
+from ..errors import SettingsError
+from ..model import UnitGrid
+from ..units import BRICK, STUD
+from .triangle_mesh import TriangleMesh
+
+_ORIGINAL_SCALE: Final = 10.0
+"""Scale factor k at which an object keeps its size (paper, section 3)."""
+
+
+def model_scale(mesh: TriangleMesh, *, size_by: str, width: int, height: int, scale: float) -> float:
+    """Return the factor from the size of the mesh to that of the model.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        In world mm.
+    size_by : {"width", "height", "scale"}
+        Which of the following numbers sets the size.
+    width : int
+        Studs along the longer horizontal side.
+    height : int
+        Bricks.
+    scale : float
+        Scale factor k of the paper.
+
+    Returns
+    -------
+    float
+        Model mm per world mm.
+
+    Raises
+    ------
+    SettingsError
+        The mesh has no extent along what shall have the asked size.
+
+    References
+    ----------
+    Paper, section 3: a factor k of 10 keeps the size.
+    """
+    extent = np.ptp(mesh.vertices, axis=0)
+    return scale_of_extent(extent, size_by=size_by, width=width, height=height, scale=scale)
+
+
+def scale_of_extent(extent: Floats, *, size_by: str, width: int, height: int, scale: float) -> float:
+    """Return :func:`model_scale` of a mesh whose extent along x, y and z in mm is known."""
+    if size_by == "scale":
+        return scale / _ORIGINAL_SCALE
+    if size_by == "width":
+        wanted, along, word = width * STUD, extent[:2].max(), "width"
+    else:
+        wanted, along, word = height * BRICK, extent[2], "height"
+    if along <= 1e-9 * extent.max():
+        raise SettingsError(f"The mesh has a {word} of {along:g} mm: set the size by another measure than {word}.")
+    return float(wanted / along)
+
+
+def check_any(grid: UnitGrid, mesh: TriangleMesh, *, keep_thin: bool) -> None:
+    """Refuse a model without bricks.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+    mesh : TriangleMesh
+        In its final size.
+    keep_thin : bool
+        Whether cells were added where the mesh is thin.
+
+    Raises
+    ------
+    SettingsError
+        The grid has no solid cell.
+    """
+    if grid.solid.any():
+        return
+    size = np.ptp(mesh.vertices, axis=0)
+    model = f"The model would be {size[0]:.2g} x {size[1]:.2g} x {size[2]:.2g} mm"
+    small = (size < (STUD, STUD, BRICK)).all()
+    if not (small or keep_thin):
+        raise SettingsError(
+            f"{model}, but nowhere fills half of a cell of {STUD:g} x {STUD:g} mm: turn keep_thin on, or choose a "
+            "larger size."
+        )
+    raise SettingsError(
+        f"{model}, too {'small' if small else 'thin'} for one brick of {STUD:g} x {STUD:g} x {BRICK:g} mm: choose a "
+        "larger size."
+    )

@@ -1,0 +1,44 @@
+"""What all stages share: the catalogue, the unit grid, the table of bricks, the graph of their contacts."""
+
+from __future__ import annotations
+
+from .brick_columns import Touching, agree, brick_columns, every_plate
+from .bricks import NOBODY, SUPPORTS, Bricks, Role, joined
+from .catalogue import ASSETS, MISSING_CELL, Catalogue, Colour, Part, footprint, load_catalogue
+from .contact_graph import Connection, Rows, components, connect, middles, stacked, stud_columns
+from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid, ground_of
+from .verdict import UNSUPPORTED, Verdict
+
+__all__ = [
+    "ASSETS",
+    "CELL_SIZE",
+    "COLOUR_ANY",
+    "COLOUR_EMPTY",
+    "MISSING_CELL",
+    "NOBODY",
+    "SUPPORTS",
+    "UNSUPPORTED",
+    "Bricks",
+    "Catalogue",
+    "Colour",
+    "Connection",
+    "Cover",
+    "Part",
+    "Role",
+    "Rows",
+    "Touching",
+    "UnitGrid",
+    "Verdict",
+    "agree",
+    "brick_columns",
+    "components",
+    "connect",
+    "every_plate",
+    "footprint",
+    "ground_of",
+    "joined",
+    "load_catalogue",
+    "middles",
+    "stacked",
+    "stud_columns",
+]

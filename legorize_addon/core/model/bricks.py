@@ -1,0 +1,82 @@
+"""The table of bricks: one row a brick, one array a column."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import Mask
+
+NOBODY: Final = -1
+"""Row that stands for no brick: the owner of an empty cell, what a move of a whole piece names."""
+
+
+class Role(IntEnum):
+    """What a brick or cell is there for; the scene shows each role by itself.
+
+    Supports outside are taken out again when the model is built. Those inside
+    stay, and so do those that are kept outside because they alone hold a part of
+    the model.
+    """
+
+    SHELL = 0
+    INSIDE = 1
+    PLATE = 2
+    OFFSET = 3
+    SUPPORT_OUTSIDE = 4
+    SUPPORT_INSIDE = 5
+    SUPPORT_KEPT = 6
+
+
+SUPPORTS: Final = (Role.SUPPORT_OUTSIDE, Role.SUPPORT_INSIDE, Role.SUPPORT_KEPT)
+"""Roles of supports."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bricks:
+    """A table of bricks, one row each, on the grid of a :class:`UnitGrid`.
+
+    Attributes
+    ----------
+    part : (n,) int16 array
+        Row of the part in the catalogue.
+    corner : (n, 3) int32 array
+        Lowest corner of the brick's bounding box: x and y in studs, z in plates.
+    turn : (n,) uint8 array
+        Quarter turns, counter-clockwise as seen from above. At 0 the long side
+        lies along x and the arms of a corner part along +x and +y.
+    colour : (n,) int16 array
+        LDraw colour code.
+    role : (n,) uint8 array
+        ``Role``.
+    piece : (n,) int16 array
+        Number of the split piece, 0 for a model in one piece.
+    step : (n,) int32 array
+        Building step, from 0.
+    """
+
+    part: NDArray[np.int16]
+    corner: NDArray[np.int32]
+    turn: NDArray[np.uint8]
+    colour: NDArray[np.int16]
+    role: NDArray[np.uint8]
+    piece: NDArray[np.int16]
+    step: NDArray[np.int32]
+
+    def __len__(self) -> int:
+        """Return the number of bricks."""
+        return len(self.part)
+
+    def take(self, rows: NDArray[np.integer] | Mask) -> Bricks:
+        """Return the given rows as a table of their own."""
+        return Bricks(*(getattr(self, name)[rows] for name in self.__slots__))
+
+
+def joined(tables: Sequence[Bricks]) -> Bricks:
+    """Put tables one behind the other; there must be one at least."""
+    return Bricks(*(np.concatenate([getattr(each, name) for each in tables]) for name in Bricks.__slots__))

@@ -1,0 +1,299 @@
+"""The parts and colours to build with, and which part is made in which colour.
+
+The facts stand in ``assets/parts.csv``, ``assets/colours.csv`` and
+``assets/availability.csv``; ``assets/README.md`` names their sources. The
+catalogue holds only colours to build a whole model of: every colour of it may
+be used.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Final, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..arrays import Floats, Mask
+from ..errors import BuildError
+from .unit_grid import COLOUR_ANY
+
+ASSETS: Final = Path(__file__).parents[3] / "assets"
+
+MISSING_CELL: Final = ((1, 1), (0, 1), (0, 0), (1, 0))
+"""Cell (x, y) of the 2 x 2 bounding box that a corner part leaves free, by quarter turn."""
+
+_Row = TypeVar("_Row")
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A part that stands upright on the grid.
+
+    Attributes
+    ----------
+    number : str
+        LDraw number, the same at BrickLink and Rebrickable.
+    title : str
+        Name for people, "Brick 2 x 4".
+    length, width : int
+        Studs along x and y at turn 0; the length is the longer side.
+    height : int
+        Plates: 1 a plate, 3 a brick, 9 a tall brick.
+    corner : bool
+        Whether it is a 2 x 2 corner part, which lacks one cell of its bounding box.
+    mass : float
+        Grams.
+    mass_source : str
+        Who weighed it, or how it was estimated.
+    aliases : tuple of str
+        Other numbers that LDraw files use for the same part.
+    """
+
+    number: str
+    title: str
+    length: int
+    width: int
+    height: int
+    corner: bool
+    mass: float
+    mass_source: str
+    aliases: tuple[str, ...]
+
+    @property
+    def turns(self) -> int:
+        """Number of different orientations: 1, 2 or 4 quarter turns."""
+        if self.corner:
+            return 4
+        return 1 if self.length == self.width else 2
+
+
+@dataclass(frozen=True, slots=True)
+class Colour:
+    """A solid, opaque brick colour.
+
+    Attributes
+    ----------
+    code : int
+        LDraw code.
+    name : str
+        English name as the shops use it.
+    rgb : tuple of three int
+        LDraw's value, sRGB bytes.
+    bricklink, rebrickable, lego : int
+        Number of the colour at BrickLink, Rebrickable and LEGO.
+    """
+
+    code: int
+    name: str
+    rgb: tuple[int, int, int]
+    bricklink: int
+    rebrickable: int
+    lego: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Catalogue:
+    """All parts and colours, and which part is made in which colour.
+
+    Attributes
+    ----------
+    parts : tuple of Part
+        In the order of the table: bricks, plates, tall bricks.
+    colours : tuple of Colour
+        By ascending LDraw code.
+    exists : (n_parts, n_colours) bool array
+        Whether the part was ever made in the colour.
+    element : (n_parts, n_colours) int64 array
+        LEGO's element number of the part in the colour, 0 where it is not known.
+    """
+
+    parts: tuple[Part, ...]
+    colours: tuple[Colour, ...]
+    exists: Mask
+    element: NDArray[np.int64]
+
+    @property
+    def codes(self) -> NDArray[np.int16]:
+        """LDraw codes of the colours, ascending, shape (n_colours,)."""
+        return np.array([colour.code for colour in self.colours], np.int16)
+
+    @property
+    def rgb(self) -> NDArray[np.uint8]:
+        """The colours as sRGB bytes, shape (n_colours, 3)."""
+        return np.array([colour.rgb for colour in self.colours], np.uint8)
+
+    @property
+    def mass(self) -> Floats:
+        """Mass of each part in grams, shape (n_parts,)."""
+        return np.array([part.mass for part in self.parts])
+
+    def part_row(self, number: str) -> int:
+        """Return the row of the part with an LDraw number or alias.
+
+        Raises
+        ------
+        BuildError
+            There is no such part.
+        """
+        for row, part in enumerate(self.parts):
+            if number == part.number or number in part.aliases:
+                return row
+        raise BuildError(f"Part {number} is not one of the {len(self.parts)} parts of the catalogue: use one of them.")
+
+    def colour_row(self, code: int) -> int:
+        """Return the row of the colour with an LDraw code.
+
+        Raises
+        ------
+        BuildError
+            There is no such colour.
+        """
+        for row, colour in enumerate(self.colours):
+            if code == colour.code:
+                return row
+        choice = ", ".join(str(colour.code) for colour in self.colours)
+        raise BuildError(f"Colour {code} is not in the catalogue: choose one of the LDraw codes {choice}.")
+
+    def exists_in(self, part_rows: ArrayLike, codes: ArrayLike) -> Mask:
+        """Tell which parts are made in which colours.
+
+        Parameters
+        ----------
+        part_rows : integer array
+            Rows of parts.
+        codes : integer array
+            LDraw codes, ``COLOUR_ANY`` for a brick whose colour is still free.
+            The two are broadcast against each other.
+
+        Returns
+        -------
+        bool array
+            True where the part is made in the colour or the colour is free;
+            False for every colour outside the catalogue.
+        """
+        codes = np.asarray(codes)
+        known = self.codes
+        # codes above the last colour point at it too; the comparison tells them apart
+        column = np.minimum(np.searchsorted(known, codes), len(known) - 1)
+        made = self.exists[np.asarray(part_rows), column] & (known[column] == codes)
+        return np.asarray(made | (codes == COLOUR_ANY))
+
+
+def footprint(part: Part, turn: int) -> NDArray[np.int32]:
+    """Return the cells that a part covers, seen from above.
+
+    Parameters
+    ----------
+    part : Part
+        The part.
+    turn : int
+        Quarter turns, counter-clockwise as seen from above.
+
+    Returns
+    -------
+    (k, 2) int32 array
+        Cells (x, y) as offsets from the lowest corner of the turned bounding
+        box, by ascending x, then y.
+    """
+    covered = np.ones((part.width, part.length) if turn % 2 else (part.length, part.width), bool)
+    if part.corner:
+        covered[MISSING_CELL[turn % 4]] = False
+    return np.argwhere(covered).astype(np.int32)
+
+
+@cache
+def load_catalogue() -> Catalogue:
+    """Return the catalogue of the add-on, read once.
+
+    Raises
+    ------
+    BuildError
+        A table is missing or damaged.
+    """
+    return read_catalogue(ASSETS)
+
+
+def read_catalogue(folder: Path) -> Catalogue:
+    """Read ``parts.csv``, ``colours.csv`` and ``availability.csv`` in a folder.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the tables are.
+
+    Returns
+    -------
+    Catalogue
+        Parts in the order of the file, colours by LDraw code.
+
+    Raises
+    ------
+    BuildError
+        A table is missing, a line cannot be understood, or a pair names a part
+        or colour that the other tables do not have.
+    """
+    parts = _read(folder / "parts.csv", _part)
+    colours = tuple(sorted(_read(folder / "colours.csv", _colour), key=lambda colour: colour.code))
+    part_rows = {part.number: row for row, part in enumerate(parts)}
+    colour_rows = {colour.code: row for row, colour in enumerate(colours)}
+    pairs = _read(
+        folder / "availability.csv",
+        lambda cells: (part_rows[cells["part"]], colour_rows[int(cells["colour"])], int(cells["element"] or 0)),
+    )
+    exists = np.zeros((len(parts), len(colours)), bool)
+    element = np.zeros(exists.shape, np.int64)
+    for part, colour, number in pairs:
+        exists[part, colour] = True
+        element[part, colour] = number
+    return Catalogue(parts, colours, exists, element)
+
+
+def _read(path: Path, convert: Callable[[dict[str, str]], _Row]) -> tuple[_Row, ...]:
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise BuildError(f"{path} cannot be read ({error.strerror}): install the add-on again.") from error
+    lines = csv.DictReader(text.splitlines())
+    rows = []
+    for cells in lines:
+        try:
+            rows.append(convert(cells))
+        except (KeyError, TypeError, ValueError) as error:
+            raise BuildError(
+                f"{path}, line {lines.line_num} is wrong ({error!r}): correct it or install the add-on again."
+            ) from error
+    return tuple(rows)
+
+
+def _part(cells: dict[str, str]) -> Part:
+    length, width = int(cells["length"]), int(cells["width"])
+    if not length >= width > 0:
+        raise ValueError(f"{length} x {width} is not a longer side times a shorter one")
+    return Part(
+        number=cells["number"],
+        title=cells["title"],
+        length=length,
+        width=width,
+        height=int(cells["height"]),
+        corner=bool(int(cells["corner"])),
+        mass=float(cells["mass_g"]),
+        mass_source=cells["mass_source"],
+        aliases=tuple(cells["aliases"].split()),
+    )
+
+
+def _colour(cells: dict[str, str]) -> Colour:
+    red, green, blue = bytes.fromhex(cells["rgb"].removeprefix("#"))
+    return Colour(
+        code=int(cells["code"]),
+        name=cells["name"],
+        rgb=(red, green, blue),
+        bricklink=int(cells["bricklink"]),
+        rebrickable=int(cells["rebrickable"]),
+        lego=int(cells["lego"]),
+    )

@@ -1,0 +1,15 @@
+"""What was built, in numbers and sentences: report, checks, remarks, tables."""
+
+from __future__ import annotations
+
+from .building_remarks import remarks_on_building, remarks_on_proof, remarks_on_split
+from .remarks import brick_name, layer_of, remarks
+
+__all__ = [
+    "brick_name",
+    "layer_of",
+    "remarks",
+    "remarks_on_building",
+    "remarks_on_proof",
+    "remarks_on_split",
+]

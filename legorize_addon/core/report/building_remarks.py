@@ -1,0 +1,129 @@
+"""What a builder has to know of supports and steps, in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+import numpy as np
+
+from ..building import Proof
+from ..model import Catalogue, Role
+from ..supports import SAVING, Supports
+from .remarks import brick_name, counted, layer_of
+
+SHOWN: Final = 5
+"""Steps that a sentence names."""
+
+
+def remarks_on_building(supports: Supports, catalogue: Catalogue) -> tuple[str, ...]:
+    """Name what a builder has to know of the supports, and what cannot be built.
+
+    Parameters
+    ----------
+    supports : Supports
+        The model with its supports and its order.
+    catalogue : Catalogue
+        Whose parts and colours the bricks are.
+
+    Returns
+    -------
+    tuple of str
+        A sentence each; empty if every brick finds hold, every support comes
+        out, and nothing has to stay or to be held.
+    """
+    return (*_staying(supports), *_by_hand(supports), *_faults(supports, catalogue))
+
+
+def remarks_on_split(supports: Supports, *, most: int) -> tuple[str, ...]:
+    """Say why a model that might be built in pieces is in one.
+
+    Parameters
+    ----------
+    supports : Supports
+        The model with its supports and its order.
+    most : int
+        Pieces at most that were asked for.
+
+    Returns
+    -------
+    tuple of str
+        One sentence, or none if it has pieces or nobody asked for any.
+    """
+    if most == 1 or len(supports.pieces) > 1:
+        return ()
+    hanging = any(len(piece.need.bricks) for piece in supports.pieces)
+    cuts = f"no cut between parts that hold together would save {SAVING:.0%} of its supports"
+    saving = cuts if hanging else "it needs no supports that a cut could save"
+    return (f"The model stays in one piece, though split allows {most}: {saving}.",)
+
+
+def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
+    """Name the building steps that do not stand by forces.
+
+    Parameters
+    ----------
+    proof : Proof or None
+        What was found, None where nobody asked.
+
+    Returns
+    -------
+    tuple of str
+        A sentence for the steps that collapse, and one for those in doubt.
+    """
+    if proof is None:
+        return ()
+    sentences = []
+    for steps, what in (
+        (proof.collapsing, "fall unless they are held"),
+        (proof.undecided, "may fall: no proof was found"),
+    ):
+        if len(steps):
+            which = ", ".join(str(step + 1) for step in steps[:SHOWN].tolist())
+            more = f" and {len(steps) - SHOWN} more" if len(steps) > SHOWN else ""
+            sentences.append(f"Bricks in place after {counted(len(steps), 'step', 'steps')} ({which}{more}) {what}.")
+    return tuple(sentences)
+
+
+def _staying(supports: Supports) -> Iterator[str]:
+    """Count the supports that are never taken out."""
+    outside = int(np.count_nonzero(supports.stays.role == Role.SUPPORT_KEPT))
+    inside = sum(len(piece.posts) for piece in supports.pieces)
+    for number, where in (
+        (outside, "in the model, under parts of it that would fall without them"),
+        (inside, "inside, under closed ceilings"),
+    ):
+        if number:
+            yield f"{counted(number, 'support brick stays', 'support bricks stay')} {where}."
+
+
+def _by_hand(supports: Supports) -> Iterator[str]:
+    """Count what supports cannot hold on the way."""
+    deep = sum(len(piece.need.left) for piece in supports.pieces)
+    if deep and any(piece.plan.way != "none" for piece in supports.pieces):
+        yield (
+            f"{counted(deep, 'brick hangs', 'bricks hang')} deeper than the limit while building, over parts of the "
+            "model from which no support could be taken out: press them under those above."
+        )
+    if supports.unsteady:
+        towers = counted(len(supports.unsteady), "tower has", "towers have")
+        yield f"{towers} to be held by hand on the way, the first in step {supports.unsteady[0].step + 1}."
+
+
+def _faults(supports: Supports, catalogue: Catalogue) -> Iterator[str]:
+    """Name what the check of the order found."""
+    found = supports.walk
+    for rows, what in (
+        (found.in_air, "without hold when placed: let supports stand under the model"),
+        (found.squeezed, "between others that are in place already: put them together with those above first"),
+        (found.stuck, "of supports that cannot be pulled out: take them apart by hand"),
+    ):
+        if len(rows):
+            first = int(rows[0])
+            yield (
+                f"The building order has {counted(len(rows), 'brick', 'bricks')} {what}; the first is the "
+                f"{brick_name(supports.bricks, first, catalogue)} in layer {layer_of(supports.bricks, first)}."
+            )
+    if loose := len(found.loose_pieces):
+        pieces = counted(loose, "piece that finds", "pieces that find")
+        yield f"The building order has {pieces} no hold or no way when joined: build the model in fewer pieces."

@@ -1,0 +1,89 @@
+"""The paper's four tables of one model, as CSV.
+
+References
+----------
+Paper, Table 1 (volume of each brick in each colour), Table 2 (bricks of supports),
+Table 3 (hollow ratio, number of bricks, time) and Table 4 (weight and number of
+support bricks).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from ..arrays import Floats
+from ..build import Build
+from ..files import count_parts
+from ..model import SUPPORTS, Bricks, Catalogue, footprint, joined
+from ..safe_text import csv_text, one_line
+from .report import hollow_ratio
+
+LINE_END = "\r\n"
+
+
+def paper_tables(build: Build, catalogue: Catalogue, *, name: str) -> dict[str, str]:
+    """Return the tables by the names of their files.
+
+    Parameters
+    ----------
+    build : Build
+        A finished build.
+    catalogue : Catalogue
+        Its parts and colours.
+    name : str
+        Of the model, for the rows of tables 3 and 4.
+
+    Returns
+    -------
+    dict of str to str
+        ``table_1.csv`` to ``table_4.csv``. Percentages are of the volume of the
+        model without its supports in the first, of all supports in the second.
+        Seconds are those of the layout and of its verification.
+    """
+    support = np.isin(build.bricks.role, SUPPORTS)
+    supports = joined([build.bricks.take(support), build.supports.removed])
+    seconds = sum(build.timings.get(stage, 0.0) for stage in ("layout", "stability"))
+    ways = " ".join(dict.fromkeys(piece.plan.way for piece in build.supports.pieces))
+    return {
+        "table_1.csv": _volumes(build.bricks.take(~support), catalogue),
+        "table_2.csv": _volumes(supports, catalogue),
+        "table_3.csv": _text(
+            ("model", "method", "hollow_ratio", "bricks", "seconds"),
+            [
+                (
+                    one_line(name),
+                    build.settings.layout,
+                    round(hollow_ratio(build), 4),
+                    len(build.bricks),
+                    round(seconds, 3),
+                )
+            ],
+        ),
+        "table_4.csv": _text(
+            ("model", "method", "weight_g", "bricks"),
+            [(one_line(name), ways, round(float(catalogue.mass[supports.part].sum()), 2), len(supports))],
+        ),
+    }
+
+
+def _volumes(bricks: Bricks, catalogue: Catalogue) -> str:
+    """Return the number of each part in each colour, and its share of the volume in percent."""
+    parts = count_parts(bricks, catalogue)
+    volume = _volume(catalogue)[parts.part] * parts.count
+    percent = 100 * volume / max(volume.sum(), 1)
+    rows = [
+        (part.number, part.title, colour.code, colour.name, count, round(share, 4))
+        for (part, colour, count), share in zip(parts.entries(catalogue), percent.tolist(), strict=True)
+    ]
+    return _text(("part", "title", "colour", "name", "count", "volume_percent"), rows)
+
+
+def _volume(catalogue: Catalogue) -> Floats:
+    """Return the cells of each part, a plate high."""
+    return np.array([len(footprint(part, 0)) * part.height for part in catalogue.parts], dtype=np.float64)
+
+
+def _text(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    return csv_text(columns, rows, line_end=LINE_END)

@@ -1,0 +1,155 @@
+"""What the user should know of how the bricks hold and stand: what cannot, and why, in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..arrays import Ints
+from ..model import NOBODY, Bricks, Catalogue, Verdict
+from ..units import PLATES_PER_BRICK
+from .separation import reasons
+
+if TYPE_CHECKING:
+    from ..model import Rows
+    from ..statics import Stability
+
+
+def remarks(bricks: Bricks, found: Stability, catalogue: Catalogue) -> tuple[str, ...]:
+    """Name what does not hold or stand, with the reason.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The model.
+    found : Stability
+        Whether they stand.
+    catalogue : Catalogue
+        Whose parts and colours the bricks are.
+
+    Returns
+    -------
+    tuple of str
+        A sentence each: bricks in the air, pieces that stand apart, what tips
+        over, what tears, what is not decided. Empty if the model stands in one
+        piece.
+    """
+    why = _why(bricks, catalogue) if len(np.unique(found.component)) > 1 else ""
+    sentences = [*_hanging(bricks, found, why), *_apart(found, why)]
+    if found.standing is Verdict.COLLAPSES:
+        sentences += _reasons(bricks, found, catalogue)
+    if found.standing is Verdict.UNDECIDED:
+        sentences.append(_undecided(bricks, found, catalogue))
+    return tuple(sentences)
+
+
+def brick_name(bricks: Bricks, row: int, catalogue: Catalogue) -> str:
+    """Return what people see of a brick: colour and part.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The model.
+    row : int
+        The brick.
+    catalogue : Catalogue
+        Whose parts and colours the bricks are.
+
+    Returns
+    -------
+    str
+        As "Red Brick 2 x 4".
+    """
+    colour = catalogue.colours[catalogue.colour_row(int(bricks.colour[row]))]
+    return f"{colour.name} {catalogue.parts[bricks.part[row]].title}"
+
+
+def layer_of(bricks: Bricks, row: int) -> int:
+    """Return the layer of a brick, counted from 1."""
+    return int(bricks.corner[row, 2]) // PLATES_PER_BRICK + 1
+
+
+def _reasons(bricks: Bricks, found: Stability, catalogue: Catalogue) -> list[str]:
+    """Return why what stands on the ground collapses: a sentence a body that tips over, and one on joints."""
+    sentences = list(_tipping(bricks, found, catalogue))
+    if len(found.torn):
+        sentences.append(_torn(bricks, found.torn, catalogue))
+    return sentences or ["The model collapses under its own weight: make it thicker where the heat map is red."]
+
+
+def _why(bricks: Bricks, catalogue: Catalogue) -> str:
+    """Return why the components are not one."""
+    # what this imports takes long to load, and the names above are asked for without it
+    from ..model import connect
+
+    links = connect(bricks, catalogue)
+    return reasons(links.owner, links.component)
+
+
+def _hanging(bricks: Bricks, found: Stability, why: str) -> Iterator[str]:
+    """Count what touches nothing on the ground."""
+    rows = found.unsupported
+    if len(rows) == 0:
+        return
+    bodies = len(np.unique(found.component[rows]))
+    low, high = (layer_of(bricks, int(row)) for row in rows[_ends(bricks.corner[rows, 2])])
+    where = f"layer {low}" if low == high else f"layers {low} to {high}"
+    hang, among = counted(len(rows), "brick hangs", "bricks hang"), counted(bodies, "body", "bodies")
+    yield f"{hang} in the air in {among} ({where}): no stud joins them to what stands on the ground; {why}."
+
+
+def _apart(found: Stability, why: str) -> Iterator[str]:
+    """Count the pieces that stand beside each other."""
+    pieces = np.unique(found.component[found.statics.rows], return_counts=True)[1]
+    if len(pieces) > 1:
+        yield (
+            f"The model stands in {len(pieces)} pieces that no brick joins, the smallest of "
+            f"{counted(int(pieces.min()), 'brick', 'bricks')}: {why}."
+        )
+
+
+def _tipping(bricks: Bricks, found: Stability, catalogue: Catalogue) -> Iterator[str]:
+    """Name each body whose weight meets the ground outside of its feet."""
+    several = np.count_nonzero(~np.isnan(found.tipping)) > 1
+    for body in np.flatnonzero(found.tipping < 0):
+        rows = np.flatnonzero(found.component == body)
+        feet = rows[bricks.corner[rows, 2] == bricks.corner[rows, 2].min()]
+        what = f"The piece of {counted(len(rows), 'brick', 'bricks')}" if several else "The model"
+        on = f"{len(feet)} bricks" if len(feet) > 1 else f"one {brick_name(bricks, int(feet[0]), catalogue)}"
+        yield (
+            f"{what} tips over: it stands on {on}, and its centre of mass lies {-found.tipping[body]:.1f} mm outside "
+            "of these feet; make them wider, turn the mesh, or put it on a base."
+        )
+
+
+def _torn(bricks: Bricks, torn: Ints, catalogue: Catalogue) -> str:
+    """Name the joint that opens widest, and count the others."""
+    lower, upper = (int(row) for row in torn[0])
+    below = "the ground" if lower == NOBODY else f"the {brick_name(bricks, lower, catalogue)} below it"
+    others = f", the first of {len(torn)} joints" if len(torn) > 1 else ""
+    return (
+        f"The model collapses under its own weight: in layer {layer_of(bricks, upper)} the "
+        f"{brick_name(bricks, upper, catalogue)} tears off {below}{others}; make the model thicker there, or lighter "
+        "above."
+    )
+
+
+def _undecided(bricks: Bricks, found: Stability, catalogue: Catalogue) -> str:
+    """Name the brick in doubt."""
+    weakest = int(found.statics.rows[found.margin[found.statics.rows].argmin()])
+    return (
+        "Whether the model stands could not be decided: there is no proof that it does, and none that it collapses; in "
+        f"doubt is first the {brick_name(bricks, weakest, catalogue)} in layer {layer_of(bricks, weakest)}; try the "
+        "exact layout, or make the model thicker there."
+    )
+
+
+def _ends(levels: Rows) -> list[int]:
+    return [int(levels.argmin()), int(levels.argmax())]
+
+
+def counted(n: int, one: str, more: str) -> str:
+    """Return a number with the words that go with it."""
+    return f"{n} {one if n == 1 else more}"

@@ -1,0 +1,84 @@
+"""Why the components of a model are not one: how near they come to each other."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from ..arrays import Ints
+from ..model import NOBODY
+
+if TYPE_CHECKING:
+    from ..model import Rows
+
+_APART, _EDGE, _SIDE = range(3)
+
+_STEPS: Final = tuple(step for step in np.ndindex(2, 3, 3) if step > (0, 1, 1))
+"""Steps, more by one along y and x, to the neighbours of a cell above it and beside it, one of each opposite pair."""
+
+_REASONS: Final = (
+    "{} nothing else: let the meshes touch if it should be one",
+    "{} others at edges or corners alone, where no stud can hold: let the meshes overlap there by a stud",
+    "{} others side by side, but no part across the seam found room in a colour that may show there: allow plates, or "
+    "make the model a stud thicker or of one colour where they meet",
+)
+
+
+def reasons(owner: Rows, component: Rows) -> str:
+    """Say why components are not one, and what can be done about it.
+
+    Parameters
+    ----------
+    owner : (n_z, n_y, n_x) int32 array
+        Row of the brick in each cell, ``NOBODY`` where there is none.
+    component : (n,) int32 array
+        Component of each brick; there are two at least.
+
+    Returns
+    -------
+    str
+        The end of a sentence, without its full stop. All components but the
+        largest are counted by how near they come to any other one.
+    """
+    met = meetings(owner, component)
+    others = np.delete(met, np.bincount(component).argmax())
+    counts = [int(np.count_nonzero(others == kind)) for kind in (_SIDE, _EDGE, _APART)]
+    if len(others) == 1:
+        return _REASONS[int(others[0])].format("the smaller one touches")
+    if max(counts) == len(others):
+        return _REASONS[int(others[0])].format("they touch")
+    told = zip(counts, (_SIDE, _EDGE, _APART), strict=True)
+    return "; ".join(
+        _REASONS[kind].format(f"{count} of them touch{'es' * (count == 1)}") for count, kind in told if count
+    )
+
+
+def meetings(owner: Rows, component: Rows) -> Ints:
+    """Tell how near each component comes to another one.
+
+    Parameters
+    ----------
+    owner : (n_z, n_y, n_x) int32 array
+    component : (n,) int32 array
+
+    Returns
+    -------
+    (n_components,) int64 array
+        2 if some of their cells lie side by side, 1 if they meet at an edge or a
+        corner, 0 if not even that.
+    """
+    # the brick of no cell finds its component at the end
+    label = np.pad(np.append(component, np.int32(NOBODY))[owner], 1, constant_values=NOBODY)
+    met = np.zeros(int(component.max()) + 1, dtype=np.int64)
+    here = label[:-1, 1:-1, 1:-1]
+    for up, back, right in _STEPS:
+        there = label[
+            up : label.shape[0] - 1 + up, back : label.shape[1] - 2 + back, right : label.shape[2] - 2 + right
+        ]
+        apart = (here != NOBODY) & (there != NOBODY) & (here != there)
+        kind = _SIDE if abs(up) + abs(back - 1) + abs(right - 1) == 1 else _EDGE
+        for side in (here, there):
+            rows = np.unique(side[apart])
+            met[rows] = np.maximum(met[rows], kind)
+    return met

@@ -1,0 +1,15 @@
+"""What of the grid must be built, may be built, or stays empty, and what its shell needs to hold together."""
+
+from __future__ import annotations
+
+from .cohesion import held_together
+from .hollowing import hollow
+from .near_bodies import free_bodies
+from .regions import tally_cases
+
+__all__ = [
+    "free_bodies",
+    "held_together",
+    "hollow",
+    "tally_cases",
+]

@@ -1,0 +1,175 @@
+"""Hollowing: which cells must be built, which may be, and which stay empty.
+
+A shell of constant thickness around everything empty must be built: it shows,
+or it carries what shows. So must what carries the ceilings inside. The cells one
+further in may be built, which lets the layout use larger bricks that hold the
+shell together; the rest is left out.
+
+References
+----------
+Paper, section on hollowing: its four cases (:mod:`.regions`) applied to the layer
+above *and* to the layer below, with contours of eight neighbours, give the same
+cells as a shell of one cell measured over all 26 neighbours, so the shell is
+computed as an erosion.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import Mask
+from ..model import COLOUR_ANY, COLOUR_EMPTY, Cover, Role, UnitGrid
+from ..progress import Progress, part, silent
+from ..units import PLATES_PER_BRICK
+from .ceilings import Columns, Way, carriers
+from .regions import kept
+
+Rule = Literal["both", "upper"]
+
+
+def hollow(
+    grid: UnitGrid,
+    *,
+    shell: int | None,
+    rule: Rule = "both",
+    ceilings: Way = "free",
+    open_bottom: bool = False,
+    progress: Progress = silent,
+) -> UnitGrid:
+    """Sort the cells of a solid model into must, may and empty.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        A solid model; cavities that it encloses are empty cells.
+    shell : int or None
+        Thickness of the shell that must be built: studs along x and y, bricks
+        along z. None leaves the model solid.
+    rule : {"both", "upper"}
+        Compare each layer with both neighbours, or as the paper does with the
+        one above alone, which leaves undersides open.
+    ceilings : {"cheaper", "corbels", "pillars", "free"}
+        What carries ceilings inside, see :func:`~.ceilings.carriers`.
+    open_bottom : bool
+        Leave out what only covers the underside on the ground. With "upper"
+        it is left out anyway.
+    progress : Progress, optional
+        Told between the steps.
+
+    Returns
+    -------
+    UnitGrid
+        ``MUST`` in the shell and in what carries ceilings, ``MAY`` one cell
+        around these, ``EMPTY`` elsewhere; everything ``MUST`` when `shell` is
+        None. Full columns of three plates have one cover. Colours stay as they
+        are in the cells that remain, but ceilings are carried in any colour.
+        Shell cells without a colour of their own, which nobody sees, and corbels
+        get the role ``INSIDE``, pillars ``SUPPORT_INSIDE``.
+    """
+    cover, colour, role = grid.cover.copy(), grid.colour.copy(), grid.role.copy()
+    cover[grid.solid] = Cover.MUST
+    if shell is not None:
+        deep = peeled(grid.solid, shell) if rule == "upper" else eroded(grid.solid, shell, open_bottom=open_bottom)
+        must = grid.solid & ~deep[:, None]
+        progress("hollowing", 0.2)
+        corbels, pillars = carriers(
+            Columns(must[:, 0], must[:, -1], must.all(axis=1), deep), ceilings, part(progress, 0.2, 0.8)
+        )
+        progress("hollowing", 0.8)
+        inner = deep & ~(corbels | pillars)
+        may = inner & _grown(~inner & grid.solid.any(axis=1))
+        _fill(cover, inner, Cover.EMPTY)
+        _fill(cover, may, Cover.MAY)
+        _fill(colour, corbels | pillars, COLOUR_ANY)
+        _fill(role, corbels, Role.INSIDE)
+        _fill(role, pillars, Role.SUPPORT_INSIDE)
+    colour[cover == Cover.EMPTY] = COLOUR_EMPTY
+    role[(colour == COLOUR_ANY) & (role == Role.SHELL)] = Role.INSIDE
+    return UnitGrid(colour=colour, cover=cover, role=role, origin=grid.origin)
+
+
+def _fill(cells: NDArray[np.integer], columns: Mask, value: int) -> None:
+    """Give all three plates of some columns a value."""
+    np.copyto(cells, cells.dtype.type(value), where=columns[:, None])
+
+
+def eroded(solid: Mask, thickness: int, *, open_bottom: bool = False) -> Mask:
+    """Return the columns that lie deeper than a shell of the given thickness.
+
+    Parameters
+    ----------
+    solid : (n_layers, 3, n_y, n_x) bool array
+        Cells of the model; everything outside the array counts as empty.
+    thickness : int
+        Studs along x and y, bricks along z; two plates do for the last brick.
+    open_bottom : bool
+        Count the ground below the lowest layer as solid.
+
+    Returns
+    -------
+    (n_layers, n_y, n_x) bool array
+        True where no empty cell lies within `thickness` along x, y and z at once
+        (all 26 neighbours for 1). The three plates of a column are deep together
+        or not at all, so that hollowing never cuts a brick into plates.
+    """
+    plates = solid.reshape(-1, *solid.shape[2:])
+    height = PLATES_PER_BRICK * thickness - 1
+    for axis, reach in enumerate((height, thickness, thickness)):
+        plates = _shrunk(plates, axis, reach, open_start=axis == 0 and open_bottom)
+    deep: Mask = plates.reshape(solid.shape).all(axis=1)
+    return deep
+
+
+def peeled(solid: Mask, thickness: int) -> Mask:
+    """Return the columns that remain when the paper's rule is applied to the layers above, time after time.
+
+    Parameters
+    ----------
+    solid : (n_layers, 3, n_y, n_x) bool array
+        Cells of the model; everything outside the array counts as empty.
+    thickness : int
+        How often the rule is applied.
+
+    Returns
+    -------
+    (n_layers, n_y, n_x) bool array
+        Columns deeper than the literal shell, with contours of four neighbours.
+        A column stays in the shell if any of its plates does.
+    """
+    deep = solid
+    for _ in range(thickness):
+        if not deep.any():
+            break
+        plates = deep.reshape(-1, *solid.shape[2:])
+        rest = plates & ~kept(plates, upper_only=True)
+        deep = np.broadcast_to(rest.reshape(solid.shape).all(axis=1, keepdims=True), solid.shape)
+    return deep.all(axis=1)
+
+
+def _shrunk(mask: Mask, axis: int, reach: int, *, open_start: bool) -> Mask:
+    """Keep the cells whose neighbours up to `reach` away along an axis are all True."""
+    wide = np.moveaxis(_padded(mask, axis, reach), axis, 0)
+    wide[:reach] = open_start
+    span = 1
+    # windows grow by doubling: a window of 7 cells costs three passes
+    while span <= 2 * reach:
+        step = min(span, 2 * reach + 1 - span)
+        wide = wide[:-step] & wide[step:]
+        span += step
+    return np.moveaxis(wide, 0, axis)
+
+
+def _grown(mask: Mask) -> Mask:
+    """Add the 26 neighbours of every cell."""
+    for axis in range(mask.ndim):
+        wide = np.moveaxis(_padded(mask, axis, 1), axis, 0)
+        mask = np.moveaxis(wide[:-2] | wide[1:-1] | wide[2:], 0, axis)
+    return mask
+
+
+def _padded(mask: Mask, axis: int, width: int) -> Mask:
+    """Put empty cells before and behind along an axis."""
+    return np.pad(mask, [(width, width) if each == axis else (0, 0) for each in range(mask.ndim)])

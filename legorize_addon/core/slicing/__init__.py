@@ -1,0 +1,28 @@
+"""The mesh cut by horizontal planes: slices, and the closed, nested, coloured loops in them."""
+
+from __future__ import annotations
+
+from .coverage import Pieces, covered, cut_at_grid
+from .lattice import ALPHA, Grid, fit_grid
+from .layer_differences import Marks, differing_layers
+from .levels import Levels, levels_of
+from .slices import Slices, adaptive_heights, slice_mesh
+from .trajectories import Trajectories, link_loops
+
+__all__ = [
+    "ALPHA",
+    "Grid",
+    "Levels",
+    "Marks",
+    "Pieces",
+    "Slices",
+    "Trajectories",
+    "adaptive_heights",
+    "covered",
+    "cut_at_grid",
+    "differing_layers",
+    "fit_grid",
+    "levels_of",
+    "link_loops",
+    "slice_mesh",
+]

@@ -1,0 +1,152 @@
+"""Which bricks need a support while the model is built, and where it touches them.
+
+Only places over open ground are taken, from which supports can be pulled out
+again; one contact often serves many bricks, because what stands on a carried
+brick is carried as well, and may carry others from above.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import Floats, Ints
+from ..model import Bricks, Catalogue, Connection, Rows, middles, stud_columns
+from ..statics import GRAVITY
+from .clearance import Room, room_around
+from .hanging import NOT_HELD, Carrying
+
+INSIDE: Final = 6
+"""Plates by which bricks in closed hollows may hang deeper than others."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Need:
+    """What has to be supported, and where.
+
+    Attributes
+    ----------
+    room : Room
+        Where supports may stand.
+    bricks : (n_need,) int64 array
+        Rows of the bricks that nothing of the model carries within the limit.
+    undersides : (n_cells, 3) int32 array
+        Cells (x, y, z) of the room at the undersides of all bricks that have open
+        room down to the ground: z is the plate on which the brick lies.
+    over : (n_cells,) int64 array
+        Row of the brick over each of them.
+    contacts : (n_contacts, 3) int32 array
+        The cells that a support must reach, chosen from those.
+    carried : (n_contacts,) int64 array
+        Row of the brick on each contact.
+    load : (n_contacts,) float64 array
+        Weight in N of all bricks that each contact carries while building.
+    enclosed : int64 array
+        Rows of the bricks that no contact carries, and that look down into closed
+        hollows alone, from which nothing comes out again.
+    depth : (n,) int32 array
+        Plates by which each brick hangs then, ``NOT_HELD`` where nothing holds it.
+    """
+
+    room: Room
+    bricks: Ints
+    undersides: Rows
+    over: Ints
+    contacts: Rows
+    carried: Ints
+    load: Floats
+    enclosed: Ints
+    depth: NDArray[np.int32]
+
+    @property
+    def cells(self) -> Rows:
+        """Undersides of the bricks that need a support: all that it could stand under, (m, 3) int32."""
+        return self.undersides[np.isin(self.over, self.bricks)]
+
+    @property
+    def left(self) -> Ints:
+        """Rows of the bricks that no contact carries within the limit."""
+        return np.flatnonzero(self.depth == NOT_HELD)
+
+
+def needed(
+    bricks: Bricks, catalogue: Catalogue, connection: Connection, *, deepest: int, room: Room | None = None
+) -> Need:
+    """Find the bricks that need a support, and contacts that carry them.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        One piece, n rows, which stands on its lowest plate.
+    catalogue : Catalogue
+    connection : Connection
+        Of these bricks.
+    deepest : int
+        Plates that bricks may hang one under another while building; 0 if each
+        brick must lie on another one.
+    room : Room, optional
+        Where supports may stand, of cells that include this piece; by default
+        that around the piece alone.
+
+    Returns
+    -------
+    Need
+    """
+    height = np.array([part.height for part in catalogue.parts])[bricks.part]
+    carrying = Carrying(connection, height, deepest=deepest)
+    level = bricks.corner[:, 2]
+    carrying.hold(np.flatnonzero(level == level.min()).tolist())
+    wanting = np.flatnonzero(carrying.depth == NOT_HELD)
+    room = room_around(connection) if room is None else room
+    brick, cells, enclosed = _undersides(bricks, catalogue, room)
+    chosen, load = _chosen(carrying, bricks, catalogue, connection, np.intersect1d(wanting, brick))
+    # a stud in the middle tips a brick least
+    middle = middles(bricks, catalogue) - room.low[:2]
+    off = np.abs(cells[:, :2] + 0.5 - middle[brick]).sum(axis=1)
+    order = np.lexsort((off, brick))
+    first = order[np.searchsorted(brick[order], chosen)]
+    depth = carrying.depth
+    # inside, a post would stay for good: bricks may hang deeper before one is worth it
+    carrying.deepen(deepest + INSIDE)
+    return Need(
+        room=room,
+        bricks=wanting,
+        undersides=cells,
+        over=brick,
+        contacts=cells[first],
+        carried=chosen,
+        load=load,
+        enclosed=enclosed[carrying.depth[enclosed] == NOT_HELD],
+        depth=depth,
+    )
+
+
+def _chosen(
+    carrying: Carrying, bricks: Bricks, catalogue: Catalogue, connection: Connection, candidates: Ints
+) -> tuple[Ints, Floats]:
+    """Choose bricks to carry, from the lowest; of one level, those held best from above, which part cleanly."""
+    studs_above = np.bincount(connection.pairs[:, 0], connection.studs, len(bricks))
+    mass = catalogue.mass[bricks.part]
+    order = candidates[
+        np.lexsort((candidates, -mass[candidates], -studs_above[candidates], bricks.corner[candidates, 2]))
+    ]
+    chosen, load = [], []
+    for brick in order.tolist():
+        if not carrying.held(brick):
+            chosen.append(brick)
+            load.append(GRAVITY * float(mass[carrying.hold([brick])].sum()) / 1000)
+    return np.array(chosen, dtype=np.int64), np.array(load, dtype=np.float64)
+
+
+def _undersides(bricks: Bricks, catalogue: Catalogue, room: Room) -> tuple[Ints, Rows, Ints]:
+    """List the cells over open room, with the rows of their bricks, and the bricks that look into closed hollows."""
+    brick, columns = stud_columns(bricks, catalogue)
+    cells = columns - room.low
+    raised = cells[:, 2] > 0
+    brick, cells = brick[raised].astype(np.int64), cells[raised]
+    below = cells[:, 2] - 1, cells[:, 1], cells[:, 0]
+    enclosed = np.setdiff1d(brick[~room.filled[below] & ~room.free[below]], brick[room.free[below]])
+    return brick[room.open[below]], cells[room.open[below]], enclosed

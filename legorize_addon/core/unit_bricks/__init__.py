@@ -1,0 +1,21 @@
+"""From loops to the grid of unit bricks: which cells are filled, in which colour, and where plates pay."""
+
+from __future__ import annotations
+
+from .backing import with_backing
+from .facing import facing_of
+from .generation import unit_bricks
+from .offset_bricks import with_offset_bricks
+from .offset_rings import Offsets, OverhangKind, overhang_kinds
+from .plates import Detail
+
+__all__ = [
+    "Detail",
+    "Offsets",
+    "OverhangKind",
+    "facing_of",
+    "overhang_kinds",
+    "unit_bricks",
+    "with_backing",
+    "with_offset_bricks",
+]

@@ -1,0 +1,157 @@
+"""Local high resolution: where plates replace bricks.
+
+Layers are marked for three slices of 3.2 mm instead of one of 9.6 mm where the
+trajectories of neighbouring layers differ, where the surface is flat, or where
+its colour changes. In marked layers the three plates of a cell column stay where
+a brick in their place would err too much, in volume or in colour; elsewhere they
+are one brick again. Every column is decided by itself, or together with its
+neighbours where fewer parts are worth an error.
+
+References
+----------
+Paper, section on local high resolution: differences in the number of polygons,
+and in the lengths and areas of corresponding polygons, of neighbouring layers;
+three rules of superposition by which three plates become a brick. The criteria
+of volume and of colour are our own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..arrays import Floats, Mask
+from ..model import COLOUR_ANY, COLOUR_EMPTY
+from ..units import PLATES_PER_BRICK
+from .colour_votes import CLEAR, Ballot, Codes, cost_in
+from .smoothing import agreed_colours, agreed_shapes
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Detail:
+    """Where plates may stay.
+
+    Attributes
+    ----------
+    marked : (n_layers,) bool array
+        Layers that were sliced plate by plate; in others every cell is a brick.
+    least_gain : float
+        Error that plates must save: in volume as a share of a brick, in colour
+        as the share of its faces times the difference as a share of a clear one.
+        0 keeps all plates that differ from a brick.
+    worth : float
+        Error, as above, that one part less is worth: neighbouring columns agree
+        where that costs less. 0 decides every column by itself.
+    """
+
+    marked: Mask
+    least_gain: float
+    worth: float = 0.0
+
+
+def settled(solid: Mask, share: Floats, detail: Detail) -> Mask:
+    """Make bricks of cell columns in which plates do not pay.
+
+    Three rules of superposition: three plates are a brick anyway. A column of
+    one or two becomes a brick, or nothing, whichever is nearer to the volume of
+    the mesh, unless the error of that exceeds the error of the plates by the
+    least gain. What is thin, or rests on nothing, never becomes nothing. Where
+    one part less is worth something, columns that gain nothing are settled so
+    first; the others are only filled up, as their neighbours ask for it, and the
+    least gain is what plates cost.
+
+    Parameters
+    ----------
+    solid : (n_plates, n_y, n_x) bool array
+    share : (n_plates, n_y, n_x) float64 array
+        Share of each cell inside the mesh.
+    detail : Detail
+
+    Returns
+    -------
+    (n_plates, n_y, n_x) bool array
+    """
+    if detail.worth == 0:
+        return _settled_alone(solid, share, detail)
+    every = _settled_alone(solid, share, replace(detail, least_gain=0.0))
+    return agreed_shapes(every, share, least_gain=detail.least_gain, worth=detail.worth)
+
+
+def _settled_alone(solid: Mask, share: Floats, detail: Detail) -> Mask:
+    """Settle every column by itself."""
+    plates = solid.reshape(-1, PLATES_PER_BRICK, *solid.shape[1:])
+    layer, y, x = np.nonzero(plates.any(axis=1) & ~plates.all(axis=1))
+    there = plates[layer, :, y, x]
+    inside = share.reshape(plates.shape)[layer, :, y, x]
+    error, full, none = (np.abs(inside - what).mean(axis=1) for what in (there, 1.0, 0.0))
+    # what was added though less than half covered is thin; it and what carries it stay
+    thin = (there & (inside < 0.5)).any(axis=1)
+    resting = _resting(plates)[layer, y, x]
+    drop = (none < full) & resting & ~thin
+    gain = np.where(drop, none, full) - error
+    round_ = ~detail.marked[layer] | (gain < detail.least_gain)
+    kept = plates.copy()
+    kept[layer[round_], :, y[round_], x[round_]] = ~drop[round_, None]
+    return kept.reshape(solid.shape)
+
+
+def _resting(plates: Mask) -> Mask:
+    """Return the columns with a solid plate right below or right above them, (n_layers, n_y, n_x)."""
+    resting = np.zeros((len(plates), *plates.shape[2:]), dtype=bool)
+    resting[1:] |= plates[:-1, -1]
+    resting[:-1] |= plates[1:, 0]
+    return resting
+
+
+def settled_colours(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -> Codes:
+    """Give cell columns of three plates one colour where several do not pay.
+
+    Where one part less is worth something, neighbours are taken into account.
+
+    Parameters
+    ----------
+    colour : (n_plates, n_y, n_x) int16 array
+        LDraw codes, ``COLOUR_ANY`` or ``COLOUR_EMPTY``.
+    seen : (n_plates, n_y, n_x) bool array
+        Visible cells.
+    ballot : Ballot
+        What the surface of each visible cell asks for.
+    detail : Detail
+
+    Returns
+    -------
+    (n_plates, n_y, n_x) int16 array
+    """
+    if detail.worth == 0:
+        return _coloured_alone(colour, seen, ballot, detail)
+    whole = _coloured_alone(colour, seen, ballot, replace(detail, least_gain=0.0))
+    return agreed_colours(whole, seen, ballot, detail.marked, least_gain=detail.least_gain, worth=detail.worth)
+
+
+def _coloured_alone(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -> Codes:
+    """Settle the colours of every column by itself."""
+    columns = colour.reshape(-1, PLATES_PER_BRICK, *colour.shape[1:])
+    layer, y, x = np.nonzero(_of_several_colours(columns))
+    if len(layer) == 0:
+        return colour
+    shown = seen.reshape(columns.shape)[layer, :, y, x]
+    number = np.cumsum(seen.ravel()).reshape(columns.shape)[layer, :, y, x] - 1
+    cost = np.where(shown[:, :, None], ballot.cost[number], 0.0)
+    voted = ((ballot.votes[number] > 0) & shown[:, :, None]).any(axis=1)
+    several = cost_in(cost, shown, ballot.codes, columns[layer, None, :, y, x])[:, 0]
+    total = np.where(voted, cost.mean(axis=1), np.inf)
+    one = total.argmin(axis=1)
+    gain = (total.min(axis=1) - several.mean(axis=1)) / CLEAR
+    merge = np.flatnonzero((~detail.marked[layer] | (gain < detail.least_gain)) & voted.any(axis=1))
+    merged = columns.copy()
+    merged[layer[merge], :, y[merge], x[merge]] = ballot.codes[one[merge], None]
+    return merged.reshape(colour.shape)
+
+
+def _of_several_colours(columns: Codes) -> Mask:
+    """Return the columns of three solid plates that do not agree on a colour, (n_layers, n_y, n_x)."""
+    top = columns.max(axis=1)
+    lowest = np.where(columns == COLOUR_ANY, np.iinfo(np.int16).max, columns).min(axis=1)
+    several: Mask = (columns != COLOUR_EMPTY).all(axis=1) & (lowest < top)
+    return several

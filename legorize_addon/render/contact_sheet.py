@@ -1,0 +1,121 @@
+"""The building order at a glance: pictures of some of its steps, side by side in one image."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.files import replacing
+from ..view import check_steps, n_steps, show_steps, steps_done
+from .still import render_still
+
+MARGIN: Final = 4
+"""Pixels of white between two pictures."""
+
+
+def render_contact_sheet(
+    scene: bpy.types.Scene,
+    build: bpy.types.Collection,
+    path: Path,
+    *,
+    pictures: int,
+    samples: int = 8,
+    resolution: tuple[int, int] = (480, 360),
+    outlines: bool = False,
+) -> None:
+    """Write pictures of a build at evenly spaced building steps, row by row; the last one shows the finished model.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        The build's scene.
+    build : bpy.types.Collection
+        The build; it is shown as it was before when all pictures are taken.
+    path : pathlib.Path
+        PNG file to write, in a folder that exists.
+    pictures : int
+        How many; a build of fewer steps has one for each.
+    samples : int, optional
+        Light paths a pixel.
+    resolution : tuple of two int, optional
+        Width and height of each picture in pixels.
+    outlines : bool, optional
+        Whether dark lines tell the bricks apart.
+
+    Raises
+    ------
+    BuildError
+        The build does not know its steps, or the file cannot be written there.
+    """
+    check_steps(build)
+    before = steps_done(build)
+    with replacing(path, "picture") as partial, tempfile.TemporaryDirectory() as folder:
+        frame, taken = Path(folder) / "frame.png", []
+        try:
+            for steps in even_steps(n_steps(build), pictures):
+                show_steps(build, steps)
+                render_still(
+                    scene, frame, samples=samples, resolution=resolution, outlines=outlines, whole_building=True
+                )
+                taken.append(_pixels(frame))
+        finally:
+            show_steps(build, before)
+        _write(tiled(taken), partial)
+
+
+def even_steps(n_steps: int, pictures: int) -> list[int]:
+    """Return after how many of some steps pictures are taken, the last one after all of them."""
+    wanted = min(pictures, n_steps)
+    return [math.ceil(n_steps * (i + 1) / wanted) for i in range(wanted)]
+
+
+def tiled(pictures: Sequence[NDArray[np.float32]]) -> NDArray[np.float32]:
+    """Put pictures of one size side by side, row by row from above, on white.
+
+    Parameters
+    ----------
+    pictures : sequence of (h, w, 4) float32 array
+        At least one; row 0 is the lowest, as Blender orders pixels.
+
+    Returns
+    -------
+    (H, W, 4) float32 array
+        In as many columns as rows, or one more.
+    """
+    height, width = pictures[0].shape[:2]
+    columns = math.ceil(math.sqrt(len(pictures)))
+    rows = math.ceil(len(pictures) / columns)
+    size = rows * (height + MARGIN) - MARGIN, columns * (width + MARGIN) - MARGIN
+    sheet = np.ones((*size, 4), dtype=np.float32)
+    for i, picture in enumerate(pictures):
+        row, column = divmod(i, columns)
+        low, left = (rows - 1 - row) * (height + MARGIN), column * (width + MARGIN)
+        sheet[low : low + height, left : left + width] = picture
+    return sheet
+
+
+def _pixels(path: Path) -> NDArray[np.float32]:
+    image = bpy.data.images.load(str(path))
+    width, height = image.size
+    pixels = np.empty(width * height * 4, dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    return pixels.reshape(height, width, 4)
+
+
+def _write(pixels: NDArray[np.float32], path: Path) -> None:
+    height, width = pixels.shape[:2]
+    image = bpy.data.images.new("Legorize Sheet", width, height)
+    image.pixels.foreach_set(pixels.ravel())
+    image.filepath_raw, image.file_format = str(path), "PNG"
+    try:
+        image.save()
+    finally:
+        bpy.data.images.remove(image)

@@ -1,0 +1,83 @@
+"""Bricks in Blender's scene: collections, point objects, part meshes and the state of a build."""
+
+from __future__ import annotations
+
+from .assembly_columns import ASIDE, JOINED, REMOVED, TIER, there_after, way_after
+from .brick_points import MARGIN, NO_MARGIN, box_corners, middles, read_columns
+from .builds import (
+    LAYER_KEY,
+    ROLE_KEY,
+    bricks_of,
+    builds,
+    builds_of,
+    check_whole,
+    damage,
+    is_own,
+    layers_of,
+    point_objects,
+    show_sources,
+    sources_of,
+)
+from .collections import clear_build, read_bricks, show_build
+from .hidden_sources import orphans, show_orphans
+from .instancing import EXPLODE, HEAT_KEY, HEAT_MAP, HEAT_PARTS, STEPS, bricks_modifier, plastic, set_input
+from .part_meshes import Detail, detail_of, parts_collection, parts_in_use, set_detail
+from .placing import layer_collections
+from .section import AXES, Section, beyond, hidden_side, place_plane
+from .shared_parts import own_parts, sweep
+from .state import state_of
+from .verdict import check_lines
+
+__all__ = [
+    "ASIDE",
+    "AXES",
+    "EXPLODE",
+    "HEAT_KEY",
+    "HEAT_MAP",
+    "HEAT_PARTS",
+    "JOINED",
+    "LAYER_KEY",
+    "MARGIN",
+    "NO_MARGIN",
+    "REMOVED",
+    "ROLE_KEY",
+    "STEPS",
+    "TIER",
+    "Detail",
+    "Section",
+    "beyond",
+    "box_corners",
+    "bricks_modifier",
+    "bricks_of",
+    "builds",
+    "builds_of",
+    "check_lines",
+    "check_whole",
+    "clear_build",
+    "damage",
+    "detail_of",
+    "hidden_side",
+    "is_own",
+    "layer_collections",
+    "layers_of",
+    "middles",
+    "orphans",
+    "own_parts",
+    "parts_collection",
+    "parts_in_use",
+    "place_plane",
+    "plastic",
+    "point_objects",
+    "read_bricks",
+    "read_columns",
+    "set_detail",
+    "set_input",
+    "show_build",
+    "show_orphans",
+    "show_sources",
+    "sources_of",
+    "state_of",
+    "sweep",
+    "there_after",
+    "way_after",
+]

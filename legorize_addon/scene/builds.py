@@ -1,0 +1,113 @@
+"""Which builds a scene has, of what each was made, and what of it is there.
+
+A collection is a build by the form of its state alone, see :mod:`.build_state`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import bpy
+
+from ..core.errors import BuildError
+from ..core.model import Bricks, load_catalogue
+from .brick_points import read_points
+from .instancing import bricks_modifier
+from .state import VERSION, is_build, state_of
+
+LAYER_KEY: Final = "legorize_layer"
+ROLE_KEY: Final = "legorize_role"
+OWN_KEY: Final = "legorize_own"
+
+
+def builds(scene: bpy.types.Scene) -> list[bpy.types.Collection]:
+    """Return the builds of a scene."""
+    return [collection for collection in scene.collection.children_recursive if is_build(collection)]
+
+
+def all_builds() -> list[bpy.types.Collection]:
+    """Return the builds of all scenes."""
+    return [build for scene in bpy.data.scenes for build in builds(scene)]
+
+
+def builds_of(scene: bpy.types.Scene, objects: Sequence[bpy.types.Object]) -> list[bpy.types.Collection]:
+    """Return the builds that were made of one of the objects or that contain one of them."""
+    wanted = set(objects)
+    return [build for build in builds(scene) if wanted and wanted & {*sources_of(build), *build.all_objects}]
+
+
+def sources_of(build: bpy.types.Collection) -> list[bpy.types.Object]:
+    """Return the objects that a build was made of, without those deleted since."""
+    # an object deleted by hand lives on without a scene while something names it, as a build does
+    return [entry.source for entry in state_of(build).sources if entry.source.users_scene]
+
+
+def damage(build: bpy.types.Collection) -> str | None:
+    """Return what is wrong with a build, in a sentence with its cure; None for a whole one."""
+    state = state_of(build)
+    if state.version > VERSION:
+        return f"{build.name!r} is of a newer version of Legorize: update the extension, or remove the model."
+    there = set(build.all_objects)
+    whole = state.root in there and state.plane in there and state.parts is not None
+    if not whole or not all(map(bricks_modifier, point_objects(build))):
+        return f"{build.name!r} lacks objects that were deleted: undo that, or remove the model and build it again."
+    return None
+
+
+def check_whole(build: bpy.types.Collection) -> None:
+    """Refuse a damaged build.
+
+    Raises
+    ------
+    BuildError
+        With what is wrong.
+    """
+    sentence = damage(build)
+    if sentence:
+        raise BuildError(sentence)
+
+
+def layers_of(build: bpy.types.Collection) -> list[bpy.types.Collection]:
+    """Return the collections of the layers that have bricks, from the lowest."""
+    found = [child for child in build.children if isinstance(child.get(LAYER_KEY), int)]
+    return sorted(found, key=lambda child: (child[LAYER_KEY], child.name))
+
+
+def point_objects(build: bpy.types.Collection) -> list[bpy.types.Object]:
+    """Return the objects whose points are the bricks of a build, without copies that a user made of them."""
+    layer = {thing: collection[LAYER_KEY] for collection in layers_of(build) for thing in collection.all_objects}
+    root = state_of(build).root
+    own = [thing for thing in build.all_objects if is_own(thing) and thing.type == "MESH" and thing.parent == root]
+    # a copy of an object says the same of itself, and its name comes after: names of copies grow
+    first: dict[tuple[int | None, int | None], bpy.types.Object] = {}
+    for thing in sorted(own, key=lambda thing: thing.name):
+        first.setdefault((layer.get(thing), thing.get(ROLE_KEY)), thing)
+    kept = set(first.values())
+    return [thing for thing in own if thing in kept]
+
+
+def own_objects(build: bpy.types.Collection) -> list[bpy.types.Object]:
+    """Return all objects that a build brought and that are in it still: its root, its plane, its points."""
+    state = state_of(build)
+    there = set(build.all_objects)
+    return [thing for thing in (state.root, state.plane) if thing in there and is_own(thing)] + point_objects(build)
+
+
+def is_own(thing: bpy.types.Object) -> bool:
+    """Tell whether an object came with a build, or is a copy of one that did."""
+    return thing.get(OWN_KEY) is True or thing.get(OWN_KEY) == 1
+
+
+def show_sources(build: bpy.types.Collection, *, visible: bool, linked_only: bool = False) -> None:
+    """Show or hide the source objects of a build, or only those of other files, in the viewport and in renders."""
+    for source in sources_of(build):
+        if source.library is not None or not linked_only:
+            source.hide_viewport = source.hide_render = not visible
+
+
+def bricks_of(build: bpy.types.Collection, found: Sequence[bpy.types.Object]) -> Bricks:
+    """Return the table of the bricks that some point objects of a build hold, as :func:`read_bricks` does."""
+    if not found:
+        raise BuildError(f"The collection {build.name!r} has 0 bricks to show: legorize the object again.")
+    return read_points([points.data for points in found], state_of(build).part_numbers, load_catalogue())

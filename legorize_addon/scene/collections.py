@@ -1,0 +1,296 @@
+"""Bricks in the scene: a collection a layer, a point object a role, and back to the table.
+
+A build is a collection "Legorize <name>" that holds all that re-export needs,
+see :mod:`.build_state`. The points are in model mm and carry the
+columns of :class:`~legorize_addon.core.model.bricks.Bricks` as named attributes; an
+empty, their parent, brings them to the place and size of the source objects.
+The objects that are instanced stand in a collection of their own, outside of
+every scene, see :mod:`.shared_parts`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ..core.building import Moves
+from ..core.errors import BuildError
+from ..core.model import Bricks, Catalogue, Role
+from ..core.settings import Settings
+from ..core.units import PLATES_PER_BRICK, STUD
+from .assembly_columns import Columns, assembly_columns
+from .brick_points import MARGIN, NO_MARGIN, box_corners, points_mesh
+from .builds import (
+    LAYER_KEY,
+    OWN_KEY,
+    ROLE_KEY,
+    all_builds,
+    bricks_of,
+    builds_of,
+    layers_of,
+    own_objects,
+    point_objects,
+    sources_of,
+)
+from .builds import builds as builds
+from .builds import show_sources as show_sources
+from .figures import figures, n_layers
+from .hidden_sources import as_before, forget, remember
+from .instancing import add_bricks_modifier, colour_material
+from .part_meshes import Detail, parts_collection, parts_in_use
+from .placing import Place, upright
+from .section import Section, add_plane
+from .shared_parts import POINTS_KEY, leave_plane, sweep
+from .state import BUILD_KEY as BUILD_KEY
+from .state import state_of, write_state
+
+if TYPE_CHECKING:
+    from ..core.statics import Stability
+
+
+def show_build(
+    scene: bpy.types.Scene,
+    bricks: Bricks,
+    catalogue: Catalogue,
+    *,
+    origin: Sequence[float],
+    scale: float,
+    mm_per_unit: float,
+    name: str,
+    sources: Sequence[bpy.types.Object] = (),
+    settings: Settings | None = None,
+    notes: Sequence[str] = (),
+    stability: Stability | None = None,
+    moves: Moves | None = None,
+    detail: Detail = "high",
+    replaces: Sequence[bpy.types.Collection] | None = None,
+) -> bpy.types.Collection:
+    """Put a brick model into a scene, in place of an earlier one of the same source objects.
+
+    It stands in the collection of the first one that it replaces, moved, turned
+    and scaled as that one was.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Scene that gets the collection.
+    bricks : Bricks
+        The table of bricks, supports at its end.
+    catalogue : Catalogue
+        Parts and colours.
+    origin : sequence of three float
+        Corner of the grid in model mm.
+    scale : float
+        Model mm per world mm.
+    mm_per_unit : float
+        World mm per Blender unit.
+    name : str
+        Name of the source, for the collection.
+    sources : sequence of bpy.types.Object, optional
+        Objects that the model was made of. They are hidden, not changed, and
+        shown again by :func:`clear_build`.
+    settings : Settings, optional
+        What the model was made with, kept for the file's reader.
+    notes : sequence of str, optional
+        Remarks to show beside the result.
+    stability : Stability, optional
+        Whether these bricks stand, row by row, for the panel and the heat map;
+        supports that are taken out again may be left out.
+    moves : Moves, optional
+        The order in which these bricks are built, for the panel and the steps.
+    detail : {"low", "high"}, optional
+        Detail of the part meshes.
+    replaces : sequence of bpy.types.Collection, optional
+        Builds that it takes the place of; all builds of the sources if it is
+        left out.
+
+    Returns
+    -------
+    bpy.types.Collection
+        The build.
+
+    Raises
+    ------
+    BuildError
+        There are no bricks, or one of a colour outside the catalogue.
+    """
+    if not len(bricks):
+        raise BuildError("The model has 0 bricks: make it larger or choose another object.")
+    kinds, variant = np.unique(np.stack([bricks.part, bricks.colour], axis=1), axis=0, return_inverse=True)
+    pairs = [(catalogue.parts[part], catalogue.colours[catalogue.colour_row(code)]) for part, code in kinds.tolist()]
+    earlier = builds_of(scene, sources) if replaces is None else replaces
+    place = Place.after(scene, earlier)
+    for each in earlier:
+        clear_build(scene, each)
+    build = bpy.data.collections.new(f"Legorize {name}")
+    place.collection.children.link(build)
+    root = _add_root(build, place.moved @ upright(origin, 1.0 / (scale * mm_per_unit)), place.parent)
+    plane = _own(build, add_plane(build.name, root))
+    parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, name)
+    _add_layers(build, bricks, variant.reshape(-1), _more(bricks, stability, moves, catalogue), catalogue, plane, parts)
+    hidden = [as_before(scene, source) for source in sources]
+    write_state(
+        build,
+        origin=origin,
+        sources=hidden,
+        section=Section(),
+        scale=float(scale),
+        mm_per_unit=float(mm_per_unit),
+        root=root,
+        plane=plane,
+        parts=parts,
+        settings={} if settings is None else asdict(settings),
+        notes=list(notes),
+        **_table_facts(bricks, catalogue),
+        **figures(bricks, stability, moves, catalogue),
+    )
+    remember(scene, hidden)
+    show_sources(build, visible=False)
+    return build
+
+
+def read_bricks(build: bpy.types.Collection) -> Bricks:
+    """Return the table of bricks of a build, row by row as it was shown.
+
+    Parameters
+    ----------
+    build : bpy.types.Collection
+        Collection made by :func:`show_build`, in this or an earlier session.
+
+    Returns
+    -------
+    Bricks
+        The table. A brick whose point was moved is where its point is now.
+
+    Raises
+    ------
+    BuildError
+        No brick is left, or a part of the build is not in the catalogue.
+    """
+    return bricks_of(build, point_objects(build))
+
+
+def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
+    """Remove a build, damaged or not, and all that nothing else uses; show its source objects as they were before.
+
+    Sources of another build, such as a copy or one in another scene, stay hidden.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Scene of the build; objects that a user put into the build's
+        collections move to its collection.
+    build : bpy.types.Collection
+        Collection made by :func:`show_build`.
+    """
+    held = {source for other in all_builds() if other != build for source in sources_of(other)}
+    freed = [entry for entry in state_of(build).sources if entry.source not in held]
+    for entry in freed:
+        entry.restore()
+    forget(scene, [entry.source for entry in freed])
+    own, layers = own_objects(build), layers_of(build)
+    if state_of(build).plane in own:
+        leave_plane(scene, state_of(build).plane, own)
+    for mesh in {thing.data for thing in own if thing.data is not None}:
+        # those of version 0.1.0 are not marked
+        mesh[POINTS_KEY] = True
+    _move_out(scene, [build, *layers], own)
+    bpy.data.batch_remove([*own, *layers, build])
+    sweep()
+
+
+def _add_root(
+    build: bpy.types.Collection, place: Matrix, parent: tuple[bpy.types.Object, Matrix] | None
+) -> bpy.types.Object:
+    root = _own(build, bpy.data.objects.new(build.name, None))
+    root.empty_display_size = STUD
+    if parent is not None:
+        root.parent, root.matrix_parent_inverse = parent
+    root.matrix_basis = place
+    return root
+
+
+def _move_out(
+    scene: bpy.types.Scene, collections: Sequence[bpy.types.Collection], own: Sequence[bpy.types.Object]
+) -> None:
+    """Bring what a user put into collections, or hung on a build's objects, into the scene's own collection."""
+    leaving, going = set(collections), set(own)
+    for collection in collections:
+        for child in set(collection.children) - leaving:
+            scene.collection.children.link(child)
+        for guest in set(collection.objects) - going:
+            if set(guest.users_collection) <= leaving:
+                scene.collection.objects.link(guest)
+    for guest in [thing for thing in scene.objects if thing.parent in going and thing not in going]:
+        world = guest.matrix_world.copy()
+        guest.parent = None
+        guest.matrix_world = world
+
+
+def _own(collection: bpy.types.Collection, thing: bpy.types.Object) -> bpy.types.Object:
+    thing[OWN_KEY] = True
+    collection.objects.link(thing)
+    return thing
+
+
+def _add_layers(
+    build: bpy.types.Collection,
+    bricks: Bricks,
+    variant: NDArray[np.integer],
+    more: Columns,
+    catalogue: Catalogue,
+    plane: bpy.types.Object,
+    parts: bpy.types.Collection,
+) -> None:
+    for layer, groups in _rows_by_layer(bricks):
+        collection = bpy.data.collections.new(f"Layer {layer + 1:03d}")
+        collection[LAYER_KEY] = layer
+        build.children.link(collection)
+        used = np.unique(variant[np.concatenate([rows for _, rows in groups])])
+        own_parts = parts_in_use(parts, used, collection.name)
+        for role, rows in groups:
+            name = f"{collection.name} {role.name.lower().replace('_', ' ')}"
+            own = {key: values[rows] for key, values in more.items()}
+            mesh = points_mesh(name, bricks.take(rows), catalogue, np.searchsorted(used, variant[rows]), rows, own)
+            points = _own(collection, bpy.data.objects.new(name, mesh))
+            points[ROLE_KEY] = int(role)
+            mesh[POINTS_KEY] = True
+            points.parent = plane.parent
+            add_bricks_modifier(points, own_parts, plane)
+
+
+def _table_facts(bricks: Bricks, catalogue: Catalogue) -> dict[str, Any]:
+    """Return the fields of a state that follow from the table of bricks."""
+    corners = box_corners(bricks, catalogue)
+    return {
+        "roles": [Role(role) for role in np.unique(bricks.role).tolist()],
+        "part_numbers": [part.number for part in catalogue.parts],
+        "layers": n_layers(bricks),
+        "top_layer": n_layers(bricks),
+        "extent": {"low": corners.min(axis=0).tolist(), "high": corners.max(axis=0).tolist()},
+    }
+
+
+def _more(bricks: Bricks, stability: Stability | None, moves: Moves | None, catalogue: Catalogue) -> Columns:
+    """Return what the points know beside the table of bricks."""
+    more = {} if moves is None else assembly_columns(bricks, moves, catalogue)
+    if stability is not None:
+        margin = np.full(len(bricks), NO_MARGIN)
+        margin[: len(stability.margin)] = stability.margin
+        more[MARGIN] = margin
+    return more
+
+
+def _rows_by_layer(bricks: Bricks) -> Iterator[tuple[int, list[tuple[Role, NDArray[np.intp]]]]]:
+    """Yield each layer that has bricks, from the lowest, with the rows of each role in it."""
+    layer = bricks.corner[:, 2] // PLATES_PER_BRICK
+    order = np.lexsort((bricks.role, layer))
+    for rows in np.split(order, np.flatnonzero(np.diff(layer[order])) + 1):
+        groups = np.split(rows, np.flatnonzero(np.diff(bricks.role[rows])) + 1)
+        yield int(layer[rows[0]]), [(Role(bricks.role[group[0]]), group) for group in groups]

@@ -1,0 +1,302 @@
+"""What turns brick points into coloured instances: one Geometry-Nodes tree, a material a colour.
+
+The tree "Legorize Bricks" sets, on every point of a mesh, the object of a
+collection that the point's attribute ``variant`` counts to, turned by its
+attribute ``turn``. A plane hides the bricks whose middles lie beyond it and
+leaves the data as they are. A switch turns to another collection, which the
+attribute ``heat`` counts in: there the same parts have other colours. "Explode"
+lifts each piece by its attribute ``tier``. From one on, "Steps" leaves what is
+there after that many building steps, by the attributes ``step``, in which a
+brick is placed, and ``removed``; until the step ``joined``, a piece stands
+``aside``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, Final
+
+import bpy
+from mathutils import Color
+
+from ..core.model import Colour
+from ..core.units import PLATE
+
+TREE_NAME: Final = "Legorize Bricks"
+TREE_KEY: Final = "legorize_tree"
+TREE_VERSION: Final = 4
+MATERIAL_KEY: Final = "legorize_colour"
+HEAT_KEY: Final = "legorize_heat"
+MODIFIER_NAME: Final = "Bricks"
+PARTS: Final = "Parts"
+SECTION: Final = "Section"
+HEAT_PARTS: Final = "Heat parts"
+HEAT_MAP: Final = "Heat map"
+EXPLODE: Final = "Explode"
+STEPS: Final = "Steps"
+
+INTERFACE: Final = (
+    ("Geometry", "INPUT", "NodeSocketGeometry"),
+    (PARTS, "INPUT", "NodeSocketCollection"),
+    (SECTION, "INPUT", "NodeSocketObject"),
+    (HEAT_PARTS, "INPUT", "NodeSocketCollection"),
+    (HEAT_MAP, "INPUT", "NodeSocketBool"),
+    (EXPLODE, "INPUT", "NodeSocketFloat"),
+    (STEPS, "INPUT", "NodeSocketInt"),
+    ("Geometry", "OUTPUT", "NodeSocketGeometry"),
+)
+
+# name: type, place, properties, values of unlinked inputs
+NODES: Final[dict[str, tuple[str, tuple[int, int], dict[str, Any], dict[str, Any]]]] = {
+    "In": ("NodeGroupInput", (-600, 0), {}, {}),
+    "Out": ("NodeGroupOutput", (800, 0), {}, {}),
+    "Variant": ("GeometryNodeInputNamedAttribute", (-400, -150), {"data_type": "INT"}, {"Name": "variant"}),
+    "Heat": ("GeometryNodeInputNamedAttribute", (-400, -270), {"data_type": "INT"}, {"Name": "heat"}),
+    "Pick": ("GeometryNodeSwitch", (-200, -200), {"input_type": "INT"}, {}),
+    "Choice": ("GeometryNodeSwitch", (-400, 0), {"input_type": "COLLECTION"}, {}),
+    "Turn": ("GeometryNodeInputNamedAttribute", (-400, -400), {"data_type": "INT"}, {"Name": "turn"}),
+    "Angle": ("ShaderNodeMath", (-200, -400), {"operation": "MULTIPLY"}, {1: math.pi / 2}),
+    "Rotation": ("FunctionNodeAxisAngleToRotation", (0, -400), {}, {"Axis": (0.0, 0.0, 1.0)}),
+    "Height": ("GeometryNodeInputNamedAttribute", (-1200, 500), {"data_type": "INT"}, {"Name": "height"}),
+    "Half": ("ShaderNodeMath", (-1000, 500), {"operation": "MULTIPLY"}, {1: PLATE / 2}),
+    "Up": ("ShaderNodeCombineXYZ", (-800, 500), {}, {}),
+    "Position": ("GeometryNodeInputPosition", (-800, 350), {}, {}),
+    "Middle": ("ShaderNodeVectorMath", (-600, 400), {"operation": "ADD"}, {}),
+    "Plane": ("GeometryNodeObjectInfo", (-1000, 200), {"transform_space": "RELATIVE"}, {}),
+    "Inverse": ("FunctionNodeInvertMatrix", (-800, 200), {}, {}),
+    "Seen": ("FunctionNodeTransformPoint", (-600, 200), {}, {}),
+    "Distance": ("ShaderNodeSeparateXYZ", (-400, 200), {}, {}),
+    "Kept": ("FunctionNodeCompare", (-200, 200), {"data_type": "FLOAT", "operation": "LESS_EQUAL"}, {1: 0.0}),
+    "Children": ("GeometryNodeCollectionInfo", (-200, 0), {}, {"Separate Children": True, "Reset Children": True}),
+    "Preview": ("FunctionNodeCompare", (-600, 900), {"data_type": "INT", "operation": "GREATER_THAN"}, {"B": 0}),
+    "Step": ("GeometryNodeInputNamedAttribute", (-600, 1350), {"data_type": "INT"}, {"Name": "step"}),
+    "Placed": ("FunctionNodeCompare", (-400, 1350), {"data_type": "INT", "operation": "LESS_THAN"}, {}),
+    "Removed": ("GeometryNodeInputNamedAttribute", (-600, 1150), {"data_type": "INT"}, {"Name": "removed"}),
+    "Left": ("FunctionNodeCompare", (-400, 1150), {"data_type": "INT", "operation": "GREATER_EQUAL"}, {}),
+    "There": ("FunctionNodeBooleanMath", (-200, 1250), {"operation": "AND"}, {}),
+    "Both": ("FunctionNodeBooleanMath", (0, 1100), {"operation": "AND"}, {}),
+    "Shown": ("GeometryNodeSwitch", (0, 300), {"input_type": "BOOLEAN"}, {}),
+    "Instances": ("GeometryNodeInstanceOnPoints", (200, 0), {}, {"Pick Instance": True}),
+    "Tier": ("GeometryNodeInputNamedAttribute", (-400, -600), {"data_type": "INT"}, {"Name": "tier"}),
+    "Lift": ("ShaderNodeMath", (-200, -600), {"operation": "MULTIPLY"}, {}),
+    "Raised": ("ShaderNodeCombineXYZ", (0, -600), {}, {}),
+    "Joined": ("GeometryNodeInputNamedAttribute", (-400, -800), {"data_type": "INT"}, {"Name": "joined"}),
+    "Alone": ("FunctionNodeCompare", (-200, -800), {"data_type": "INT", "operation": "GREATER_EQUAL"}, {}),
+    "Apart": ("FunctionNodeBooleanMath", (0, -800), {"operation": "AND"}, {}),
+    "Aside": ("GeometryNodeInputNamedAttribute", (0, -1000), {"data_type": "FLOAT_VECTOR"}, {"Name": "aside"}),
+    "Way": ("GeometryNodeSwitch", (200, -700), {"input_type": "VECTOR"}, {}),
+    "Exploded": ("FunctionNodeCompare", (0, -250), {"data_type": "FLOAT", "operation": "GREATER_THAN"}, {1: 0.0}),
+    "Moving": ("FunctionNodeBooleanMath", (200, -250), {"operation": "OR"}, {}),
+    "Moved": ("GeometryNodeTranslateInstances", (400, -300), {}, {"Local Space": False}),
+    "Choose": ("GeometryNodeSwitch", (600, 0), {"input_type": "GEOMETRY"}, {}),
+}
+
+LINKS: Final = (
+    ("In", "Geometry", "Instances", "Points"),
+    ("In", HEAT_MAP, "Choice", "Switch"),
+    ("In", PARTS, "Choice", "False"),
+    ("In", HEAT_PARTS, "Choice", "True"),
+    ("Choice", "Output", "Children", "Collection"),
+    ("Children", "Instances", "Instances", "Instance"),
+    ("In", HEAT_MAP, "Pick", "Switch"),
+    ("Variant", "Attribute", "Pick", "False"),
+    ("Heat", "Attribute", "Pick", "True"),
+    ("Pick", "Output", "Instances", "Instance Index"),
+    ("Turn", "Attribute", "Angle", 0),
+    ("Angle", "Value", "Rotation", "Angle"),
+    ("Rotation", "Rotation", "Instances", "Rotation"),
+    ("Height", "Attribute", "Half", 0),
+    ("Half", "Value", "Up", "Z"),
+    ("Position", "Position", "Middle", 0),
+    ("Up", "Vector", "Middle", 1),
+    ("In", SECTION, "Plane", "Object"),
+    ("Plane", "Transform", "Inverse", "Matrix"),
+    ("Middle", "Vector", "Seen", "Vector"),
+    ("Inverse", "Matrix", "Seen", "Transform"),
+    ("Seen", "Vector", "Distance", "Vector"),
+    ("Distance", "Z", "Kept", 0),
+    ("Kept", "Result", "Shown", "False"),
+    ("In", STEPS, "Preview", "A"),
+    ("Preview", "Result", "Shown", "Switch"),
+    ("Step", "Attribute", "Placed", "A"),
+    ("In", STEPS, "Placed", "B"),
+    ("Removed", "Attribute", "Left", "A"),
+    ("In", STEPS, "Left", "B"),
+    ("Placed", "Result", "There", 0),
+    ("Left", "Result", "There", 1),
+    ("Kept", "Result", "Both", 0),
+    ("There", "Boolean", "Both", 1),
+    ("Both", "Boolean", "Shown", "True"),
+    ("Shown", "Output", "Instances", "Selection"),
+    ("Tier", "Attribute", "Lift", 0),
+    ("In", EXPLODE, "Lift", 1),
+    ("Lift", "Value", "Raised", "Z"),
+    ("Joined", "Attribute", "Alone", "A"),
+    ("In", STEPS, "Alone", "B"),
+    ("Preview", "Result", "Apart", 0),
+    ("Alone", "Result", "Apart", 1),
+    ("Apart", "Boolean", "Way", "Switch"),
+    ("Raised", "Vector", "Way", "False"),
+    ("Aside", "Attribute", "Way", "True"),
+    ("In", EXPLODE, "Exploded", 0),
+    ("Exploded", "Result", "Moving", 0),
+    ("Preview", "Result", "Moving", 1),
+    ("Instances", "Instances", "Moved", "Instances"),
+    ("Way", "Output", "Moved", "Translation"),
+    # nothing of this is evaluated where the switches are off
+    ("Moving", "Boolean", "Choose", "Switch"),
+    ("Instances", "Instances", "Choose", "False"),
+    ("Moved", "Instances", "Choose", "True"),
+    ("Choose", "Output", "Out", "Geometry"),
+)
+
+
+def brick_tree() -> bpy.types.NodeTree:
+    """Return the Geometry-Nodes tree of this file, made at the first call."""
+    for tree in bpy.data.node_groups:
+        if tree.get(TREE_KEY) == TREE_VERSION:
+            return tree
+    tree = bpy.data.node_groups.new(TREE_NAME, "GeometryNodeTree")
+    tree[TREE_KEY] = TREE_VERSION
+    tree.is_modifier = True
+    for name, direction, kind in INTERFACE:
+        tree.interface.new_socket(name, in_out=direction, socket_type=kind)
+    for name, (kind, place, properties, values) in NODES.items():
+        _add_node(tree, name, kind, place, properties, values)
+    for source, output, target, entry in LINKS:
+        tree.links.new(_socket(tree.nodes[source].outputs, output), _socket(tree.nodes[target].inputs, entry))
+    return tree
+
+
+def brick_trees() -> list[bpy.types.NodeTree]:
+    """Return the trees of this file, those of earlier versions included."""
+    return [tree for tree in bpy.data.node_groups if TREE_KEY in tree]
+
+
+def add_bricks_modifier(target: bpy.types.Object, parts: bpy.types.Collection, section: bpy.types.Object) -> None:
+    """Let an object's points show as bricks.
+
+    Parameters
+    ----------
+    target : bpy.types.Object
+        Mesh object whose vertices carry ``variant``, ``turn`` and ``height``.
+    parts : bpy.types.Collection
+        Collection whose objects, by ascending name, are the variants.
+    section : bpy.types.Object
+        Empty on whose +z side bricks are hidden.
+    """
+    modifier = target.modifiers.new(MODIFIER_NAME, "NODES")
+    modifier.node_group = brick_tree()
+    set_input(modifier, PARTS, parts)
+    set_input(modifier, SECTION, section)
+
+
+def bricks_modifier(target: bpy.types.Object) -> bpy.types.NodesModifier | None:
+    """Return the modifier that :func:`add_bricks_modifier` added, whatever it is called by now; None without it."""
+    modifiers = (modifier for modifier in target.modifiers if modifier.type == "NODES")
+    return next((each for each in modifiers if each.node_group and TREE_KEY in each.node_group), None)
+
+
+def set_input(modifier: bpy.types.NodesModifier, name: str, value: Any) -> None:
+    """Set an input of a Geometry-Nodes modifier by the name that its tree shows.
+
+    Blender 5.2 keeps the values behind ``properties.inputs``, earlier versions
+    as custom properties of the modifier.
+    """
+    identifier = _identifier(modifier, name)
+    if hasattr(modifier, "properties"):
+        getattr(modifier.properties.inputs, identifier).value = value
+    else:
+        modifier[identifier] = value
+    modifier.id_data.update_tag()
+
+
+def get_input(modifier: bpy.types.NodesModifier, name: str) -> Any:
+    """Return an input of a Geometry-Nodes modifier by the name that its tree shows."""
+    identifier = _identifier(modifier, name)
+    if hasattr(modifier, "properties"):
+        return getattr(modifier.properties.inputs, identifier).value
+    return modifier[identifier]
+
+
+def is_brick_material(material: bpy.types.Material) -> bool:
+    """Tell whether a material is one that :func:`plastic` made."""
+    return any(isinstance(material.get(key), int) for key in (MATERIAL_KEY, HEAT_KEY))
+
+
+def colour_material(colour: Colour) -> bpy.types.Material:
+    """Return the material of a brick colour, made at the first call in a file.
+
+    Parameters
+    ----------
+    colour : Colour
+        Colour of the catalogue.
+
+    Returns
+    -------
+    bpy.types.Material
+        Glossy plastic; the viewport's solid mode shows the same colour.
+    """
+    return plastic(f"Brick {colour.code} {colour.name}", colour.rgb, MATERIAL_KEY, colour.code)
+
+
+def plastic(name: str, rgb: Sequence[int], key: str, value: int) -> bpy.types.Material:
+    """Return the glossy material that is marked by a custom property, made at the first call in a file.
+
+    Parameters
+    ----------
+    name : str
+        Name of a new material.
+    rgb : sequence of three int
+        Colour in sRGB bytes, for the shader and for the viewport's solid mode.
+    key, value : str, int
+        Custom property by which the material is known.
+
+    Returns
+    -------
+    bpy.types.Material
+    """
+    for material in bpy.data.materials:
+        if material.get(key) == value:
+            return material
+    material = bpy.data.materials.new(name)
+    material[key] = value
+    red, green, blue = Color([byte / 255 for byte in rgb]).from_srgb_to_scene_linear()
+    material.diffuse_color = (red, green, blue, 1.0)
+    material.roughness = 0.3
+    if material.node_tree is None:
+        material.use_nodes = True
+    shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    shader.inputs["Base Color"].default_value = (red, green, blue, 1.0)
+    shader.inputs["Roughness"].default_value = 0.25
+    return material
+
+
+def _identifier(modifier: bpy.types.NodesModifier, name: str) -> str:
+    sockets = modifier.node_group.interface.items_tree
+    return str(next(socket.identifier for socket in sockets if socket.name == name and socket.in_out == "INPUT"))
+
+
+def _add_node(
+    tree: bpy.types.NodeTree,
+    name: str,
+    kind: str,
+    place: tuple[int, int],
+    properties: dict[str, Any],
+    values: dict[str, Any],
+) -> None:
+    node = tree.nodes.new(kind)
+    node.name = name
+    node.location = place
+    for key, value in properties.items():
+        setattr(node, key, value)
+    for key, value in values.items():
+        _socket(node.inputs, key).default_value = value
+
+
+def _socket(sockets: Any, key: str | int) -> bpy.types.NodeSocket:
+    # several sockets share a name, each for one data type: the one in use is enabled
+    if isinstance(key, int):
+        return sockets[key]
+    return next(socket for socket in sockets if socket.name == key and socket.enabled)

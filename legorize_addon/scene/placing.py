@@ -1,0 +1,68 @@
+"""Where a build stands: a new one stands as the one that it replaces was moved, turned and scaled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Final, NamedTuple
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+from .builds import damage
+from .state import BuildState, state_of
+
+ROUNDING: Final = 1e-5
+"""What 32 bits may lose of the place of an object that nobody moved, as a share."""
+
+
+class Place(NamedTuple):
+    """Where a build stands: in which collection, moved how, as a child of what."""
+
+    collection: bpy.types.Collection
+    moved: Matrix
+    parent: tuple[bpy.types.Object, Matrix] | None
+
+    @classmethod
+    def after(cls, scene: bpy.types.Scene, earlier: Sequence[bpy.types.Collection]) -> Place:
+        """Return the place of the first whole one of some builds, else the scene's own."""
+        for build in earlier:
+            if damage(build) is None:
+                state = state_of(build)
+                moved = _moved(state)
+                inverse = state.root.matrix_parent_inverse.copy()
+                parent = (state.root.parent, inverse) if state.root.parent else None
+                around = _collection_around(scene, build)
+                return cls(scene.collection if _unticked(scene, around) else around, moved, parent)
+        return cls(scene.collection, Matrix(), None)
+
+
+def _collection_around(scene: bpy.types.Scene, build: bpy.types.Collection) -> bpy.types.Collection:
+    """Return the collection in which a build lies."""
+    around = (collection for collection in scene.collection.children_recursive if build.name in collection.children)
+    return scene.collection if build.name in scene.collection.children else next(around)
+
+
+def _unticked(scene: bpy.types.Scene, collection: bpy.types.Collection) -> bool:
+    """Tell whether no view layer of a scene has a collection."""
+    entries = (entry for layer in scene.view_layers for entry in layer_collections(layer.layer_collection))
+    return all(entry.exclude for entry in entries if entry.collection == collection)
+
+
+def layer_collections(entry: bpy.types.LayerCollection) -> Iterator[bpy.types.LayerCollection]:
+    """Yield an entry of a view layer and all inside it."""
+    yield entry
+    for child in entry.children:
+        yield from layer_collections(child)
+
+
+def upright(origin: Sequence[float], unit_per_mm: float) -> Matrix:
+    """Return where a root stands that nobody moved."""
+    return Matrix.LocRotScale(Vector(origin) * unit_per_mm, None, Vector([unit_per_mm] * 3))
+
+
+def _moved(state: BuildState) -> Matrix:
+    """Return what was done to a root since it was made."""
+    first, now = upright(state.origin, state.unit_per_mm), state.root.matrix_basis
+    same = np.allclose(np.array(first), np.array(now), rtol=ROUNDING, atol=ROUNDING * state.unit_per_mm)
+    return Matrix() if same else now @ first.inverted()

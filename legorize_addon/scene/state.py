@@ -1,0 +1,311 @@
+"""What a build keeps in the file: one typed reader and writer of the custom property on its collection.
+
+The property's form is versioned. The state of version 0.1.0 names no version
+and is read as version 1; later fields that it lacks are as in a new build.
+Whatever has another form was put there by somebody else: it is no build, and
+nothing that it names is ever touched.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, Final
+
+import bpy
+
+from ..core.model import Role
+from .section import Section
+
+BUILD_KEY: Final = "legorize"
+VERSION: Final = 2
+"""Raised whenever older versions could no longer read what this one writes."""
+
+FORM: Final[Mapping[str, type]] = {
+    "mm_per_unit": float,
+    "scale": float,
+    "layers": int,
+    "top_layer": int,
+    "part_numbers": list,
+    "extent": dict,
+    "section": dict,
+    "roles": dict,
+    "sources": dict,
+    "summary": dict,
+}
+"""Fields that every version has, and what each is as a plain value: by them a build is known."""
+
+POINTERS: Final = ("root", "plane", "parts")
+"""Fields that every version has and that are empty where what they point to was deleted."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SourceState:
+    """An object that a build was made of, and how it was hidden before.
+
+    Attributes
+    ----------
+    source : bpy.types.Object
+    hide_viewport, hide_render : bool
+    """
+
+    source: bpy.types.Object
+    hide_viewport: bool
+    hide_render: bool
+
+    @classmethod
+    def of(cls, source: bpy.types.Object) -> SourceState:
+        """Return an object as it is hidden now."""
+        return cls(source, source.hide_viewport, source.hide_render)
+
+    @classmethod
+    def read(cls, stored: Mapping[str, Any]) -> SourceState | None:
+        """Return what :meth:`stored` wrote; None where the object is gone or the form is another one."""
+        source = stored.get("object")
+        if not isinstance(source, bpy.types.Object):
+            return None
+        return cls(source, bool(stored.get("hide_viewport")), bool(stored.get("hide_render")))
+
+    def stored(self) -> dict[str, Any]:
+        """Return plain values for a custom property."""
+        return {"object": self.source, "hide_viewport": self.hide_viewport, "hide_render": self.hide_render}
+
+    def restore(self) -> None:
+        """Hide or show the object as it was."""
+        self.source.hide_viewport, self.source.hide_render = self.hide_viewport, self.hide_render
+
+
+class BuildState:
+    """The state of one build, read from and written to the file at every access.
+
+    Parameters
+    ----------
+    build : bpy.types.Collection
+        For which :func:`is_build` holds.
+    """
+
+    __slots__ = ("_group", "owner")
+
+    def __init__(self, build: bpy.types.Collection) -> None:
+        self.owner = build
+        self._group = build[BUILD_KEY]
+
+    @property
+    def version(self) -> int:
+        """Version of the form; 1 for what version 0.1.0 wrote."""
+        return int(self._group.get("version", 1))
+
+    @property
+    def root(self) -> bpy.types.Object | None:
+        """Parent of all that the build shows; in its coordinates bricks are in mm."""
+        return self._pointer("root", bpy.types.Object)
+
+    @property
+    def plane(self) -> bpy.types.Object | None:
+        """Empty beyond which bricks are hidden."""
+        return self._pointer("plane", bpy.types.Object)
+
+    @property
+    def parts(self) -> bpy.types.Collection | None:
+        """Collection of the objects that are instanced; copies of the build share it."""
+        return self._pointer("parts", bpy.types.Collection)
+
+    @parts.setter
+    def parts(self, parts: bpy.types.Collection) -> None:
+        self._group["parts"] = parts
+
+    @property
+    def heat_parts(self) -> bpy.types.Collection | None:
+        """Collection of the parts in the colours of the heat map; None while it is off."""
+        return self._pointer("heat", bpy.types.Collection)
+
+    @heat_parts.setter
+    def heat_parts(self, parts: bpy.types.Collection | None) -> None:
+        if parts is not None:
+            self._group["heat"] = parts
+        elif "heat" in self._group:
+            del self._group["heat"]
+
+    @property
+    def origin(self) -> tuple[float, float, float]:
+        """Corner of the grid in model mm."""
+        x, y, z = self._group["origin"]
+        return float(x), float(y), float(z)
+
+    @property
+    def unit_per_mm(self) -> float:
+        """Blender units per model mm."""
+        return 1.0 / (float(self._group["scale"]) * float(self._group["mm_per_unit"]))
+
+    @property
+    def part_numbers(self) -> list[str]:
+        """Numbers of the parts that the rows of the bricks' points count in."""
+        return list(self._group["part_numbers"])
+
+    @property
+    def layers(self) -> int:
+        """Number of brick layers, empty ones included."""
+        return int(self._group["layers"])
+
+    @property
+    def top_layer(self) -> int:
+        """Number of layers shown, from the lowest."""
+        return int(self._group["top_layer"])
+
+    @top_layer.setter
+    def top_layer(self, top: int) -> None:
+        self._group["top_layer"] = top
+
+    @property
+    def extent(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Lowest and highest corner of the model in mm."""
+        extent = self._group["extent"]
+        return tuple(map(float, extent["low"])), tuple(map(float, extent["high"]))
+
+    @property
+    def section(self) -> Section:
+        """The cut through the build."""
+        stored = self._group["section"]
+        return Section(axis=stored["axis"], at=stored["at"], flip=bool(stored["flip"]))
+
+    @section.setter
+    def section(self, section: Section) -> None:
+        self._group["section"] = asdict(section)
+
+    @property
+    def roles(self) -> dict[Role, bool]:
+        """Roles that occur, in their order, and whether each is shown."""
+        stored = self._group["roles"]
+        return {role: bool(stored[role.name]) for role in Role if role.name in stored}
+
+    def show_role(self, role: Role, *, visible: bool) -> None:
+        """Keep whether a role is shown."""
+        self._group["roles"][role.name] = visible
+
+    @property
+    def sources(self) -> list[SourceState]:
+        """Objects that the build was made of, without those deleted since."""
+        found = [SourceState.read(stored) for stored in self._group["sources"].values()]
+        return [entry for entry in found if entry is not None]
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Names and values of the settings that the build was made with; empty where they are not known."""
+        return self._plain("settings")
+
+    @property
+    def notes(self) -> list[str]:
+        """Remarks to show beside the result."""
+        return list(self._group.get("notes", ()))
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """Figures of the finished model, see :func:`~legorize_addon.scene.figures.summary`."""
+        return self._plain("summary")
+
+    @property
+    def check(self) -> dict[str, Any]:
+        """Whether it stands, see :func:`~legorize_addon.scene.verdict.check_of`; empty where nobody knows."""
+        return self._plain("check")
+
+    @property
+    def building(self) -> dict[str, Any]:
+        """Figures of the building, see :func:`~legorize_addon.scene.figures.building_figures`; empty if unknown."""
+        return self._plain("building")
+
+    def add_building(self, **figures: int | float) -> None:
+        """Keep more figures of the building."""
+        for name, value in figures.items():
+            self._group["building"][name] = value
+
+    @property
+    def exploded(self) -> float:
+        """How far each piece is lifted off the one below it, as a share of the model's height."""
+        return float(self._group.get("exploded", 0.0))
+
+    @exploded.setter
+    def exploded(self, share: float) -> None:
+        self._group["exploded"] = share
+
+    @property
+    def steps_done(self) -> int:
+        """Building steps after which the build is shown; 0 shows it whole."""
+        return int(self._group.get("steps_done", 0))
+
+    @steps_done.setter
+    def steps_done(self, steps: int) -> None:
+        self._group["steps_done"] = steps
+
+    @property
+    def supports_shown(self) -> bool:
+        """Whether supports are to be shown again when the steps are left."""
+        return bool(self._group.get("supports_shown", False))
+
+    @supports_shown.setter
+    def supports_shown(self, visible: bool) -> None:
+        self._group["supports_shown"] = visible
+
+    def _pointer(self, name: str, kind: type[bpy.types.ID]) -> Any:
+        found = self._group.get(name)
+        return found if isinstance(found, kind) else None
+
+    def _plain(self, name: str) -> dict[str, Any]:
+        found = self._group.get(name)
+        return {} if found is None else dict(found.to_dict())
+
+
+def state_of(build: bpy.types.Collection) -> BuildState:
+    """Return the state of a build."""
+    return BuildState(build)
+
+
+def is_build(collection: bpy.types.Collection) -> bool:
+    """Tell whether a collection is a build of ours, and not a stranger's that has a property of the same name."""
+    group = collection.get(BUILD_KEY)
+    if not hasattr(group, "to_dict"):
+        return False
+    stored = group.to_dict()
+    fits = all(isinstance(stored.get(name), kind) for name, kind in FORM.items())
+    return fits and all(name in stored for name in POINTERS) and isinstance(stored.get("version", 1), int)
+
+
+def write_state(
+    build: bpy.types.Collection,
+    *,
+    origin: Sequence[float],
+    sources: Sequence[SourceState],
+    section: Section,
+    roles: Sequence[Role],
+    **fields: Any,
+) -> BuildState:
+    """Give a new build its state.
+
+    Parameters
+    ----------
+    build : bpy.types.Collection
+        The new collection.
+    origin : sequence of three float
+        Corner of the grid in model mm.
+    sources : sequence of SourceState
+        What it was made of.
+    section : Section
+        The cut.
+    roles : sequence of Role
+        Roles that occur, all shown.
+    **fields
+        The other fields, as :class:`BuildState` names them: what Blender keeps
+        in a custom property.
+
+    Returns
+    -------
+    BuildState
+    """
+    build[BUILD_KEY] = {
+        "version": VERSION,
+        "origin": [float(value) for value in origin],
+        "sources": {str(i): source.stored() for i, source in enumerate(sources)},
+        "section": asdict(section),
+        "roles": {role.name: True for role in roles},
+        **fields,
+    }
+    return BuildState(build)

@@ -1,0 +1,96 @@
+"""What the panel says of whether a model stands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from ..core.model import Bricks, Verdict, load_catalogue
+from ..core.report import brick_name, layer_of
+
+if TYPE_CHECKING:
+    from ..core.statics import Stability
+
+ICONS: Final = {"stable": "CHECKMARK", "collapses": "CANCEL", "undecided": "QUESTION"}
+UNCHECKED: Final = "Not checked: legorize the object again to find out whether the model stands."
+
+
+def check_of(stability: Stability, bricks: Bricks) -> dict[str, Any]:
+    """Return what a build keeps of the proof, as plain values.
+
+    Parameters
+    ----------
+    stability : Stability
+        Verdict and margins.
+    bricks : Bricks
+        The same bricks, n rows.
+
+    Returns
+    -------
+    dict
+        ``verdict``, a word; ``sentence``; ``floating``, the number of bricks that
+        hang in the air; of the weakest of the others ``weakest``, its row,
+        ``name``, its colour and part, ``layer``, counted from 1, and ``left``,
+        its margin.
+    """
+    standing = np.setdiff1d(np.arange(len(bricks)), stability.unsupported)
+    weakest = int(standing[stability.margin[standing].argmin()])
+    left = float(stability.margin[weakest])
+    return {
+        "verdict": stability.verdict.value,
+        "sentence": _sentence(stability, bricks, left),
+        "floating": len(stability.unsupported),
+        "weakest": weakest,
+        "name": brick_name(bricks, weakest, load_catalogue()),
+        "layer": layer_of(bricks, weakest),
+        "left": left,
+    }
+
+
+def check_lines(check: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """Return the lines of the panel with the icon of each.
+
+    Parameters
+    ----------
+    check : mapping, optional
+        Made by :func:`check_of`; empty or None for a model that was not checked.
+
+    Returns
+    -------
+    list of (str, str)
+    """
+    if not check:
+        return [(UNCHECKED, "QUESTION")]
+    lines = [(check["sentence"], ICONS[check["verdict"]])]
+    if check["floating"]:
+        lines.append((f"Bricks that hang in the air: {check['floating']}", "ERROR"))
+    # builds of earlier versions know the number alone
+    name = check.get("name", f"brick {check['weakest']}")
+    weakest = f"Weakest: {name} in layer {check['layer']}, {_left(check['left'])}"
+    return [*lines, (weakest, "BLANK1")]
+
+
+def _sentence(stability: Stability, bricks: Bricks, left: float) -> str:
+    if stability.standing is Verdict.UNDECIDED:
+        return "Not decided: there is no proof that it stands, and none that it collapses"
+    if stability.standing is Verdict.COLLAPSES:
+        return f"Collapses: proven, {_how(stability, bricks)}"
+    proof = f"proven, no brick needs more than {100 - 100 * left:.0f} % of its friction"
+    if len(stability.unsupported):
+        return f"Collapses: bricks hang in the air; the others stand: {proof}"
+    return f"Stands: {proof}"
+
+
+def _how(stability: Stability, bricks: Bricks) -> str:
+    if not len(stability.torn):
+        return "it tips over"
+    first = int(stability.torn[0].max())
+    return f"first at the {brick_name(bricks, first, load_catalogue())} in layer {layer_of(bricks, first)}"
+
+
+def _left(margin: float) -> str:
+    if margin < 0:
+        return f"short of {-margin * 100:.0f} % of its friction"
+    return f"at least {margin * 100:.0f} % of its friction left"

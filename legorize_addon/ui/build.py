@@ -1,0 +1,322 @@
+"""Build and remove: from the context to the core, from the core to the scene, and what to tell the user."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Final
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..core.errors import BuildError, Cancelled, LegorizeError, LimitError, enough_memory
+from ..scene import builds, clear_build, damage, orphans, show_orphans, show_sources, state_of, sweep
+from ..view import show_result
+from . import job
+from .build_larger import ask
+from .progress_text import STOPPED, progress_text
+from .properties import current_build, settings_of
+from .requests import Order, by_uid, chosen_sources, order_of
+
+if TYPE_CHECKING:
+    from ..core.build import Build
+
+TICK: Final = 0.1
+"""Seconds between two looks at a running job."""
+
+SAID: Final = 6.0
+"""Seconds for which a sentence stays in the status bar: about as long as one of Blender's own."""
+
+NAVIGATION: Final = frozenset(
+    {"MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM"}
+)
+"""Events that pass while a job runs: one may look around, not change the scene under its feet."""
+
+
+class Reporting:
+    """The one place where an expected failure becomes a report."""
+
+    def reported(self, work: Callable[..., set[str]], *arguments: Any) -> set[str]:
+        """Call a function; report its failure and cancel if it has one that the user can mend."""
+        try:
+            with enough_memory():
+                return work(*arguments)
+        except LegorizeError as error:
+            self.report({"ERROR"}, str(error))
+        except Cancelled:
+            self.report({"INFO"}, STOPPED)
+            bpy.context.window_manager.legorize_said = STOPPED
+            if not bpy.app.background:
+                _say_in_status_bar(bpy.context, STOPPED)
+        return {"CANCELLED"}
+
+
+class Working(Reporting):
+    """What takes long: done in a worker thread where there is a window, and straight through where there is none.
+
+    A class that has this one among its bases is an operator with the sentence
+    ``nothing_chosen``, to be shown where nothing is selected, and two methods:
+    ``_take_order(context)`` returns what ``work(progress)`` can be called of, and
+    ``_show(context, order, result)`` shows what came of it.
+    """
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there is something to work on, and why not."""
+        if job.running():
+            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+        elif context.mode != "OBJECT":
+            cls.poll_message_set("Leave the edit mode first.")
+        elif not chosen_sources(context):
+            cls.poll_message_set(cls.nothing_chosen)
+        else:
+            return True
+        return False
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Work in a worker thread, so that Blender stays alive."""
+        if bpy.app.background:
+            return self.execute(context)
+        return self.reported(self._start, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Work straight through."""
+        return self.reported(self._work_now, context)
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Show how far the job has come; show its result at the end."""
+        if self._timer is None:
+            return {"CANCELLED"}
+        if event.type == "ESC" and event.value == "PRESS":
+            self._job.cancel()
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"} if event.type in NAVIGATION else {"RUNNING_MODAL"}
+        self._show_progress(context)
+        if self._job.is_alive():
+            return {"RUNNING_MODAL"}
+        self._close(context)
+        return self.reported(self._finish, context)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Stop: Blender closes the window or opens another file."""
+        job.stop()
+        self._close(context)
+
+    def _work_now(self, context: bpy.types.Context) -> set[str]:
+        order = self._take_order(context)
+        return self._show(context, order, order.work(lambda stage, share: None))
+
+    def _start(self, context: bpy.types.Context) -> set[str]:
+        context.window_manager.legorize_said = ""
+        return self._begin(context, self._take_order(context))
+
+    def _begin(self, context: bpy.types.Context, order: Any) -> set[str]:
+        self._order = order
+        self._job = job.Job(self._order.work)
+        self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        self._job.start()
+        return {"RUNNING_MODAL"}
+
+    def _show_progress(self, context: bpy.types.Context) -> None:
+        text = progress_text(*self._job.progress, self._job.seconds_left, stopping=self._job.stopping)
+        context.workspace.status_text_set(f"Legorize: {text}" + ("" if self._job.stopping else " (Esc stops)"))
+        _redraw(context)
+
+    def _finish(self, context: bpy.types.Context) -> set[str]:
+        return self._show(context, self._order, self._job.result())
+
+    def _close(self, context: bpy.types.Context) -> None:
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
+        _redraw(context)
+
+
+class LEGORIZE_OT_build(Working, bpy.types.Operator):
+    """Make a brick model of the chosen objects."""
+
+    bl_idname = "legorize.build"
+    bl_label = "Legorize"
+    bl_description = (
+        "Build the selected objects of bricks, in place of an earlier model of theirs; "
+        "the objects are hidden, not changed, and come back when the model is removed"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    nothing_chosen = "Select an object with a surface."
+
+    larger: bpy.props.BoolProperty(
+        name="Larger Than the Limits",
+        description="Build also what is larger than the limits of the settings",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+
+    def _take_order(self, context: bpy.types.Context) -> Order:
+        order = order_of(context, chosen_sources(context), settings_of(context.scene.legorize.settings))
+        return order.within_limits() if self.larger else order
+
+    def _begin(self, context: bpy.types.Context, order: Order) -> set[str]:
+        try:
+            order.check_limits()
+        except LimitError as reason:
+            ask(str(reason))
+            return {"CANCELLED"}
+        return super()._begin(context, order)
+
+    def _show(self, context: bpy.types.Context, order: Order, build: Build) -> set[str]:
+        [scene] = by_uid(bpy.data.scenes, [order.scene]) or [None]
+        if scene is None:
+            raise BuildError("The scene was deleted while its model was being built: open another one and start again.")
+        notes = (*order.remarks, *build.notes)
+        view = scene.legorize
+        collection = show_result(
+            scene,
+            build,
+            mm_per_unit=order.mm_per_unit,
+            name=order.name,
+            sources=by_uid(bpy.data.objects, order.sources),
+            notes=notes,
+            detail=view.detail,
+            replaces=by_uid(bpy.data.collections, order.replaces),
+        )
+        view.build = collection
+        view.show_sources = False
+        if scene == context.scene:
+            _select_only(context, state_of(collection).root)
+        self.report({"INFO"}, f"Built of {len(build.bricks)} bricks.")
+        for note in notes:
+            self.report({"WARNING"}, note)
+        return {"FINISHED"}
+
+
+class OnBuild(Reporting):
+    """What works on the build that the panel shows.
+
+    Attributes
+    ----------
+    mends : bool
+        Whether it works on a damaged one, too.
+    """
+
+    mends = False
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there is a build, and why not."""
+        if job.running():
+            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+        elif not current_build(context.scene):
+            cls.poll_message_set("Legorize an object first.")
+        elif not cls.mends and damage(current_build(context.scene)):
+            cls.poll_message_set(damage(current_build(context.scene)).removesuffix("."))
+        else:
+            return True
+        return False
+
+
+class LEGORIZE_OT_clear(OnBuild, bpy.types.Operator):
+    """Remove the build that the panel shows."""
+
+    bl_idname = "legorize.clear"
+    bl_label = "Remove Model"
+    bl_description = "Remove the brick model and show the objects that it was made of again"
+    bl_options = {"REGISTER", "UNDO"}
+    mends = True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Remove the build."""
+        clear_build(context.scene, current_build(context.scene))
+        return {"FINISHED"}
+
+
+class LEGORIZE_OT_show_originals(bpy.types.Operator):
+    """Show what a model hid that was deleted since."""
+
+    bl_idname = "legorize.show_originals"
+    bl_label = "Show Originals"
+    bl_description = "Show the objects again whose brick model was deleted, as they were before it was built"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there are such objects."""
+        cls.poll_message_set("No object is hidden for a model that was deleted.")
+        return bool(orphans(context.scene))
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Show and select them, and clear up what the model left behind."""
+        sources = show_orphans(context.scene)
+        sweep()
+        _select_only(context, *sources)
+        self.report({"INFO"}, f"Shown again: {', '.join(source.name for source in sources)}.")
+        return {"FINISHED"}
+
+
+def _select_only(context: bpy.types.Context, *things: bpy.types.Object) -> None:
+    for other in context.selected_objects:
+        other.select_set(False)
+    # what lies in an unticked collection cannot be selected
+    for thing in (thing for thing in things if thing.name in context.view_layer.objects):
+        thing.select_set(True)
+        context.view_layer.objects.active = thing
+
+
+def _redraw(context: bpy.types.Context) -> None:
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+def _say_in_status_bar(context: bpy.types.Context, sentence: str) -> None:
+    context.workspace.status_text_set(f"Legorize: {sentence}")
+    _forget_status()
+    bpy.app.timers.register(_clear_status, first_interval=SAID)
+
+
+def _clear_status() -> None:
+    if not job.running():
+        for workspace in bpy.data.workspaces:
+            workspace.status_text_set(None)
+
+
+def _forget_status() -> None:
+    """Let no timer outlive what it belongs to."""
+    if bpy.app.timers.is_registered(_clear_status):
+        bpy.app.timers.unregister(_clear_status)
+
+
+@persistent
+def _stop_jobs(*arguments: Any) -> None:
+    job.stop()
+
+
+@persistent
+def _hide_linked_sources(*arguments: Any) -> None:
+    """Hide the sources of builds again that belong to other files: this one cannot keep that they are hidden."""
+    for scene in bpy.data.scenes:
+        for build in builds(scene):
+            if not (scene.legorize.show_sources and build == current_build(scene)):
+                show_sources(build, visible=False, linked_only=True)
+
+
+classes = (LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals)
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
+
+
+def register() -> None:
+    """Register the operators, what stops jobs when another file is opened, and what hides its linked sources."""
+    _register_classes()
+    bpy.app.handlers.load_pre.append(_stop_jobs)
+    bpy.app.handlers.load_post.append(_hide_linked_sources)
+
+
+def unregister() -> None:
+    """Undo :func:`register`, after stopping what runs."""
+    job.stop()
+    _forget_status()
+    bpy.app.handlers.load_post.remove(_hide_linked_sources)
+    bpy.app.handlers.load_pre.remove(_stop_jobs)
+    _unregister_classes()

@@ -1,0 +1,138 @@
+"""The buttons that write files: LDraw and pictures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from ..core.errors import BuildError
+from ..core.files import named, write_ldr, write_mpd, write_whole
+from ..core.model import Role, load_catalogue
+from ..render import AZIMUTH, render_still
+from ..scene import read_bricks
+from .build import OnBuild
+from .properties import current_build, label
+
+VIEWS: Final = [*((view, label(view), "") for view in AZIMUTH), ("section", "Section", "Onto the cut")]
+
+
+class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
+    """Write the build that the panel shows as an LDraw file."""
+
+    bl_idname = "legorize.export_ldr"
+    bl_label = "Export LDraw"
+    bl_description = (
+        "Write the finished model as an LDraw file, which LeoCAD, BrickLink Studio and other programs open; supports "
+        "that are taken out again are left out"
+    )
+    bl_options = {"REGISTER"}
+    filename_ext = ".ldr"
+    filter_glob: StringProperty(default="*.ldr", options={"HIDDEN"})
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Write the file."""
+        return self.reported(self._write, current_build(context.scene))
+
+    def _write(self, build: bpy.types.Collection) -> set[str]:
+        path, bricks = chosen_path(self), read_bricks(build)
+        finished = bricks.take(bricks.role != Role.SUPPORT_OUTSIDE)
+        write_whole(path, write_ldr(finished, load_catalogue(), name=path.name, title=build.name))
+        self.report({"INFO"}, f"Wrote {path}.")
+        return {"FINISHED"}
+
+
+class LEGORIZE_OT_export_mpd(OnBuild, bpy.types.Operator, ExportHelper):
+    """Write the build that the panel shows, with its pieces and supports, as an LDraw multi-part document."""
+
+    bl_idname = "legorize.export_mpd"
+    bl_label = "Export LDraw with Supports"
+    bl_description = (
+        "Write the model, its pieces and its supports as sub-models of one LDraw document, in the order in which they "
+        "are put together"
+    )
+    bl_options = {"REGISTER"}
+    filename_ext = ".mpd"
+    filter_glob: StringProperty(default="*.mpd", options={"HIDDEN"})
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Write the file."""
+        return self.reported(self._write, current_build(context.scene))
+
+    def _write(self, build: bpy.types.Collection) -> set[str]:
+        path = chosen_path(self)
+        name = path.with_suffix(".ldr").name
+        write_whole(path, write_mpd(read_bricks(build), load_catalogue(), name=name, title=build.name))
+        self.report({"INFO"}, f"Wrote {path}.")
+        return {"FINISHED"}
+
+
+class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
+    """Render the scene's builds to a file."""
+
+    bl_idname = "legorize.render_still"
+    bl_label = "Render Picture"
+    bl_description = (
+        "Take a picture of the brick model with light and ground of its own; Blender waits until it is done"
+    )
+    bl_options = {"REGISTER"}
+    filename_ext = ".png"
+    filter_glob: StringProperty(default="*.png", options={"HIDDEN"})
+    samples: IntProperty(
+        name="Samples", description="Light paths a pixel; more is cleaner and slower", default=24, min=1
+    )
+    width: IntProperty(name="Width", description="Width of the picture in pixels", default=1280, min=16, max=16384)
+    height: IntProperty(name="Height", description="Height of the picture in pixels", default=960, min=16, max=16384)
+    view: EnumProperty(
+        name="View",
+        description="The corner from which the model is seen, or the side on which it is cut open",
+        items=VIEWS,
+        default="front_right",
+    )
+    outlines: BoolProperty(name="Outlines", description="Tell the bricks apart by dark lines", default=False)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Render and write the file."""
+        return self.reported(self._render, context.scene)
+
+    def _render(self, scene: bpy.types.Scene) -> set[str]:
+        path = chosen_path(self)
+        size = self.width, self.height
+        render_still(scene, path, samples=self.samples, resolution=size, view=self.view, outlines=self.outlines)
+        self.report({"INFO"}, f"Wrote {path}.")
+        return {"FINISHED"}
+
+
+def chosen_path(operator: bpy.types.Operator) -> Path:
+    """Return the path that an operator is to write to; ``//`` at its beginning is the folder of the .blend file.
+
+    Raises
+    ------
+    BuildError
+        It is none.
+    """
+    return named(bpy.path.abspath(operator.filepath), "file", BuildError)
+
+
+def _draw_export(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    self.layout.operator(LEGORIZE_OT_export_ldr.bl_idname, text="Legorize Model (.ldr)")
+    self.layout.operator(LEGORIZE_OT_export_mpd.bl_idname, text="Legorize Model with Supports (.mpd)")
+
+
+classes = (LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still)
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
+
+
+def register() -> None:
+    """Register the operators and their entry in File > Export."""
+    _register_classes()
+    bpy.types.TOPBAR_MT_file_export.append(_draw_export)
+
+
+def unregister() -> None:
+    """Undo :func:`register`."""
+    bpy.types.TOPBAR_MT_file_export.remove(_draw_export)
+    _unregister_classes()

@@ -1,0 +1,163 @@
+"""Learning from the user's own models: more samples for the machine of the quick layout, in the user's own folder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any, Final
+
+import bpy
+import numpy as np
+
+from ..core.files import write_whole
+from ..core.model import Bricks, UnitGrid, load_catalogue
+from ..core.progress import Progress, part
+from ..core.settings import Settings
+from ..scene import builds_of, is_own, sources_of, state_of
+from .build import Reporting, Working
+from .learned_files import new_file, own_versions, resolved
+from .properties import settings_of
+from .requests import chosen_sources, order_of
+
+if TYPE_CHECKING:
+    from ..core.mesh import TriangleMesh
+
+_LAYING: Final = 0.9
+"""Share of the time that laying the models takes, of laying and learning."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lesson:
+    """A model to learn from.
+
+    Attributes
+    ----------
+    name : str
+        What it was made of.
+    mesh : TriangleMesh
+        Its surface.
+    settings : Settings
+        How it is built; only its bricks are laid quickly and as if nothing had been learned.
+    """
+
+    name: str
+    mesh: TriangleMesh
+    settings: Settings
+
+    def laid(self, progress: Progress) -> tuple[UnitGrid, Bricks]:
+        """Return the hollowed model and its bricks."""
+        from ..core.pipeline import legorize
+
+        quick = replace(self.settings, layout="fast", learned=False, learned_from="", supports="none", split=1)
+        build = legorize(self.mesh, quick, progress)
+        return build.hollow, build.bricks
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lessons:
+    """What is learned at once.
+
+    Attributes
+    ----------
+    models : tuple of Lesson
+        Models to take samples from.
+    text : str
+        The samples so far.
+    version : int
+        Of the file to write.
+    seed : int
+        Draws the samples.
+    """
+
+    models: tuple[Lesson, ...]
+    text: str
+    version: int
+    seed: int
+
+    def work(self, progress: Progress) -> str:
+        """Return the text of the next version; no Blender in here."""
+        from ..core.layout.learning import learned_more
+
+        turns, n = enumerate(self.models), len(self.models)
+        laid = [model.laid(part(progress, _LAYING * turn / n, _LAYING * (turn + 1) / n)) for turn, model in turns]
+        progress("learning", _LAYING)
+        rng = np.random.default_rng(self.seed)
+        names = [model.name for model in self.models]
+        return learned_more(self.text, laid, load_catalogue(), rng, names=names, version=self.version)
+
+
+class LEGORIZE_OT_learn(Working, bpy.types.Operator):
+    """Teach the machine of the quick layout by the chosen models."""
+
+    bl_idname = "legorize.learn"
+    bl_label = "Learn from Models"
+    bl_description = (
+        "Find out in the selected brick models, or in what the selected objects would become, which exchanges of "
+        "bricks pay, and add this to what the quick layout has learned; what was learned before is kept as a file"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    nothing_chosen = "Select brick models, or objects with a surface."
+
+    def _take_order(self, context: bpy.types.Context) -> Lessons:
+        from ..core.layout.learning import samples_text, version_of
+
+        settings = settings_of(context.scene.legorize.settings)
+        text = samples_text(resolved(settings.learned_from))
+        version = max(version_of(text), *own_versions()) + 1
+        return Lessons(tuple(_lessons(context, settings)), text, version, settings.seed)
+
+    def _show(self, context: bpy.types.Context, order: Lessons, text: str) -> set[str]:
+        from ..core.layout.learning import read
+
+        path, name = new_file(order.version)
+        write_whole(path, text)
+        context.scene.legorize.settings.learned_from = name
+        samples, facts = read(text)
+        told = f"Learned version {order.version} from {len(samples.pays)} samples, {len(order.models)} models more than"
+        self.report({"INFO"}, f"{told} before ({facts['cross-validation']}): {path}.")
+        return {"FINISHED"}
+
+
+class LEGORIZE_OT_forget(Reporting, bpy.types.Operator):
+    """Go back to the samples that are shipped."""
+
+    bl_idname = "legorize.forget"
+    bl_label = "Use What Is Shipped"
+    bl_description = "Let the quick layout use the shipped samples again; the files of what was learned stay"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether something else is used."""
+        return bool(context.scene.legorize.settings.learned_from)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Clear the name of the file."""
+        context.scene.legorize.settings.learned_from = ""
+        return {"FINISHED"}
+
+
+def _lessons(context: bpy.types.Context, settings: Settings) -> Iterator[Lesson]:
+    """Yield a lesson for each brick model that is selected, and one for all other objects together."""
+    models = builds_of(context.scene, [thing for thing in context.selected_objects if is_own(thing)])
+    for model in models:
+        yield _lesson(context, sources_of(model), _known(state_of(model).settings))
+    of_models = {source for model in models for source in sources_of(model)}
+    others = [source for source in chosen_sources(context) if source not in of_models]
+    if others:
+        yield _lesson(context, others, settings)
+
+
+def _known(stored: dict[str, Any]) -> Settings:
+    """Return the settings of a build; those that its version did not know are as they are by default."""
+    return Settings(**{entry.name: stored[entry.name] for entry in fields(Settings) if entry.name in stored})
+
+
+def _lesson(context: bpy.types.Context, sources: Sequence[bpy.types.Object], settings: Settings) -> Lesson:
+    order = order_of(context, sources, settings)
+    return Lesson(order.name, order.mesh, settings)
+
+
+classes = (LEGORIZE_OT_learn, LEGORIZE_OT_forget)
+register, unregister = bpy.utils.register_classes_factory(classes)

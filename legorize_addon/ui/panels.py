@@ -1,0 +1,264 @@
+"""The sidebar tab "Legorize": the button, the settings, what is shown, what came out."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+from dataclasses import Field, fields
+from types import MappingProxyType
+from typing import Any, Final
+
+import bpy
+
+from ..core.settings import Settings, choices
+from ..core.units import BRICK, STUD
+from ..scene import builds, check_lines, damage, orphans, state_of
+from ..view import LEGEND, has_margins, n_pieces, n_steps, roles_shown
+from . import job
+from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
+from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
+from .learning import LEGORIZE_OT_forget, LEGORIZE_OT_learn
+from .progress_text import progress_text
+from .properties import current_build
+
+MM_PER_CM: Final = 10.0
+BUTTONS: Final = MappingProxyType({"Learning": (LEGORIZE_OT_learn, LEGORIZE_OT_forget)})
+"""Operators below the settings of a group."""
+
+PIXELS_PER_LETTER: Final = 8.0
+"""Width of a letter in the sidebar, with room for the icon: Blender does not wrap texts."""
+
+
+class _Tab:
+    """Where every panel stands."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Legorize"
+
+
+class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
+    """The button, or how far it has come."""
+
+    bl_label = "Legorize"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the button or the progress bar, and which build the other panels are about."""
+        running = job.running()
+        if running:
+            stage, share = running.progress
+            text = progress_text(stage, share, running.seconds_left, stopping=running.stopping)
+            self.layout.progress(factor=share, type="BAR", text=text)
+            self.layout.label(text="Esc stops")
+            return
+        button = self.layout.column()
+        button.scale_y = 1.6
+        button.operator(LEGORIZE_OT_build.bl_idname, icon="MOD_BUILD")
+        if context.window_manager.legorize_said:
+            self.layout.label(text=context.window_manager.legorize_said, icon="INFO")
+        if len(builds(context.scene)) > 1:
+            self.layout.prop(context.scene.legorize, "build")
+        self._draw_damage(context)
+
+    def _draw_damage(self, context: bpy.types.Context) -> None:
+        """Draw what was deleted by other ways than ours, and the button that mends it."""
+        lost = [entry.source.name for entry in orphans(context.scene)]
+        if lost:
+            _wrapped(context, self.layout, f"Hidden, and its model was deleted: {', '.join(lost)}", "ERROR")
+            self.layout.operator(LEGORIZE_OT_show_originals.bl_idname, icon="HIDE_OFF")
+        build = current_build(context.scene)
+        sentence = build and damage(build)
+        if sentence:
+            _wrapped(context, self.layout, sentence, "ERROR")
+            self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
+
+
+class _SettingsPanel(_Tab):
+    """The settings of one group.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The settings, in their order.
+    alternatives : mapping of str to str
+        The setting whose choice decides whether another one counts.
+    buttons : tuple of type
+        Operators below them.
+    """
+
+    bl_parent_id = "LEGORIZE_PT_main"
+    names: tuple[str, ...] = ()
+    alternatives: Mapping[str, str] = MappingProxyType({})
+    buttons: tuple[type[bpy.types.Operator], ...] = ()
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the group's settings, without the numbers that its choice leaves unused; locked while a job runs."""
+        self.layout.enabled = job.running() is None
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        group = context.scene.legorize.settings
+        for name in self.names:
+            choice = self.alternatives.get(name)
+            if choice is None or getattr(group, choice) == name:
+                self.layout.prop(group, name)
+        for button in self.buttons:
+            self.layout.operator(button.bl_idname)
+
+
+def _settings_panels() -> tuple[type, ...]:
+    """Return one panel for each group of settings, in their order; the first one is open."""
+    groups: dict[str, list[Field[Any]]] = {}
+    for entry in fields(Settings):
+        groups.setdefault(entry.metadata["group"], []).append(entry)
+    return tuple(_settings_panel(group, entries, closed=i > 0) for i, (group, entries) in enumerate(groups.items()))
+
+
+def _settings_panel(group: str, entries: Sequence[Field[Any]], *, closed: bool) -> type:
+    alternatives = {word: choice.name for choice in entries for word in choices(choice)}
+    members = {
+        "__doc__": f"The settings of the group {group}.",
+        "bl_label": group,
+        "bl_options": {"DEFAULT_CLOSED"} if closed else set(),
+        "names": tuple(entry.name for entry in entries),
+        "alternatives": MappingProxyType(alternatives),
+        "buttons": BUTTONS.get(group, ()),
+    }
+    return type(f"LEGORIZE_PT_{group.lower()}", (_SettingsPanel, bpy.types.Panel), members)
+
+
+class _BuildPanel(_Tab):
+    """What is about a build, and is not there without one."""
+
+    bl_parent_id = "LEGORIZE_PT_main"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there is a whole build."""
+        build = current_build(context.scene)
+        return build is not None and damage(build) is None
+
+
+class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
+    """What is shown of a build."""
+
+    bl_label = "Layers"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the sliders of layers, steps and pieces, the cut, the roles, and what else may be shown."""
+        self.layout.enabled = job.running() is None
+        view = context.scene.legorize
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        build = current_build(context.scene)
+        self.layout.prop(view, "top_layer", text=f"Top of {state_of(build).layers}")
+        self._draw_building(view, build)
+        self.layout.row().prop(view, "section_axis", expand=True)
+        if view.section_axis != "none":
+            self.layout.prop(view, "section_at", slider=True)
+            self.layout.prop(view, "section_flip")
+        shown = self.layout.column(heading="Show", align=True)
+        for role in roles_shown(build):
+            shown.prop(view.roles, role.name.lower())
+        self.layout.prop(view, "show_sources")
+        self.layout.prop(view, "detail")
+
+    def _draw_building(self, view: bpy.types.PropertyGroup, build: bpy.types.Collection) -> None:
+        """Draw how far the model is built, and its pieces apart, as far as the build knows of them."""
+        if n_steps(build):
+            row = self.layout.row(heading=f"Step of {n_steps(build)}")
+            row.prop(view, "by_steps", text="")
+            slider = row.row()
+            slider.active = view.by_steps
+            slider.prop(view, "step", text="")
+        if n_pieces(build) > 1:
+            self.layout.prop(view, "exploded", slider=True)
+
+
+class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):
+    """What came out."""
+
+    bl_label = "Result"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the figures of the build and its remarks."""
+        state = state_of(current_build(context.scene))
+        column = self.layout.column(align=True)
+        for text in (*_figures(state.summary), *_building_figures(state.building)):
+            column.label(text=text)
+        for note in state.notes:
+            _wrapped(context, self.layout, note, "ERROR")
+        self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
+
+
+class LEGORIZE_PT_stability(_BuildPanel, bpy.types.Panel):
+    """Whether the model stands."""
+
+    bl_label = "Stability"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the verdict, what is weak, and the switch of the heat map."""
+        build = current_build(context.scene)
+        for text, icon in check_lines(state_of(build).check):
+            _wrapped(context, self.layout, text, icon)
+        view = context.scene.legorize
+        switch = self.layout.row()
+        switch.enabled = has_margins(build) and job.running() is None
+        switch.prop(view, "heat_map")
+        if view.heat_map:
+            _wrapped(context, self.layout, LEGEND, "INFO")
+
+
+class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
+    """What can be written."""
+
+    bl_label = "Export"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the buttons that write files."""
+        self.layout.operator(LEGORIZE_OT_export_ldr.bl_idname, icon="EXPORT")
+        self.layout.operator(LEGORIZE_OT_export_mpd.bl_idname, icon="EXPORT")
+        self.layout.operator(LEGORIZE_OT_render_still.bl_idname, icon="RENDER_STILL")
+
+
+def _wrapped(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str) -> None:
+    """Draw a text in as many lines as it takes, the first one with an icon."""
+    width = int(context.region.width / (PIXELS_PER_LETTER * context.preferences.system.ui_scale))
+    lines = layout.column(align=True)
+    for row, line in enumerate(textwrap.wrap(text, max(width, 20))):
+        lines.label(text=line, icon="BLANK1" if row else icon)
+
+
+def _figures(summary: Any) -> tuple[str, ...]:
+    x, y, layers = summary["studs_x"], summary["studs_y"], summary["layers"]
+    size = [length / MM_PER_CM for length in (x * STUD, y * STUD, layers * BRICK)]
+    return (
+        f"{summary['bricks']} bricks, {summary['mass']:.0f} g",
+        f"{summary['parts']} parts, {summary['colours']} colours",
+        f"{x} x {y} studs, {layers} layers",
+        "{:.1f} x {:.1f} x {:.1f} cm".format(*size),
+    )
+
+
+def _building_figures(building: Mapping[str, Any] | None) -> tuple[str, ...]:
+    """Return the lines on supports and building; none for a build of an earlier version, which does not know them."""
+    if not building:
+        return ()
+    lines = [f"Support bricks to take out: {building['removed']}"]
+    if building["removed"]:
+        lines[0] += f", {building['removed_mass']:.0f} g"
+    lines.append(f"Support bricks that stay: {building['kept']}")
+    lines.append(f"Pieces: {building['pieces']}, building steps: {building['steps']}")
+    if building.get("by_hand"):
+        lines.append(f"Towers to hold by hand: {building['by_hand']}")
+    return tuple(lines)
+
+
+classes = (
+    LEGORIZE_PT_main,
+    *_settings_panels(),
+    LEGORIZE_PT_layers,
+    LEGORIZE_PT_result,
+    LEGORIZE_PT_stability,
+    LEGORIZE_PT_export,
+)
+register, unregister = bpy.utils.register_classes_factory(classes)

@@ -1,0 +1,354 @@
+"""What the .blend keeps of the user's choices: the settings, and what is shown of a build.
+
+The settings' properties are generated from
+:class:`~legorize_addon.core.settings.Settings`, which alone knows their
+defaults, limits and texts.
+"""
+
+from __future__ import annotations
+
+from dataclasses import Field, fields, replace
+from typing import Any, Final
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+
+from ..core.model import Role, load_catalogue
+from ..core.settings import Settings, choices, setting_type
+from ..scene import AXES, Section, builds, damage, own_parts, point_objects, set_detail, show_sources, state_of
+from ..view import (
+    cut_away,
+    explode,
+    exploded,
+    has_margins,
+    heat_map_shown,
+    n_steps,
+    roles_shown,
+    section_of,
+    show_heat_map,
+    show_layers,
+    show_role,
+    show_steps,
+    steps_done,
+)
+
+CUTS: Final = ("none", *AXES)
+CUT_ITEMS: Final = [("none", "Off", ""), *((axis, axis.upper(), "") for axis in AXES)]
+ROLE_TEXTS: Final = {
+    Role.SHELL: "the bricks that are seen from outside",
+    Role.INSIDE: "the bricks that only carry",
+    Role.PLATE: "the plates of finer layers",
+    Role.OFFSET: "the bricks under overhanging faces",
+    Role.SUPPORT_OUTSIDE: "the supports to be taken away in the end",
+    Role.SUPPORT_INSIDE: "the supports that stay inside",
+    Role.SUPPORT_KEPT: "the supports outside that stay, as they alone hold a part of the model",
+}
+
+
+def label(name: str) -> str:
+    """Return a setting's name as the panel shows it."""
+    return name.replace("_", " ").capitalize()
+
+
+def _property(entry: Field[Any]) -> Any:
+    """Return the Blender property of a setting."""
+    # Blender ends every tooltip with a full stop of its own
+    common = {
+        "name": label(entry.name),
+        "description": entry.metadata["text"].removesuffix("."),
+        "default": entry.default,
+    }
+    words = choices(entry)
+    if words:
+        return EnumProperty(items=[(word, label(word), common["description"]) for word in words], **common)
+    kind = setting_type(entry)
+    if kind is bool:
+        return BoolProperty(**common)
+    if kind is str:
+        return StringProperty(**common)
+    limits = {"min": entry.metadata["low"], "max": entry.metadata["high"]}
+    return IntProperty(**common, **limits) if kind is int else FloatProperty(**common, **limits)
+
+
+LegorizeSettings = type(
+    "LegorizeSettings",
+    (bpy.types.PropertyGroup,),
+    {
+        "__doc__": "The settings of the next build.",
+        "__annotations__": {entry.name: _property(entry) for entry in fields(Settings)},
+    },
+)
+
+
+def settings_of(group: bpy.types.PropertyGroup) -> Settings:
+    """Return what the user chose.
+
+    Parameters
+    ----------
+    group : LegorizeSettings
+        The scene's settings.
+
+    Returns
+    -------
+    Settings
+        The same as the command line makes of the same numbers.
+    """
+    return Settings(**{entry.name: _value(getattr(group, entry.name)) for entry in fields(Settings)})
+
+
+def _value(value: Any) -> Any:
+    # Blender keeps 32 bits of a float: 3.2 comes back as 3.2000000477
+    return float(str(np.float32(value))) if isinstance(value, float) else value
+
+
+def current_build(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    """Return the build that the panel shows: the one chosen, else the newest; None without any."""
+    there = builds(scene)
+    return scene.legorize.build if scene.legorize.build in there else next(reversed(there), None)
+
+
+def _is_build(self: bpy.types.PropertyGroup, collection: bpy.types.Collection) -> bool:
+    return collection in builds(self.id_data)
+
+
+def _whole_build(self: bpy.types.PropertyGroup) -> bpy.types.Collection | None:
+    """Return the build that the panel shows if there is one and it is not damaged."""
+    build = current_build(self.id_data)
+    return None if build is None or damage(build) else build
+
+
+def _top_layer(self: bpy.types.PropertyGroup) -> int:
+    build = current_build(self.id_data)
+    return state_of(build).top_layer if build else 1
+
+
+def _set_top_layer(self: bpy.types.PropertyGroup, value: int) -> None:
+    build = _whole_build(self)
+    if build:
+        show_layers(self.id_data, build, max(1, min(value, state_of(build).layers)))
+
+
+def _section(self: bpy.types.PropertyGroup) -> Section:
+    build = current_build(self.id_data)
+    return section_of(build) if build else Section()
+
+
+def _cut(self: bpy.types.PropertyGroup, **changes: Any) -> None:
+    build = _whole_build(self)
+    if build:
+        cut_away(build, replace(section_of(build), **changes))
+
+
+def _section_axis(self: bpy.types.PropertyGroup) -> int:
+    return CUTS.index(_section(self).axis)
+
+
+def _set_section_axis(self: bpy.types.PropertyGroup, value: int) -> None:
+    _cut(self, axis=CUTS[value])
+
+
+def _section_at(self: bpy.types.PropertyGroup) -> float:
+    return _section(self).at
+
+
+def _set_section_at(self: bpy.types.PropertyGroup, value: float) -> None:
+    _cut(self, at=value)
+
+
+def _section_flip(self: bpy.types.PropertyGroup) -> bool:
+    return _section(self).flip
+
+
+def _set_section_flip(self: bpy.types.PropertyGroup, value: bool) -> None:
+    _cut(self, flip=value)
+
+
+def _heat_map(self: bpy.types.PropertyGroup) -> bool:
+    build = current_build(self.id_data)
+    return bool(build) and heat_map_shown(build)
+
+
+def _set_heat_map(self: bpy.types.PropertyGroup, value: bool) -> None:
+    build = _whole_build(self)
+    if build and has_margins(build):
+        show_heat_map(build, visible=value)
+
+
+def _exploded(self: bpy.types.PropertyGroup) -> float:
+    build = current_build(self.id_data)
+    return exploded(build) if build else 0.0
+
+
+def _set_exploded(self: bpy.types.PropertyGroup, value: float) -> None:
+    build = _whole_build(self)
+    if build and n_steps(build):
+        explode(build, value)
+
+
+def _step(self: bpy.types.PropertyGroup) -> int:
+    build = current_build(self.id_data)
+    return steps_done(build) or n_steps(build) if build else 0
+
+
+def _set_step(self: bpy.types.PropertyGroup, value: int) -> None:
+    build = _whole_build(self)
+    if build and n_steps(build):
+        show_steps(build, max(1, min(value, n_steps(build))))
+
+
+def _by_steps(self: bpy.types.PropertyGroup) -> bool:
+    build = current_build(self.id_data)
+    return bool(build) and bool(steps_done(build))
+
+
+def _set_by_steps(self: bpy.types.PropertyGroup, value: bool) -> None:
+    build = _whole_build(self)
+    if build and n_steps(build):
+        show_steps(build, _step(self) if value else 0)
+
+
+def _update_sources(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    build = current_build(self.id_data)
+    if build:
+        show_sources(build, visible=self.show_sources)
+
+
+def _update_detail(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    build = _whole_build(self)
+    if build:
+        own_parts(state_of(build), point_objects(build))
+        set_detail(state_of(build).parts, load_catalogue(), self.detail)
+
+
+def _role_property(role: Role) -> Any:
+    """Return the Blender property that shows or hides a role."""
+
+    def is_shown(self: bpy.types.PropertyGroup) -> bool:
+        """Return whether the current build shows the role."""
+        build = current_build(self.id_data)
+        return bool(build) and roles_shown(build).get(role, False)
+
+    def show(self: bpy.types.PropertyGroup, visible: bool) -> None:
+        """Show or hide the role in the current build."""
+        build = _whole_build(self)
+        if build and role in roles_shown(build):
+            show_role(build, role, visible=visible)
+
+    text = f"Show {ROLE_TEXTS[role]}, in the viewport and in renders"
+    return BoolProperty(name=label(role.name), description=text, get=is_shown, set=show)
+
+
+LegorizeRoles = type(
+    "LegorizeRoles",
+    (bpy.types.PropertyGroup,),
+    {
+        "__doc__": "Which roles of bricks are shown.",
+        "__annotations__": {role.name.lower(): _role_property(role) for role in Role},
+    },
+)
+
+
+class LegorizeView(bpy.types.PropertyGroup):
+    """What the scene shows of which build, and the settings of the next one."""
+
+    settings: PointerProperty(type=LegorizeSettings)
+    build: PointerProperty(
+        type=bpy.types.Collection, poll=_is_build, name="Model", description="The brick model that this panel is about"
+    )
+    top_layer: IntProperty(
+        name="Top layer",
+        description="The highest layer of bricks that is shown, in the viewport and in renders",
+        min=1,
+        get=_top_layer,
+        set=_set_top_layer,
+    )
+    show_sources: BoolProperty(
+        name="Show original",
+        description="Show the objects that the model was made of; building hides them and removing the model "
+        "brings them back",
+        update=_update_sources,
+    )
+    roles: PointerProperty(type=LegorizeRoles)
+    section_axis: EnumProperty(
+        name="Section",
+        description="The axis that a cut through the model is upright to; bricks beyond it are hidden, not removed",
+        items=CUT_ITEMS,
+        get=_section_axis,
+        set=_set_section_axis,
+    )
+    section_at: FloatProperty(
+        name="Cut at",
+        description="Share of the model's extent at which the cut lies: bricks are hidden whose middle lies beyond",
+        subtype="FACTOR",
+        min=0.0,
+        max=1.0,
+        get=_section_at,
+        set=_set_section_at,
+    )
+    section_flip: BoolProperty(
+        name="Other side",
+        description="Hide the bricks on this side of the cut instead of those beyond it",
+        get=_section_flip,
+        set=_set_section_flip,
+    )
+    exploded: FloatProperty(
+        name="Explode",
+        description="How far each piece is lifted off the one below it, as a share of the model's height, in the "
+        "viewport and in renders",
+        subtype="FACTOR",
+        min=0.0,
+        max=1.0,
+        get=_exploded,
+        set=_set_exploded,
+    )
+    by_steps: BoolProperty(
+        name="Building steps",
+        description="Show what is there after a number of building steps: pieces that are not joined yet stand beside "
+        "the model, and supports are there until they are taken out",
+        get=_by_steps,
+        set=_set_by_steps,
+    )
+    step: IntProperty(
+        name="Step",
+        description="Building steps that are done, in the viewport and in renders",
+        min=1,
+        get=_step,
+        set=_set_step,
+    )
+    heat_map: BoolProperty(
+        name="Heat map",
+        description="Colour each brick by the friction that it has left, in the viewport and in renders: green much, "
+        "yellow half, red none, black asked for more than it bears, magenta hangs in the air",
+        get=_heat_map,
+        set=_set_heat_map,
+    )
+    detail: EnumProperty(
+        name="Detail",
+        description="How finely the parts are drawn; low keeps very large models quick",
+        items=[
+            ("low", "Low", "Plain boxes with eight-sided studs"),
+            ("high", "High", "Bevelled edges, round studs, hollow from below"),
+        ],
+        default="high",
+        update=_update_detail,
+    )
+
+
+classes = (LegorizeSettings, LegorizeRoles, LegorizeView)
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
+
+
+def register() -> None:
+    """Register the property groups and hang them on the scene."""
+    _register_classes()
+    bpy.types.Scene.legorize = PointerProperty(type=LegorizeView)
+    # not of a scene: an undo leaves it, and no file keeps it
+    bpy.types.WindowManager.legorize_said = StringProperty(options={"SKIP_SAVE"})
+
+
+def unregister() -> None:
+    """Undo :func:`register`."""
+    del bpy.types.WindowManager.legorize_said
+    del bpy.types.Scene.legorize
+    _unregister_classes()

@@ -1,0 +1,156 @@
+"""What is to be built: which objects, read on the main thread, with which settings, in place of what."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from ..core.progress import Progress
+from ..core.settings import Settings
+from ..core.units import MM_PER_METRE
+from ..reading import has_surface
+from ..scene import builds_of, is_own, orphans, sources_of
+from ..view import readable
+from .learned_files import resolved
+from .properties import current_build
+
+if TYPE_CHECKING:
+    from ..core.build import Build
+    from ..core.mesh import TriangleMesh
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Order:
+    """What a build is made of, read on the main thread.
+
+    Attributes
+    ----------
+    name : str
+        Of the model: the names of its source objects.
+    scene : int
+        Session identifier of the scene that gets the model.
+    sources : tuple of int
+        Session identifiers of the objects: references to them would not outlive an undo, and a linked object and one of
+        the file may have the same name.
+    mesh : TriangleMesh
+        Their surface.
+    remarks : tuple of str
+        What could not be read literally.
+    settings : Settings
+        The user's choices.
+    samples : str
+        Path of the file that the settings name in ``learned_from``.
+    mm_per_unit : float
+        World mm per Blender unit.
+    replaces : tuple of int
+        Session identifiers of the builds whose place it takes.
+    """
+
+    name: str
+    scene: int
+    sources: tuple[int, ...]
+    mesh: TriangleMesh
+    remarks: tuple[str, ...]
+    settings: Settings
+    samples: str
+    mm_per_unit: float
+    replaces: tuple[int, ...]
+
+    def check_limits(self) -> None:
+        """Raise ``LimitError`` if the model would be larger than the limits of the settings."""
+        from ..core.estimate import check_limits, estimate
+
+        check_limits(estimate(self.mesh, self.settings), self.settings)
+
+    def within_limits(self) -> Order:
+        """Return the same with limits that allow it."""
+        from ..core.estimate import estimate, within_limits
+
+        return replace(self, settings=within_limits(estimate(self.mesh, self.settings), self.settings))
+
+    def work(self, progress: Progress) -> Build:
+        """Run the core; no Blender in here."""
+        from ..core.pipeline import legorize
+
+        build = legorize(self.mesh, replace(self.settings, learned_from=self.samples), progress)
+        # the scene keeps the name that holds on every machine
+        return replace(build, settings=self.settings)
+
+
+def chosen_sources(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Return the objects to legorize, by name.
+
+    These are the selected objects with a surface, for a selected brick model
+    the objects it was made of, and with nothing selected those of the model
+    that the panel shows, or what a model hid that was deleted since.
+    """
+    selected = [thing for thing in context.selected_objects if not is_own(thing) and has_surface(thing)]
+    models = builds_of(context.scene, [thing for thing in context.selected_objects if is_own(thing)])
+    if not selected and not models and current_build(context.scene):
+        models = [current_build(context.scene)]
+    again = [source for model in models for source in sources_of(model)]
+    if not selected and not models:
+        again = [entry.source for entry in orphans(context.scene)]
+    here = {thing for thing in (*selected, *again) if context.scene in thing.users_scene}
+    return sorted(here, key=lambda thing: (thing.name, thing.library.filepath if thing.library else ""))
+
+
+def replaced_by(context: bpy.types.Context, sources: Sequence[bpy.types.Object]) -> list[bpy.types.Collection]:
+    """Return the builds whose place a build of some sources takes.
+
+    Of several models of the same objects, such as copies, only the selected
+    ones are replaced, else the one that the panel shows, else the newest.
+    """
+    same: dict[frozenset[bpy.types.Object], list[bpy.types.Collection]] = {}
+    for build in builds_of(context.scene, sources):
+        same.setdefault(frozenset(sources_of(build)), []).append(build)
+    selected = {thing for thing in context.selected_objects if is_own(thing)}
+    replaced = []
+    for group in same.values():
+        chosen = [build for build in group if selected & set(build.all_objects)]
+        shown = [build for build in group if build == current_build(context.scene)]
+        replaced += chosen or shown or group[-1:]
+    return replaced
+
+
+def order_of(context: bpy.types.Context, sources: Sequence[bpy.types.Object], settings: Settings) -> Order:
+    """Read objects, which may be hidden, for a build.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+        Its scene has the objects.
+    sources : sequence of bpy.types.Object
+        With a surface.
+    settings : Settings
+        Of the build.
+
+    Returns
+    -------
+    Order
+    """
+    from ..reading import read_objects
+
+    with readable(context, sources):
+        context.view_layer.update()
+        mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get())
+    return Order(
+        name=" + ".join(source.name for source in sources),
+        scene=context.scene.session_uid,
+        sources=tuple(source.session_uid for source in sources),
+        mesh=mesh,
+        remarks=remarks,
+        settings=settings,
+        samples=resolved(settings.learned_from),
+        mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
+        replaces=tuple(model.session_uid for model in replaced_by(context, sources)),
+    )
+
+
+def by_uid(blocks: Iterable[bpy.types.ID], uids: Sequence[int]) -> list[Any]:
+    """Return the datablocks with some session identifiers, without those deleted since."""
+    there = {block.session_uid: block for block in blocks}
+    return [there[uid] for uid in uids if uid in there]

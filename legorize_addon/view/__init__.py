@@ -1,0 +1,41 @@
+"""What is shown of a build: layers, roles, a cut, building steps, the heat map."""
+
+from __future__ import annotations
+
+from .heat_map import LEGEND, has_margins, heat_map_shown, show_heat_map
+from .show_result import show_result
+from .steps import check_steps, explode, exploded, n_pieces, n_steps, steps_done
+from .visibility import (
+    corners_while_building,
+    cut_away,
+    readable,
+    roles_shown,
+    section_of,
+    show_layers,
+    show_role,
+    show_steps,
+    shown_corners,
+)
+
+__all__ = [
+    "LEGEND",
+    "check_steps",
+    "corners_while_building",
+    "cut_away",
+    "explode",
+    "exploded",
+    "has_margins",
+    "heat_map_shown",
+    "n_pieces",
+    "n_steps",
+    "readable",
+    "roles_shown",
+    "section_of",
+    "show_heat_map",
+    "show_layers",
+    "show_result",
+    "show_role",
+    "show_steps",
+    "shown_corners",
+    "steps_done",
+]

@@ -1,0 +1,88 @@
+"""What was shown of a build, shown of the one that takes its place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import bpy
+
+from ..core.model import Role
+from ..scene import Section, damage, state_of
+from .heat_map import has_margins, heat_map_shown, show_heat_map
+from .steps import explode, exploded, n_steps, steps_done
+from .visibility import cut_away, roles_shown, section_of, show_layers, show_role, show_steps
+
+
+@dataclass(frozen=True, slots=True)
+class KeptView:
+    """What is shown of a build.
+
+    Attributes
+    ----------
+    roles : mapping of Role to bool
+        Whether each role that occurs is shown.
+    top_layer : int or None
+        Number of layers shown; None for all.
+    section : Section
+        The cut.
+    exploded : float
+        How far its pieces are apart.
+    steps : int
+        Building steps that are done; 0 for all.
+    heat_map : bool
+        Whether its heat map is shown.
+    """
+
+    roles: Mapping[Role, bool]
+    top_layer: int | None
+    section: Section
+    exploded: float
+    steps: int
+    heat_map: bool
+
+    @classmethod
+    def of(cls, builds: Sequence[bpy.types.Collection]) -> KeptView | None:
+        """Return what is shown of the first whole one of some builds; None without one."""
+        for build in builds:
+            if damage(build) is None:
+                state = state_of(build)
+                return cls(
+                    roles=_wanted_roles(build),
+                    top_layer=state.top_layer if state.top_layer < state.layers else None,
+                    section=section_of(build),
+                    exploded=exploded(build),
+                    steps=steps_done(build),
+                    heat_map=heat_map_shown(build),
+                )
+        return None
+
+    def show(self, scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
+        """Show the same of another build, as far as it has it.
+
+        Parameters
+        ----------
+        scene : bpy.types.Scene
+            Scene of the build.
+        build : bpy.types.Collection
+            A new one.
+        """
+        for role in roles_shown(build):
+            if role in self.roles:
+                show_role(build, role, visible=self.roles[role])
+        if self.top_layer is not None:
+            show_layers(scene, build, min(self.top_layer, state_of(build).layers))
+        cut_away(build, self.section)
+        if n_steps(build):
+            explode(build, self.exploded)
+            show_steps(build, min(self.steps, n_steps(build)))
+        if self.heat_map and has_margins(build):
+            show_heat_map(build, visible=True)
+
+
+def _wanted_roles(build: bpy.types.Collection) -> dict[Role, bool]:
+    """Return the roles as the user wants them shown, whatever the building steps show for a while."""
+    roles = roles_shown(build)
+    if steps_done(build) and Role.SUPPORT_OUTSIDE in roles:
+        roles[Role.SUPPORT_OUTSIDE] = state_of(build).supports_shown
+    return roles

@@ -1,0 +1,71 @@
+"""Towers that fall over while they grow."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.building.order import ordered
+from legorize_addon.core.building.towers import STEADY, tipping
+from legorize_addon.core.model.contact_graph import connect, middles
+from legorize_addon.core.statics.stability import stability
+from tests.core.standing import CATALOGUE, table
+
+
+def falling(bricks, **options):
+    """Return the towers that fall as bricks are built in their order."""
+    pairs = connect(bricks, CATALOGUE).pairs
+    moves = ordered(bricks, pairs, temporary=np.zeros(len(bricks), bool))
+    return tipping(moves, bricks, CATALOGUE, pairs, **options)
+
+
+def test_leaning_tower_falls_at_the_step_that_is_too_much():
+    """A beam of eight studs held at its end by one brick tips it over; a beam of two does not."""
+    [found] = falling(table(("3005", 0, 0, 0), ("3008", 0, 0, 3)))
+    assert found.step == 1
+    assert found.bricks.tolist() == [0, 1]
+    assert falling(table(("3003", 0, 0, 0), ("3003", 0, 0, 3))) == []
+
+
+@pytest.mark.parametrize(("n_beams", "distance"), [(2, 0.15), (4, 0.08)])
+def test_feet_of_several_cells_have_an_edge_as_well(n_beams, distance):
+    """Beams on a brick of two studs shift its weight towards its edge: what is left to it must be a tenth of a stud."""
+    bricks = table(("3004", 1, 0, 0), *(("3009", 0, 0, 3 * (1 + level)) for level in range(n_beams)))
+    middle = np.average(middles(bricks, CATALOGUE), axis=0, weights=CATALOGUE.mass[bricks.part])
+    assert 3 - middle[0] == pytest.approx(distance, abs=0.01)
+    assert bool(falling(bricks)) == (distance < STEADY)
+
+
+def test_tower_that_is_caught_later_falls_before():
+    """A bridge stands in the end, but one of its halves falls before the other half comes."""
+    bridge = (("3005", 0, 0, 0), ("3010", 0, 0, 3), ("3005", 7, 0, 0), ("3010", 4, 0, 3), ("3008", 0, 0, 6))
+    found = falling(table(*bridge))
+    assert {tower.step for tower in found} == {1}
+    assert stability(table(*bridge), CATALOGUE, connect(table(*bridge), CATALOGUE)).stable
+
+
+def test_prop_keeps_a_tower_upright():
+    """Where a prop is put under the free end, the tower stands; it is asked for with feet and middle."""
+    asked = []
+
+    def prop(tower):
+        asked.append(tower)
+        return 7, 0
+
+    assert falling(table(("3005", 0, 0, 0), ("3008", 0, 0, 3)), prop=prop) == []
+    assert asked[0].middle == pytest.approx([(0.43 * 0.5 + 3.03 * 4) / 3.46, 0.5])
+    assert asked[0].feet.min(axis=0).tolist() == [0, 0]
+
+
+def test_useless_prop_is_refused_in_the_end():
+    """A prop that says None lets the tower fall, once."""
+    assert len(falling(table(("3005", 0, 0, 0), ("3008", 0, 0, 3), ("3008", 0, 0, 6)), prop=lambda _: None)) == 1
+
+
+def test_verdict_agrees_with_the_force_test():
+    """Towers of beams on one brick: those that fall by their feet fall by forces as well."""
+    for length, number in ((2, "3004"), (3, "3622"), (4, "3010"), (6, "3009"), (8, "3008")):
+        bricks = table(("3003", 0, 0, 0), (number, 0, 0, 3))
+        fell = bool(falling(bricks))
+        tip = stability(bricks, CATALOGUE, connect(bricks, CATALOGUE)).tipping.min() < 0.8
+        assert fell == tip, length

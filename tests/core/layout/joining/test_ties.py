@@ -1,0 +1,249 @@
+"""Straps join whatever touches, and a little besides, and cost as little colour as they can."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy import ndimage
+
+from legorize_addon.core.layout.joining.cutting import Bench, Seam
+from legorize_addon.core.layout.joining.ties import _strap, strapped
+from legorize_addon.core.layout.lay import lay
+from legorize_addon.core.layout.problem.problem import owners, with_margins
+from legorize_addon.core.model.bricks import NOBODY, Role
+from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
+from tests.core.layout.cells import CATALOGUE, RED, WHITE, assert_covers, grid_of, planes
+
+BLUE = 1
+
+
+def laid(grid):
+    """Lay a grid and join nothing."""
+    return lay(grid, CATALOGUE, rng=np.random.default_rng(0), join=False)
+
+
+def both(grid, *, plates=True):
+    """Return the connections of a grid's bricks before and after, and the bricks after."""
+    bricks = laid(grid)
+    found, _ = strapped(bricks, grid, CATALOGUE, plates=plates)
+    return connect(bricks, CATALOGUE), connect(found, CATALOGUE), found
+
+
+def wrong(grid, bricks, links) -> np.ndarray:
+    """Return the cells of a grid in which another colour lies than theirs."""
+    colour = planes(grid.colour)
+    owner = np.full(colour.shape, NOBODY)
+    n_z, n_y, n_x = links.owner.shape
+    owner[:n_z, :n_y, :n_x] = links.owner
+    return (colour >= 0) & (np.append(bricks.colour, np.int16(NOBODY))[owner] != colour)
+
+
+def claw(width=1, lowest=2):
+    """Make a red block with a claw of another colour beside it that hangs in the air."""
+    cells = np.full((4, 3, 5, 8), COLOUR_EMPTY)
+    cells[:, :, :, :3] = RED
+    cells[lowest:, :, 1 : 1 + width, 3:5] = BLUE
+    return grid_of(cells)
+
+
+def two_plates():
+    """Make a red and a blue plate of 2 x 3 studs side by side in the air, and a stud on the ground by itself."""
+    cells = np.full((2, 3, 3, 7), COLOUR_EMPTY)
+    cells[1, 1, :, :4] = RED, RED, BLUE, BLUE
+    cells[0, 0, 0, 6] = RED
+    return grid_of(cells)
+
+
+@pytest.mark.parametrize("width", [1, 3])
+def test_what_colours_keep_apart_gets_a_plate_below(width):
+    """A claw beside a block becomes part of it, all in its own colour, by a plate that reaches below the claw."""
+    grid = claw(width)
+    before, after, bricks = both(grid)
+    assert (before.n_components, after.n_components) == (2, 1)
+    assert not wrong(grid, bricks, after).any()
+    n_z, n_y, n_x = after.owner.shape
+    added = np.argwhere((after.owner != NOBODY) & ~planes(grid.solid)[:n_z, :n_y, :n_x])
+    assert added[:, 0].tolist() == [5]
+
+
+def test_what_stands_beside_is_joined_by_one_plate():
+    """On the ground, with no room below, one cell is in the neighbour's colour, and nothing is added."""
+    grid = claw(lowest=0)
+    before, after, bricks = both(grid)
+    assert before.n_components == 2
+    assert after.n_components == 1
+    assert wrong(grid, bricks, after).sum() == 1
+    np.testing.assert_array_equal(after.owner != NOBODY, before.owner != NOBODY)
+    assert CATALOGUE.exists_in(bricks.part, bricks.colour).all()
+
+
+def test_no_plate_is_added_that_joins_nothing():
+    """Where a place is offered at which one side has nothing to hold to, no plate is laid."""
+    bricks = laid(two_plates())
+    links = connect(bricks, CATALOGUE)
+    colour = with_margins(two_plates().colour, COLOUR_EMPTY)
+    bench = Bench(bricks, owners(links, colour.shape), CATALOGUE)
+    before = len(bench.laid)
+    assert not _strap(bench, Seam(3, ((4, 0), (5, 0))), colour, 1, 0)
+    assert not _strap(bench, Seam(3, ((3, 0), (4, 0))), colour, 1, 0)
+    assert len(bench.laid) == before
+    assert _strap(bench, Seam(3, ((1, 0), (2, 0))), colour, 1, 0)
+
+
+def test_cell_that_is_seen_least_changes():
+    """Of a wide claw's contact on the ground a cell with none of its sides open changes its colour."""
+    grid = claw(width=3, lowest=0)
+    _, after, bricks = both(grid)
+    [[z, y, x]] = np.argwhere(wrong(grid, bricks, after))
+    solid = np.pad(planes(grid.solid), 1)
+    around = ndimage.convolve(solid.astype(int), ndimage.generate_binary_structure(3, 1).astype(int))
+    assert around[z + 1, y + 1, x + 1] == 7
+
+
+def test_colours_that_agree_are_kept():
+    """Pillars of one colour, or of free colour, that touch are joined at no cost."""
+    for other in (RED, COLOUR_ANY):
+        cells = np.full((3, 3, 1, 2), RED)
+        cells[..., 1] = other
+        # single studs, so that nothing holds yet
+        grid = grid_of(cells)
+        apart = cells.copy()
+        apart[..., 1] = BLUE
+        bricks, _ = strapped(laid(grid_of(apart)), grid, CATALOGUE, plates=True)
+        links = connect(bricks, CATALOGUE)
+        assert links.n_components == 1
+        assert len(bricks) >= 6
+
+
+def test_wall_of_narrow_colours_is_one_piece():
+    """A wall a stud thick in upright stripes, as many pieces as it has stripes, is joined by a plate at each seam."""
+    cells = np.full((3, 3, 1, 9), COLOUR_EMPTY)
+    cells[:] = np.resize([RED, WHITE, BLUE], 9)
+    grid = grid_of(cells)
+    before, after, bricks = both(grid)
+    assert before.n_components == 9
+    assert after.n_components == 1
+    assert wrong(grid, bricks, after).sum() <= 8
+
+
+def test_plates_on_edge_get_one_below():
+    """Plates with nothing above or below that touch sideways in two colours get one plate more, not on top."""
+    grid = two_plates()
+    before, after, bricks = both(grid)
+    assert before.n_components == after.n_components + 1
+    assert sorted(bricks.corner[:, 2]) == [0, 3, 4, 4]
+    assert not wrong(grid, bricks, after).any()
+    added = bricks.corner[:, 2] == 3
+    assert bricks.role[added] == Role.PLATE
+    assert (bricks.step == bricks.corner[:, 2] // 3).all()
+
+
+def test_single_plates_beside_a_foot_are_joined_on_top():
+    """Plates of another colour along a foot, too many to be recoloured, are joined by one that reaches over them."""
+    cells = np.full((2, 3, 3, 6), COLOUR_EMPTY)
+    cells[:, :, :2] = RED
+    cells[0, 0, 2] = BLUE
+    grid = grid_of(cells)
+    before, after, bricks = both(grid)
+    assert (before.n_components, after.n_components) == (2, 1)
+    assert not wrong(grid, bricks, after).any()
+    added = (after.owner != NOBODY) & ~planes(grid.solid)
+    assert np.argwhere(added)[:, :2].tolist() == [[1, 2]]
+
+
+def test_flat_picture_stays_as_it_is():
+    """A picture of single plates on the ground is not covered by plates and loses no pixel: it stays in pieces."""
+    cells = np.full((1, 3, 2, 6), COLOUR_EMPTY)
+    cells[0, 0] = [[RED, BLUE, RED, BLUE, WHITE, WHITE], [BLUE, RED, WHITE, RED, RED, BLUE]]
+    grid = grid_of(cells)
+    before, after, bricks = both(grid)
+    assert after.n_components == before.n_components
+    assert not wrong(grid, bricks, after).any()
+
+
+def test_picture_of_bricks_is_held_inside():
+    """A picture of bricks is one piece, joined in the middle, where nobody sees it, or below."""
+    cells = np.resize([RED, BLUE, WHITE, RED, WHITE], (1, 1, 6, 7))
+    grid = grid_of(np.repeat(cells, 3, axis=1))
+    before, after, bricks = both(grid)
+    assert before.n_components > 20
+    assert after.n_components == 1
+    lost = wrong(grid, bricks, after)
+    assert not lost[2].any()
+    assert lost[1].sum() > 5 * lost[0].sum()
+
+
+def test_what_is_apart_stays_apart():
+    """Two studs between two bodies are too many, and the very same bricks come back."""
+    cells = np.full((2, 3, 3, 8), COLOUR_EMPTY)
+    cells[..., :3] = cells[..., 5:] = RED
+    grid = grid_of(cells)
+    bricks = laid(grid)
+    found, same = strapped(bricks, grid, CATALOGUE, plates=True)
+    assert found is bricks
+    assert same is grid
+
+
+def test_heavy_parts_get_more_straps():
+    """What many bricks hang on, and agrees in colour, is held in several places."""
+    cells = np.full((14, 3, 6, 8), COLOUR_EMPTY)
+    cells[..., :4] = RED
+    cells[2:, :, :, 4:] = COLOUR_ANY
+    apart = np.where(cells == COLOUR_ANY, BLUE, cells)
+    bricks = laid(grid_of(apart))
+    found, _ = strapped(bricks, grid_of(cells), CATALOGUE, plates=True)
+    links = connect(found, CATALOGUE)
+    assert links.n_components == 1
+    across = (links.owner[:, :, 3] == links.owner[:, :, 4]) & (links.owner[:, :, 3] != NOBODY)
+    assert len(np.unique(links.owner[:, :, 3][across])) > 1
+
+
+def test_bricks_alone_are_joined_by_bricks():
+    """Where only bricks are asked for, a brick lies across the seam, and no plate is laid."""
+    grid = claw()
+    before, after, bricks = both(grid, plates=False)
+    assert before.n_components == 2
+    assert after.n_components == 1
+    assert {CATALOGUE.parts[part].height for part in bricks.part} == {3}
+    assert wrong(grid, bricks, after).sum() == 3
+
+
+@pytest.mark.parametrize("make", [claw, two_plates])
+def test_grid_is_told_what_was_laid(make):
+    """The grid that comes back is covered by the bricks in its own colours: recoloured, and with what was added."""
+    grid = make()
+    bricks, told = strapped(laid(grid), grid, CATALOGUE, plates=True)
+    assert_covers(bricks, told)
+    assert (told.colour != grid.colour).sum() in (1, 2)
+    assert not (grid.solid & ~told.solid).any()
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.sampled_from([0.3, 0.5, 0.8]))
+def test_what_touches_holds(seed, filled):
+    """Every body of cells that touch face to face above the ground is one piece; nothing is lost, all fits."""
+    rng = np.random.default_rng(seed)
+    cells = np.full((4, 3, 6, 7), COLOUR_EMPTY)
+    choice = [COLOUR_EMPTY, COLOUR_ANY, RED, BLUE, WHITE]
+    cells[1:3] = rng.choice(choice, (2, 3, 6, 7), p=[1 - filled, *[filled / 4] * 4])
+    cells[0, 0, 0, 0] = RED
+    grid = grid_of(cells)
+    before, after, bricks = both(grid)
+    assert after.n_components <= min(before.n_components, ndimage.label(planes(grid.solid))[1])
+    assert after.collisions == 0
+    n_z, n_y, n_x = after.owner.shape
+    assert (after.owner != NOBODY)[planes(grid.solid)[:n_z, :n_y, :n_x]].all()
+    assert CATALOGUE.exists_in(bricks.part, bricks.colour).all()
+
+
+@pytest.mark.parametrize("plates", [True, False])
+def test_same_input_same_bricks(plates):
+    """Nothing is decided by chance."""
+    grid = claw(width=3)
+    bricks = laid(grid)
+    one, other = (strapped(bricks, grid, CATALOGUE, plates=plates)[0] for _ in range(2))
+    np.testing.assert_array_equal(one.corner, other.corner)
+    np.testing.assert_array_equal(one.part, other.part)

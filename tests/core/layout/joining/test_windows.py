@@ -1,0 +1,93 @@
+"""Windows laid anew to join what is loose."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from legorize_addon.core.layout.joining.windows import join_by_windows
+from legorize_addon.core.layout.lay import FILLER
+from legorize_addon.core.layout.problem.shapes import shapes
+from legorize_addon.core.layout.problem.sheets import split
+from legorize_addon.core.model.bricks import Bricks
+from legorize_addon.core.model.catalogue import footprint
+from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
+from legorize_addon.core.progress import silent
+from tests.core.layout.cells import CATALOGUE, RED, assert_covers, brick_grid
+
+BLUE = 1
+
+
+def single_studs(grid) -> Bricks:
+    """Lay every cell of a grid of bricks by itself."""
+    layer, y, x = np.nonzero(grid.solid[:, 0])
+    n = len(layer)
+    colour = grid.colour[layer, 0, y, x]
+    return Bricks(
+        part=np.full(n, CATALOGUE.part_row("3005"), np.int16),
+        corner=np.stack([x, y, 3 * layer], axis=1).astype(np.int32),
+        turn=np.zeros(n, np.uint8),
+        colour=np.where(colour == COLOUR_ANY, np.int16(FILLER), colour),
+        role=np.zeros(n, np.uint8),
+        piece=np.zeros(n, np.int16),
+        step=layer.astype(np.int32),
+    )
+
+
+def joined(grid, bricks) -> Bricks:
+    """Join a model by windows."""
+    codes = np.unique(grid.colour[grid.colour >= 0])
+    work = [(each, shapes(CATALOGUE, each.height, codes, FILLER)) for each in split(grid)]
+    return join_by_windows(bricks, grid, work, CATALOGUE, silent)
+
+
+def test_two_towers_side_by_side():
+    """Towers of single studs that touch become one piece by one brick across both."""
+    grid = brick_grid(np.full((3, 1, 2), RED))
+    bricks = single_studs(grid)
+    assert connect(bricks, CATALOGUE).n_components == 2
+    found = joined(grid, bricks)
+    assert_covers(found, grid)
+    assert connect(found, CATALOGUE).n_components == 1
+    assert len(found) == 5
+
+
+def test_what_colours_keep_apart_stays_apart():
+    """A red and a blue tower have no common brick: the model stays as it is."""
+    colour = np.full((3, 1, 2), RED)
+    colour[..., 1] = BLUE
+    grid = brick_grid(colour)
+    bricks = single_studs(grid)
+    assert joined(grid, bricks) is bricks
+
+
+def test_free_cells_take_the_colour_that_joins():
+    """A tower of any colour between red and blue ones can hold both, in different layers."""
+    colour = np.full((3, 1, 3), COLOUR_ANY)
+    colour[..., 0], colour[..., 2] = RED, BLUE
+    grid = brick_grid(colour)
+    found = joined(grid, single_studs(grid))
+    assert_covers(found, grid)
+    assert connect(found, CATALOGUE).n_components == 1
+
+
+@settings(max_examples=15)
+@given(st.integers(0, 2**32 - 1))
+def test_windows_never_make_it_worse(seed):
+    """Whatever the model: the same cells are covered, with no more floating bricks and components than before."""
+    rng = np.random.default_rng(seed)
+    grid = brick_grid(rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, BLUE], (3, 4, 5), p=[0.3, 0.1, 0.4, 0.2]))
+    if not grid.solid.any():
+        return
+    bricks = single_studs(grid)
+    before = connect(bricks, CATALOGUE)
+    found = joined(grid, bricks)
+    after = connect(found, CATALOGUE)
+    assert_covers(found, grid)
+    assert (after.n_floating, after.n_components) <= (before.n_floating, before.n_components)
+    cells = sum(
+        len(footprint(CATALOGUE.parts[part], int(turn))) for part, turn in zip(found.part, found.turn, strict=True)
+    )
+    assert cells == grid.solid[:, 0].sum()

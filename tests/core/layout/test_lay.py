@@ -1,0 +1,159 @@
+"""Whole layouts: what must hold of every one, and what is known of special ones."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from legorize_addon.core.errors import BuildError, Cancelled
+from legorize_addon.core.layout.lay import Tier, lay
+from legorize_addon.core.model.bricks import Bricks, Role
+from legorize_addon.core.model.catalogue import Catalogue
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.shell.hollowing import hollow
+from tests.core.layout.cells import CATALOGUE, assert_covers, brick_grid, grid_of
+
+RED, WHITE, BLUE, SAND_GREEN = 4, 15, 1, 378
+TIERS = get_args(Tier)
+
+
+def laid(grid, seed=0, **options):
+    """Return the bricks of a grid."""
+    return lay(grid, CATALOGUE, rng=np.random.default_rng(seed), **options)
+
+
+def rows(bricks):
+    """Return a table as a list of tuples."""
+    return list(zip(*(getattr(bricks, name).tolist() for name in Bricks.__slots__), strict=True))
+
+
+def random_grid(seed, plates):
+    """Return a small solid at random, of bricks or of single plates, in four colours and any."""
+    rng = np.random.default_rng(seed)
+    shape = (3, 3 if plates else 1, 7, 8)
+    colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, COLOUR_ANY, RED, WHITE, BLUE, SAND_GREEN], shape)
+    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST, Cover.MUST], shape))
+    colour[0, :, 0, 0], cover[0, :, 0, 0] = RED, Cover.MUST
+    return grid_of(*(np.broadcast_to(each, (3, 3, 7, 8)) for each in (colour, cover)))
+
+
+@given(st.integers(0, 2**32 - 1), st.booleans(), st.sampled_from(TIERS))
+@settings(max_examples=25, deadline=None)
+def test_what_every_layout_keeps(seed, plates, tier):
+    """Must cells once, may cells at most once, empty ones never; colours kept; parts exist; nothing overlaps."""
+    grid = random_grid(seed, plates)
+    bricks = laid(grid, tier=tier)
+    assert_covers(bricks, grid)
+    assert (bricks.step == bricks.corner[:, 2] // 3).all()
+    assert (np.diff(bricks.corner[:, 2]) >= 0).all()
+    assert (bricks.piece == 0).all()
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(0, 5), st.sampled_from(TIERS))
+@settings(max_examples=6, deadline=None)
+def test_same_seed_same_model(seed, run, tier):
+    """The same grid and state of the generator give the same table."""
+    grid = random_grid(seed, plates=True)
+    assert rows(laid(grid, run, tier=tier)) == rows(laid(grid, run, tier=tier))
+
+
+@pytest.mark.parametrize("tier", TIERS)
+def test_a_hollow_box_hangs_together(tier):
+    """Walls, floor and roof of a hollow box are one component: no brick of the wide roof floats."""
+    grid = hollow(brick_grid(np.full((8, 24, 24), COLOUR_ANY)), shell=1)
+    links = assert_covers(laid(grid, tier=tier), grid)
+    assert links.n_floating == 0
+    assert links.n_components == 1
+
+
+@pytest.mark.parametrize("tier", TIERS)
+def test_a_wall_is_bonded(tier):
+    """Most joints of a wall lie over the middle of a brick, not over a joint of the layer below."""
+    bricks = laid(brick_grid(np.full((10, 1, 60), RED)), tier=tier)
+    links = assert_covers(bricks, brick_grid(np.full((10, 1, 60), RED)))
+    layers = links.owner[::3, 0]
+    seams = layers[:, 1:] != layers[:, :-1]
+    assert np.count_nonzero(seams[1:] & seams[:-1]) < 0.1 * np.count_nonzero(seams[1:])
+    assert links.n_components == 1
+
+
+def test_colours_meet_at_their_border():
+    """Two halves of a block in two colours need one brick each."""
+    colour = np.full((1, 4, 4), RED)
+    colour[:, :, 2:] = WHITE
+    bricks = laid(brick_grid(colour))
+    assert sorted(bricks.colour.tolist()) == [RED, WHITE]
+    assert (CATALOGUE.part_row("3001") == bricks.part).all()
+
+
+def test_hidden_bricks_get_the_filler():
+    """Bricks that nobody sees have the filler colour, and the role inside."""
+    grid = brick_grid(np.full((1, 2, 4), COLOUR_ANY))
+    inside = grid_of(grid.colour, role=np.full(grid.colour.shape, Role.INSIDE))
+    bricks = laid(inside, filler=BLUE)
+    assert bricks.colour.tolist() == [BLUE]
+    assert bricks.role.tolist() == [Role.INSIDE]
+
+
+def test_a_brick_shows_if_one_of_its_cells_does():
+    """The role of a brick is inside only if all of its cells are inside."""
+    role = np.full((1, 3, 2, 4), Role.INSIDE)
+    role[0, :, 0, 0] = Role.OFFSET
+    bricks = laid(grid_of(np.full((1, 3, 2, 4), RED), role=role))
+    assert bricks.role.tolist() == [Role.OFFSET]
+
+
+def test_plates_where_bricks_do_not_fit():
+    """A column of two plates over a brick is laid with plates, level by level."""
+    colour = np.full((2, 3, 1, 1), RED)
+    colour[1, 2] = COLOUR_EMPTY
+    bricks = laid(grid_of(colour))
+    assert bricks.corner[:, 2].tolist() == [0, 3, 4]
+    assert [CATALOGUE.parts[part].height for part in bricks.part] == [3, 1, 1]
+
+
+def test_a_model_above_the_ground():
+    """Empty layers below the model change nothing but the level."""
+    colour = np.full((4, 3, 5), COLOUR_EMPTY)
+    colour[2:] = RED
+    assert laid(brick_grid(colour)).corner[:, 2].min() == 6
+
+
+def test_nothing_to_build():
+    """A grid without must cells is refused."""
+    with pytest.raises(BuildError, match="0 cells"):
+        laid(brick_grid(np.full((2, 3, 3), COLOUR_EMPTY)))
+
+
+def test_a_colour_without_bricks_of_one_cell():
+    """Where no part of one cell exists and no larger one fits, one sentence names the colour."""
+    exists = CATALOGUE.exists.copy()
+    exists[CATALOGUE.part_row("3005"), CATALOGUE.colour_row(RED)] = False
+    catalogue = Catalogue(CATALOGUE.parts, CATALOGUE.colours, exists, CATALOGUE.element)
+    with pytest.raises(BuildError, match=f"1 cells .* colour {RED}"):
+        lay(brick_grid([[[RED]]]), catalogue, rng=np.random.default_rng(0))
+    pair = brick_grid([[[RED, RED]]])
+    assert_covers(lay(pair, catalogue, rng=np.random.default_rng(0)), pair, catalogue)
+
+
+def test_progress_may_cancel():
+    """A request to stop comes through."""
+
+    def stop(stage, share):
+        assert 0 <= share <= 1
+        raise Cancelled
+
+    with pytest.raises(Cancelled):
+        laid(brick_grid(np.full((1, 2, 2), RED)), progress=stop)
+
+
+def test_loose_bricks_are_left_where_joining_is_not_wanted():
+    """Without joining, the layout covers the same cells, and is the same where nothing was loose."""
+    grid = random_grid(7, plates=True)
+    assert_covers(laid(grid, join=False), grid)
+    solid = hollow(brick_grid(np.full((4, 8, 8), RED)), shell=1)
+    assert rows(laid(solid, join=False)) == rows(laid(solid))

@@ -1,0 +1,179 @@
+"""The catalogue: sizes, orientations, colours, and who makes what in which colour."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.errors import BuildError
+from legorize_addon.core.model.catalogue import ASSETS, footprint, load_catalogue, read_catalogue
+from legorize_addon.core.model.unit_grid import COLOUR_ANY
+
+CATALOGUE = load_catalogue()
+BRICKS = ["3005", "3004", "3622", "3010", "3009", "3008", "2357", "3003", "3002", "3001", "2456", "3007"]
+PLATES = ["3024", "3023", "3623", "3710", "3666", "3460", "2420", "3022", "3021", "3020", "3795", "3034"]
+TALL = ["14716", "22886", "30145", "30144"]
+TABLES = ("parts.csv", "colours.csv", "availability.csv")
+
+
+@pytest.fixture
+def copied_assets(tmp_path):
+    """Return a folder with copies of the three tables, to be damaged."""
+    for name in TABLES:
+        (tmp_path / name).write_bytes((ASSETS / name).read_bytes())
+    return tmp_path
+
+
+def test_parts_are_the_bricks_the_plates_and_the_tall_ones():
+    """The catalogue lists 12 bricks, 12 plates of the same footprints and 4 tall bricks, in this order."""
+    assert [part.number for part in CATALOGUE.parts] == BRICKS + PLATES + TALL
+    assert [part.height for part in CATALOGUE.parts] == [3] * 12 + [1] * 12 + [9] * 4
+    for brick, plate in zip(CATALOGUE.parts[:12], CATALOGUE.parts[12:24], strict=True):
+        assert (brick.length, brick.width, brick.corner) == (plate.length, plate.width, plate.corner)
+
+
+@pytest.mark.parametrize("rows", [slice(0, 12), slice(12, 24)])
+def test_twelve_parts_have_24_orientations(rows):
+    """The 12 bricks have 24 different orientations, and so have the 12 plates."""
+    shapes = {
+        (part.number, tuple(map(tuple, footprint(part, turn)))) for part in CATALOGUE.parts[rows] for turn in range(4)
+    }
+    assert len(shapes) == 24
+    assert sum(part.turns for part in CATALOGUE.parts[rows]) == 24
+
+
+@pytest.mark.parametrize("part", CATALOGUE.parts, ids=lambda part: part.number)
+def test_footprint_turns_counter_clockwise(part):
+    """Each turn of a footprint is the one before rotated by (x, y) -> (-y, x) and moved back to zero."""
+    for turn in range(4):
+        cells = footprint(part, turn)
+        assert cells.min(axis=0).tolist() == [0, 0]
+        rotated = np.stack([-cells[:, 1], cells[:, 0]], axis=1)
+        rotated -= rotated.min(axis=0)
+        assert set(map(tuple, rotated)) == set(map(tuple, footprint(part, turn + 1)))
+
+
+def test_footprint_of_a_corner_part_lacks_the_stated_cell():
+    """A corner part covers its 2 x 2 box but for (1, 1), (0, 1), (0, 0), (1, 0) at the turns 0 to 3."""
+    corner = CATALOGUE.parts[CATALOGUE.part_row("2357")]
+    box = {(0, 0), (0, 1), (1, 0), (1, 1)}
+    missing = [box - set(map(tuple, footprint(corner, turn).tolist())) for turn in range(4)]
+    assert missing == [{(1, 1)}, {(0, 1)}, {(0, 0)}, {(1, 0)}]
+
+
+def test_footprint_areas_follow_from_the_titles():
+    """A part titled "Brick 2 x 4" covers eight cells, a corner part three, and is as high as its title says."""
+    for part in CATALOGUE.parts:
+        sides = [int(word) for word in part.title.split() if word.isdigit()]
+        assert len(footprint(part, 0)) == (3 if part.corner else sides[0] * sides[1])
+        assert sorted(sides[:2]) == [part.width, part.length]
+        assert part.corner == part.title.endswith("Corner")
+        assert part.height == (1 if part.title.startswith("Plate") else 3 * (sides[2] if len(sides) > 2 else 1))
+
+
+def test_masses_grow_with_the_parts():
+    """Of two parts of the same width and height the longer one is heavier; every mass names its source."""
+    for part in CATALOGUE.parts:
+        assert part.mass > 0
+        assert part.mass_source
+        for other in CATALOGUE.parts:
+            same_series = (other.width, other.height, other.corner) == (part.width, part.height, part.corner)
+            assert not same_series or (part.mass > other.mass) == (part.length > other.length)
+
+
+def test_every_colour_can_build_a_model():
+    """Each colour has 1 x 1 and 1 x 2 parts, half of the bricks, and two thirds of bricks and plates together."""
+    for number in ("3005", "3004", "3024", "3023"):
+        assert CATALOGUE.exists[CATALOGUE.part_row(number)].all()
+    assert (CATALOGUE.exists[:12].sum(axis=0) >= 6).all()
+    assert (CATALOGUE.exists[:24].sum(axis=0) >= 16).all()
+
+
+def test_colours_are_sorted_and_unique():
+    """Codes ascend strictly, and no two colours share a name, a value or a shop's number."""
+    assert (np.diff(CATALOGUE.codes) > 0).all()
+    for key in ("name", "rgb", "bricklink", "rebrickable", "lego"):
+        values = [getattr(colour, key) for colour in CATALOGUE.colours]
+        assert len(set(values)) == len(values)
+
+
+def test_colour_numbers_of_the_known_traps():
+    """Where the systems number a colour differently, each gets its own number."""
+    numbers = {
+        colour.name: (colour.code, colour.bricklink, colour.rebrickable, colour.lego) for colour in CATALOGUE.colours
+    }
+    assert numbers["Olive Green"] == (330, 155, 326, 330)
+    assert numbers["Yellowish Green"] == (326, 158, 158, 326)
+    assert numbers["Vibrant Yellow"] == (368, 236, 1062, 368)
+    assert numbers["Dark Purple"] == (85, 89, 85, 268)
+    assert numbers["Light Bluish Gray"] == (71, 86, 71, 194)
+
+
+def test_element_numbers_belong_to_one_pair_each():
+    """Only pairs that exist have an element number, and no number stands for two pairs."""
+    assert not CATALOGUE.element[~CATALOGUE.exists].any()
+    known = CATALOGUE.element[CATALOGUE.element > 0]
+    assert len(np.unique(known)) == len(known)
+
+
+def test_exists_in_broadcasts_and_knows_the_gaps():
+    """Black has all bricks, Dark Turquoise no 2 x 2 corner; a free colour fits, an unknown one never."""
+    rows = np.array([CATALOGUE.part_row("3001"), CATALOGUE.part_row("2357")])
+    table = CATALOGUE.exists_in(rows[:, None], np.array([0, 3, COLOUR_ANY, 999, -2]))
+    assert table.tolist() == [[True, True, True, False, False], [True, False, True, False, False]]
+
+
+def test_exists_in_agrees_with_the_table():
+    """Looked up by LDraw code, every pair reads as it stands in the table."""
+    rows = np.arange(len(CATALOGUE.parts))[:, None]
+    np.testing.assert_array_equal(CATALOGUE.exists_in(rows, CATALOGUE.codes), CATALOGUE.exists)
+
+
+def test_rows_are_found_by_number_alias_and_code():
+    """A part is found by its number and by the other numbers LDraw files use, a colour by its code."""
+    assert CATALOGUE.parts[CATALOGUE.part_row("3023b")].number == "3023"
+    assert [CATALOGUE.part_row(part.number) for part in CATALOGUE.parts] == list(range(len(CATALOGUE.parts)))
+    assert [CATALOGUE.colour_row(code) for code in CATALOGUE.codes] == list(range(len(CATALOGUE.colours)))
+    np.testing.assert_array_equal(CATALOGUE.rgb[CATALOGUE.colour_row(4)], [0xB4, 0, 0])
+
+
+def test_unknown_part_or_colour_is_refused():
+    """A part or colour that is not in the catalogue is named in the error."""
+    with pytest.raises(BuildError, match="Part 4070 is not"):
+        CATALOGUE.part_row("4070")
+    with pytest.raises(BuildError, match="Colour 6 is not"):
+        CATALOGUE.colour_row(6)
+
+
+def test_the_catalogue_is_read_once():
+    """Loading again gives the same object."""
+    assert load_catalogue() is CATALOGUE
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_missing_table_is_named(copied_assets, name):
+    """Without one of the tables the error names the file."""
+    (copied_assets / name).unlink()
+    with pytest.raises(BuildError, match=name):
+        read_catalogue(copied_assets)
+
+
+@pytest.mark.parametrize(
+    ("name", "line"),
+    [
+        ("parts.csv", "9999,Brick 1 x 2,1,2,3,0,1.0,somebody,"),
+        ("parts.csv", "9999,Brick 1 x 2,two,1,3,0,1.0,somebody,"),
+        ("parts.csv", "9999,Brick 1 x 2"),
+        ("colours.csv", "900,Wrong,#12345,1,2,3"),
+        ("colours.csv", "900,Wrong,#123456,,2,3"),
+        ("availability.csv", "9999,0,1"),
+        ("availability.csv", "3005,900,1"),
+    ],
+)
+def test_damaged_line_is_named(copied_assets, name, line):
+    """A line that cannot be understood is named by file and number."""
+    path = copied_assets / name
+    lines = path.read_text(encoding="utf-8").splitlines()
+    path.write_text("\n".join([*lines, line, ""]), encoding="utf-8")
+    with pytest.raises(BuildError, match=rf"{name}, line {len(lines) + 1} is wrong"):
+        read_catalogue(copied_assets)

@@ -1,0 +1,68 @@
+"""Equilibrium: the search, and the check of what it found."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.errors import Cancelled
+from legorize_addon.core.statics.equilibrium import AIMS, Aim, balance, is_equilibrium, residual
+from legorize_addon.core.statics.forces import HOLD, Ground
+from scripts.benchmarks.stablelego import CASES, Case, stair
+from tests.core.standing import CATALOGUE, equations, judged, table
+
+
+@pytest.mark.parametrize("case", [case for case in CASES if case.stands], ids=lambda case: case.name)
+def test_check_finds_what_is_wrong(case: Case) -> None:
+    """Forces that are out of balance by 0.1 micronewtons, or below a bound by less than that, are no proof."""
+    found = judged(case.bricks(CATALOGUE), ground=Ground.BASEPLATE, loads=case.loads(CATALOGUE))
+    assert found.residual <= 1e-8
+    np.testing.assert_allclose(
+        residual(found.statics, found.forces).reshape(-1),
+        found.statics.matrix @ found.forces + found.statics.loads,
+        atol=1e-12,
+    )
+    for row in range(0, len(found.forces), 7):
+        forces = found.forces.copy()
+        forces[row] += 1e-7
+        assert not is_equilibrium(found.statics, forces)
+    bounds = found.statics.contacts
+    raised = np.where(np.arange(len(bounds.least)) == 3, np.nextafter(found.forces, np.inf), bounds.least)
+    assert not is_equilibrium(replace(found.statics, contacts=replace(bounds, least=raised)), found.forces)
+
+
+def test_aims_leave_a_margin() -> None:
+    """A search that aims at half of the hold leaves what counts as enough; one without turns finds nothing."""
+    found = equations(table(*stair(12)), ground=Ground.BASEPLATE)
+    reached = balance(found, aims=(Aim(0.5, 0.45, 100),))
+    assert reached.found
+    assert (reached.forces[found.contacts.least == -HOLD] >= -0.55 * HOLD).all()
+    none = balance(equations(table(*stair(20)), ground=Ground.BASEPLATE), aims=(Aim(0.5, 0.45, 0),))
+    assert (none.found, none.turns) == (False, 0)
+
+
+def test_search_from_its_own_end_is_over_at_once() -> None:
+    """Started from forces that were found, the search finds them again without a turn."""
+    found = equations(table(*stair(18)), ground=Ground.BASEPLATE)
+    first = balance(found, aims=AIMS[-1:])
+    again = balance(found, aims=AIMS[-1:], start=first.forces)
+    assert (first.found, again.found, again.turns) == (True, True, 0)
+    assert first.turns > 0
+    np.testing.assert_allclose(again.forces, first.forces, atol=1e-9)
+
+
+def test_search_can_be_cancelled() -> None:
+    """A progress callback that cancels ends the search; until then the share rises."""
+    shares: list[float] = []
+
+    def stop(stage: str, share: float) -> None:
+        shares.append(share)
+        if len(shares) == 5:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        judged(table(*stair(20)), ground=Ground.BASEPLATE, progress=stop)
+    assert shares == sorted(shares)
+    assert 0 <= shares[0] < shares[-1] < 1

@@ -1,0 +1,108 @@
+"""Statics: which forces there are, where they act, and what they add up to."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.statics.forces import GRAVITY, HOLD, TABLE_FRICTION, Ground
+from tests.core.standing import CATALOGUE, downward, equations, table, weight
+
+
+def test_weight_of_every_part() -> None:
+    """Each part weighs its grams, in its own middle."""
+    bricks = table(*((part.number, 0, 0, 9 * row) for row, part in enumerate(CATALOGUE.parts)))
+    found = equations(bricks)
+    weights = found.loads.reshape(-1, 5)
+    # what is higher than the part above it floats
+    np.testing.assert_allclose(weights[:, 2], -GRAVITY * CATALOGUE.mass[bricks.part[found.rows]] / 1000)
+    assert (weights[:, [0, 1, 3, 4]] == 0).all()
+
+
+@pytest.mark.parametrize(("number", "grips"), [("3001", 3), ("3010", 4), ("2357", 3), ("3024", 4), ("30145", 3)])
+def test_grips_of_a_stud(number: str, grips: int) -> None:
+    """The upper part decides how many points of a stud it grips; a part one stud wide grips four."""
+    bricks = table(("3001", 0, 0, 0), (number, 0, 0, 3))
+    links, contacts = connect(bricks, CATALOGUE), equations(bricks).contacts
+    vertical = (contacts.least == -HOLD) & (contacts.by != NOBODY)
+    assert vertical.sum() == grips * links.studs[0]
+    assert (contacts.on[vertical] == 1).all()
+    assert (contacts.by[vertical] == 0).all()
+    # a plate is 0.4 studs high
+    np.testing.assert_allclose(contacts.point[vertical, 2], 1.2)
+    assert np.isinf(contacts.least).sum() == 2
+
+
+def test_middle_of_a_corner_part() -> None:
+    """A corner part weighs where its three squares do."""
+    np.testing.assert_allclose(equations(table(("2357", 0, 0, 0))).middle, [[5 / 6, 5 / 6, 0.6]])
+
+
+def test_feet_of_a_corner_part() -> None:
+    """The table pushes at the five outward corners of a corner part, leaning four ways at each."""
+    contacts = equations(table(("2357", 0, 0, 0))).contacts
+    corners = np.unique(contacts.point, axis=0)
+    np.testing.assert_array_equal(corners, [[0, 0, 0], [0, 2, 0], [1, 2, 0], [2, 0, 0], [2, 1, 0]])
+    assert len(contacts.on) == 20
+    np.testing.assert_allclose(np.hypot(*contacts.direction[:, :2].T), TABLE_FRICTION)
+    assert (contacts.least == 0).all()
+
+
+def test_baseplate_grips_as_a_brick_would() -> None:
+    """Under a 2 x 4 brick a baseplate has the points that another brick of that size has."""
+    plate = equations(table(("3001", 0, 0, 0)), ground=Ground.BASEPLATE).contacts
+    pair = equations(table(("3001", 0, 0, 0), ("3001", 0, 0, 3))).contacts
+    between = pair.by == 0
+    np.testing.assert_array_equal(plate.point[:24, :2], pair.point[between][:24, :2])
+    np.testing.assert_array_equal(plate.least, pair.least[between])
+
+
+def test_bricks_side_by_side_push() -> None:
+    """One push for each pair, at the bottom of what touches, away from each other."""
+    contacts = equations(table(("30145", 0, 0, 0), ("3001", 2, 0, 0), ("3001", 2, 0, 3), ("3001", 0, 2, 0))).contacts
+    sides = (contacts.least == 0) & (contacts.by != NOBODY)
+    found = sorted(zip(contacts.by[sides], contacts.on[sides], contacts.point[sides, 2].round(9), strict=True))
+    # the last one stands behind the first and, by half, behind the second
+    assert found == [(0, 1, 0), (0, 2, 1.2), (0, 3, 0), (1, 3, 0)]
+    np.testing.assert_array_equal(contacts.direction[sides].sum(axis=1), 1)
+
+
+def test_place_does_not_matter() -> None:
+    """Moved to negative coordinates, a model has the same equations."""
+    rows = [("3001", 0, 0, 0), ("3003", 4, 0, 0), ("3001", 2, 0, 3), ("3024", 2, 0, 6)]
+    here = equations(table(*rows))
+    there = equations(table(*((number, x - 9, y - 5, z - 6) for number, x, y, z in rows)))
+    np.testing.assert_allclose(there.matrix.toarray(), here.matrix.toarray(), atol=1e-12)
+    np.testing.assert_array_equal(there.contacts.by, here.contacts.by)
+
+
+def test_what_floats_is_left_out() -> None:
+    """Bricks in the air have no equations, and what they would push does not exist."""
+    found = equations(table(("3001", 0, 0, 3), ("3001", 0, 0, 0), ("3001", 4, 0, 3), ("3001", 0, 0, 9)))
+    assert found.rows.tolist() == [0, 1]
+    assert found.matrix.shape[0] == 10
+    assert ((found.contacts.least != 0) | (found.contacts.by == NOBODY)).all()
+
+
+def test_loads_are_added() -> None:
+    """A load of a newton stands beside the weight, without a torque."""
+    bricks = table(("3001", 0, 0, 0), ("3003", 0, 0, 3))
+    found = equations(bricks, loads=downward(bricks, 1, 1.0)).loads.reshape(-1, 5)
+    np.testing.assert_allclose(found[:, 2], [-weight("3001"), -weight("3003") - 1])
+
+
+def test_inner_forces_cancel() -> None:
+    """Action is reaction: about one common point, a force between bricks adds nothing up."""
+    found = equations(
+        table(("3001", 0, 0, 0), ("3003", 4, 1, 0), ("3010", 2, 1, 3), ("3020", 0, 0, 6), ("3024", 3, 0, 3))
+    )
+    columns = found.matrix.toarray().reshape(len(found.rows), 5, -1)
+    x, y, z = found.middle.T[:, :, None]
+    torque_x = (columns[:, 3] + y * columns[:, 2] - z * columns[:, 1]).sum(axis=0)
+    torque_y = (columns[:, 4] + z * columns[:, 0] - x * columns[:, 2]).sum(axis=0)
+    inner = found.contacts.by != NOBODY
+    assert inner.sum() > 30
+    for sums in (*columns[:, :3].sum(axis=0), torque_x, torque_y):
+        np.testing.assert_allclose(sums[inner], 0, atol=1e-12)

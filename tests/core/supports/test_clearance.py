@@ -1,0 +1,78 @@
+"""The room in which supports stand and are taken out again."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.supports.clearance import MARGIN, room_around
+from scripts.benchmarks.stablelego import placed
+from tests.core.standing import CATALOGUE, table
+
+BRIDGE = (("3004", 0, 0, 0), ("3004", 4, 0, 0), ("3009", 0, 0, 3))
+"""A beam of six over two feet."""
+
+
+def around(*rows):
+    """Return the room around bricks."""
+    return room_around(connect(table(*rows), CATALOGUE))
+
+
+def test_room_under_a_bridge_is_open():
+    """Between its feet and all around there is open room, under the feet and over the beam there is none."""
+    room = around(*BRIDGE)
+    x, y = np.array([0, 0]) - room.low[:2]
+    under = room.open[:, y, x : x + 6]
+    assert under[:3].all(axis=0).tolist() == [False, False, True, True, False, False]
+    assert not under[3:].any()
+    assert room.open[:, y, x - MARGIN : x].all()
+    assert room.open.shape[1:] == (1 + 2 * MARGIN, 6 + 2 * MARGIN)
+
+
+def test_low_leads_back_to_the_grid():
+    """``low`` is the cell of the model's grid at the room's corner, on the model's lowest plate."""
+    room = around(("3005", 5, 6, 7))
+    x, y, z = np.array([5, 6, 7]) - room.low
+    assert z == 0
+    assert room.filled[:, y, x].all()
+    assert room.filled.sum() == 3
+
+
+def test_layers_are_counted_from_the_ground():
+    """A layer has room where all three of its plates have, and the last may be cut by the top."""
+    room = around(("3024", 0, 0, 0), ("3024", 4, 0, 0), ("3020", 0, 0, 1), ("3710", 1, 0, 2), ("3710", 1, 0, 3))
+    x, y = -room.low[:2]
+    assert not room.layer(0)[y, x : x + 4].any()
+    assert room.layer(1)[y - 1, x]
+
+
+def test_closed_hollow_is_not_free():
+    """The air in a closed box is not reached from outside, that under a bridge is."""
+    box = around(
+        *[("3001", 0, 0, z, 0) for z in (0, 6)],
+        *[("3010", 0, 0, 3, 0), ("3005", 0, 1, 3, 0), ("3622", 1, 1, 3, 0)],
+    )
+    assert (box.free | box.filled).all()
+    hole = around(
+        ("3002", 0, 0, 0), ("3002", 0, 2, 0), ("3622", 0, 0, 3), ("3622", 0, 3, 3),
+        *[("3004", x, 1, 3, 1) for x in (0, 2)], ("3002", 0, 0, 6), ("3002", 0, 2, 6),
+    )  # fmt: skip
+    x, y = -hole.low[:2]
+    assert not (hole.free | hole.filled)[3:6, y + 1 : y + 3, x + 1].any()
+    assert hole.free[0, 0, 0]
+
+
+@given(st.lists(st.tuples(st.integers(0, 8), st.integers(0, 8), st.integers(0, 12)), min_size=1, max_size=30))
+def test_open_room_has_nothing_below(places):
+    """An open cell has open cells down to the ground, a filled one and all above it are closed; open air is free."""
+    bricks = placed([("3024", *place, 0) for place in dict.fromkeys(places)], CATALOGUE)
+    connection = connect(bricks, CATALOGUE)
+    room = room_around(connection)
+    assert room.filled.sum() == (connection.owner != NOBODY).sum()
+    np.testing.assert_array_equal(room.open, ~np.logical_or.accumulate(room.filled, axis=0))
+    assert not (room.free & room.filled).any()
+    sky = ~np.logical_or.accumulate(room.filled[::-1], axis=0)[::-1]
+    assert room.free[sky].all()
