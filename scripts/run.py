@@ -3,15 +3,19 @@
 ::
 
     python3 scripts/run.py sample     legorize the bundled sample into out/sample
-    python3 scripts/run.py test       run the tests (more arguments go to pytest)
+    python3 scripts/run.py test       run the tests (--quick: a choice of a minute; more arguments go to pytest)
     python3 scripts/run.py check      look over the source with ruff and mypy
+    python3 scripts/run.py docs       build the documentation into out/docs/html
     python3 scripts/run.py zip        build the extension into dist (more arguments: --platform)
     python3 scripts/run.py window     set up what the tests in a window need (root on Debian, once, 1.3 GB)
+    python3 scripts/run.py release    check that a release can be made, and build it
+    python3 scripts/run.py python     run the environment's Python (more arguments: a script, or -m and a module)
     python3 scripts/run.py setup      only make the environment
 
 The first use makes an environment in ``.venv`` with the packages pinned in
 pyproject.toml, Blender among them, and later uses find it there. ``--blender``
-chooses between the Blenders; without it the running Python decides. Only the
+chooses between the Blenders; without it the running Python decides. The
+documentation has an environment of its own, without Blender. Only the
 standard library is used here. Exit status: 3 where no fitting Python is
 installed, 4 where no window can be set up, 1 where something else is missing or
 a command took too long, else that of the command.
@@ -34,12 +38,19 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 PYTHONS = {"4.5": "3.11", "5.2": "3.13", "4.2": "3.11"}  # Blender: its Python; the favourite first
+DOCS = "docs"  # the environment of the documentation, beside those of the Blenders
+DOCS_PYTHON = PYTHONS["5.2"]
 LIMIT = 40 * 60  # seconds
 NO_PYTHON = 3
 NO_WINDOW = 4
 TREE = Path(os.environ.get("LEGORIZE_BLENDER_TREE", "/opt/blender-trixie"))  # a Debian with a real Blender
 # Blender 4.5's module hangs at exit once its glTF exporter was used, so pytest's run ends without an exit of Blender
 PYTEST = "import os, sys, pytest; status = pytest.main(sys.argv[1:]); sys.stdout.flush(); os._exit(status)"
+
+
+COMMANDS = ("sample", "test", "check", "window", "docs", "zip", "release", "python", "setup")
+# what a change is tried with while it is made; tests/not_quick.txt names what of it takes too long
+QUICK = ("-m", "not slow and not gui", "tests/core", "tests/scripts", "tests/test_architecture.py")
 
 
 class Missing(Exception):  # noqa: N818 - a state of the machine, told in one sentence
@@ -53,20 +64,29 @@ class Missing(Exception):  # noqa: N818 - a state of the machine, told in one se
 def main() -> int:
     """Run one command in its environment and return the exit status."""
     parser = argparse.ArgumentParser(description="Set up and run Legorize.")
-    parser.add_argument("command", choices=("sample", "test", "check", "zip", "window", "setup"))
+    parser.add_argument("command", choices=COMMANDS)
     parser.add_argument("--blender", choices=PYTHONS, help="Blender version to use")
-    chosen, rest = parser.parse_known_args()
+    own_words, python_words = _words(sys.argv[1:])
+    chosen, rest = parser.parse_known_args(own_words)
     try:
+        if chosen.command == "docs":
+            return _docs(rest)
         blender, python = _find(chosen.blender)
         if python != sys.executable:
             os.execv(python, [python, *sys.argv])  # the running Python may be too old for what follows
         own = _environment(blender, python)
         if chosen.command == "window":
             _make_tree()
-        return max((_run([str(own), *line]) for line in _lines(chosen.command, rest)), default=0)
+        return max((_run([str(own), *line]) for line in _lines(chosen.command, rest or python_words)), default=0)
     except Missing as missing:
         print(missing, file=sys.stderr)
         return missing.status
+
+
+def _words(words: list[str]) -> tuple[list[str], list[str]]:
+    """Return what is meant for this script, and all that follows the command ``python``, flags included."""
+    end = words.index("python") + 1 if "python" in words else len(words)
+    return words[:end], words[end:]
 
 
 def _lines(command: str, rest: list[str]) -> Iterator[list[str]]:
@@ -74,13 +94,35 @@ def _lines(command: str, rest: list[str]) -> Iterator[list[str]]:
     if command == "sample":
         yield ["scripts/legorize.py", "assets/sample.glb", "--out", "out/sample", "--render", *rest]
     elif command == "test":
-        yield ["-c", PYTEST, *rest]
+        quick = "--quick" in rest
+        rest = [word for word in rest if word != "--quick"]
+        yield ["-c", PYTEST, *(_quick() if quick else ()), *rest]
+    elif command == "release":
+        yield ["scripts/release.py", *rest]
+    elif command == "python":
+        yield rest
     elif command in ("zip", "window"):  # the window gets the extension, whose wheels are downloaded once
         yield ["scripts/build_extension.py", *rest]
     elif command == "check":
         yield ["-m", "ruff", "check", *rest]
         yield ["-m", "ruff", "format", "--check", *rest]
         yield ["-m", "mypy"]
+
+
+def _quick() -> list[str]:
+    """Return pytest's arguments for the quick choice."""
+    lines = (ROOT / "tests" / "not_quick.txt").read_text(encoding="utf-8").splitlines()
+    return [*QUICK, *(f"--deselect={line}" for line in lines if line and not line.startswith("#"))]
+
+
+def _docs(rest: list[str]) -> int:
+    """Build the documentation in its environment, by a Python of its version."""
+    python = next((each for each in _pythons(DOCS_PYTHON) if _version(each) == DOCS_PYTHON), "")
+    if not python:
+        raise Missing(f"The documentation needs Python {DOCS_PYTHON}, and none was found: install it first.", NO_PYTHON)
+    if python != sys.executable:
+        os.execv(python, [python, *sys.argv])
+    return _run([str(_installed(DOCS, python)), "scripts/build_docs.py", *rest])
 
 
 def _find(blender: str | None) -> tuple[str, str]:
@@ -121,15 +163,8 @@ def _version(python: str) -> str:
 
 def _environment(blender: str, python: str) -> Path:
     """Return the Python of the environment for a Blender, which is made if it is missing or out of date."""
-    pins = _pins(f"blender-{blender}")
-    folder = ROOT / ".venv" / f"blender-{blender}"
-    own, installed, starts = folder / "bin" / "python", folder / "pins.sha256", folder / "blender-starts"
-    digest = hashlib.sha256("\n".join(pins).encode()).hexdigest()
-    if not installed.exists() or installed.read_text() != digest:
-        print(f"Making {folder.relative_to(ROOT)} with {len(pins)} packages (once, some 500 MB) ...", flush=True)
-        _make(python, folder)
-        _install(own, pins)
-        installed.write_text(digest)
+    own = _installed(f"blender-{blender}", python)
+    starts = own.parents[1] / "blender-starts"
     if not starts.exists():
         _try_blender(own)
         starts.touch()
@@ -146,6 +181,20 @@ def _make_tree() -> None:
     print(f"Setting up {TREE} (once; about two minutes, 1.3 GB) ...", flush=True)
     if _run(["sh", "tests/gui/make_blender.sh", str(TREE)]):
         raise Missing(f"The tree {TREE} could not be made: see above.")
+
+
+def _installed(group: str, python: str) -> Path:
+    """Return the Python of an environment that has what a dependency group of the same name pins."""
+    pins, folder = _pins(group), ROOT / ".venv" / group
+    own, installed = folder / "bin" / "python", folder / "pins.sha256"
+    digest = hashlib.sha256("\n".join(pins).encode()).hexdigest()
+    if not installed.exists() or installed.read_text() != digest:
+        size = "" if group == DOCS else ", some 500 MB"
+        print(f"Making {folder.relative_to(ROOT)} with {len(pins)} packages (once{size}) ...", flush=True)
+        _make(python, folder)
+        _install(own, pins)
+        installed.write_text(digest)
+    return own
 
 
 def _make(python: str, folder: Path) -> None:

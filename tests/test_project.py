@@ -15,15 +15,18 @@ from statistics import median, quantiles
 ROOT = Path(__file__).resolve().parents[1]
 CORE = ROOT / "legorize_addon" / "core"
 PACKAGE = sorted((ROOT / "legorize_addon").rglob("*.py"))
-SOURCES = [*PACKAGE, *sorted((ROOT / "scripts").rglob("*.py")), *sorted((ROOT / "tests").rglob("*.py"))]
-FOLDERS = (".ci", "assets", "legorize_addon", "scripts", "tests")
+SOURCES = [*PACKAGE, *(path for name in ("docs", "scripts", "tests") for path in sorted((ROOT / name).rglob("*.py")))]
+FOLDERS = (".ci", ".github", "assets", "docs", "legorize_addon", "scripts", "tests")
 TEXTS = [
     *(path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*"))),
-    *(path for kind in ("*.md", "*.toml", ".git?*") for path in sorted(ROOT.glob(kind))),
+    *(path for kind in ("*.md", "*.toml", "*.cff", ".git?*", ".pre-commit*") for path in sorted(ROOT.glob(kind))),
 ]
 BINARY = {".blend", ".glb", ".npz", ".png", ".pyc"}
 # sources of facts and standards that a text may point to; an index of packages is none
-HOSTS = {"keepachangelog.com", "semver.org", "doi.org", "www.ldraw.org", "library.ldraw.org", "rebrickable.com"}
+HOSTS = {
+    *("keepachangelog.com", "semver.org", "doi.org", "www.ldraw.org", "library.ldraw.org", "rebrickable.com"),
+    "www.w3.org",  # the name of a standard of pictures
+}
 MACHINE_PATHS = re.compile(r"(?<![\w./~$}])/(root|work|home|Users|tmp)/")
 
 

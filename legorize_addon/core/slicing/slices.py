@@ -215,7 +215,7 @@ def adaptive_heights(
 
     References
     ----------
-    Dolenc and Mäkelä 1994: the cusp of a step of height t on a facet is t |n_z|.
+    Dolenc and Mäkelä 1994: the cusp of a step of height t on a facet is ``t |n_z|``.
     """
     fine = _fine_layers(mesh, ground=ground, n_layers=n_layers, cusp=cusp, colour=colour)
     if marked is not None:
