@@ -14,13 +14,13 @@ from __future__ import annotations
 
 def register() -> None:
     """Register everything with Blender."""
-    from . import ui
+    from .ui import register as register_all
 
-    ui.register()
+    register_all()
 
 
 def unregister() -> None:
     """Undo :func:`register`; a running job is stopped."""
-    from . import ui
+    from .ui import unregister as unregister_all
 
-    ui.unregister()
+    unregister_all()

@@ -148,6 +148,8 @@ def origin(file: Path, name: str) -> tuple[str, str]:
     """Return Sphinx's directive for a name, and the module that defines it, looked up along the imports."""
     for node in ast.parse(file.read_text(encoding="utf-8")).body:
         if isinstance(node, ast.ImportFrom) and node.level and name in {each.name for each in node.names}:
+            if node.module is None:  # a module of the package, offered as such
+                return "automodule", dotted(file)
             folder = file.parents[node.level - 1].joinpath(*(node.module or "").split("."))
             return origin(folder / "__init__.py" if folder.is_dir() else folder.with_suffix(".py"), name)
         if isinstance(node, (ast.ClassDef, ast.FunctionDef)) and node.name == name:

@@ -2,19 +2,9 @@
 
 from __future__ import annotations
 
-from . import build, build_larger, export, learning, panels, properties
+from .registration import register, unregister
 
-_PARTS = (properties, build, build_larger, export, learning, panels)
-"""In the order in which they need each other."""
-
-
-def register() -> None:
-    """Register everything with Blender."""
-    for part in _PARTS:
-        part.register()
-
-
-def unregister() -> None:
-    """Undo :func:`register`; a running job is stopped."""
-    for part in reversed(_PARTS):
-        part.unregister()
+__all__ = [
+    "register",
+    "unregister",
+]

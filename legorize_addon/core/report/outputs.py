@@ -7,7 +7,17 @@ from typing import Any
 
 from ..build import Build
 from ..errors import enough_memory
-from ..files import PartsList, build_order_csv, ldraw, shopping, write_mpd
+from ..files import (
+    PartsList,
+    bricklink_xml,
+    build_order_csv,
+    count_parts,
+    parts_csv,
+    pick_a_brick_csv,
+    rebrickable_csv,
+    write_ldr,
+    write_mpd,
+)
 from ..model import Catalogue
 from .paper_tables import paper_tables
 
@@ -19,9 +29,9 @@ def texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str)
     Lists of supports are there only if there are supports to buy, and a list
     that a shop reads only if it has something in it.
     """
-    parts, supports = (shopping.count_parts(bricks, catalogue) for bricks in (build.bricks, build.supports.removed))
+    parts, supports = (count_parts(bricks, catalogue) for bricks in (build.bricks, build.supports.removed))
     return {
-        "model.ldr": ldraw.write_ldr(build.bricks, catalogue, name="model.ldr", title=title),
+        "model.ldr": write_ldr(build.bricks, catalogue, name="model.ldr", title=title),
         "model.mpd": write_mpd(build.supports.bricks, catalogue, name="model.ldr", title=title),
         "build_order.csv": build_order_csv(build.supports.moves, build.supports.bricks, catalogue),
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
@@ -35,11 +45,11 @@ def _lists(prefix: str, parts: PartsList, catalogue: Catalogue) -> dict[str, str
     """Return the lists of what to buy, for people and for the shops."""
     if not len(parts):
         return {}
-    elements, left_out = shopping.pick_a_brick_csv(parts, catalogue)
+    elements, left_out = pick_a_brick_csv(parts, catalogue)
     lists = {
-        "parts.csv": shopping.parts_csv(parts, catalogue),
-        "bricklink.xml": shopping.bricklink_xml(parts, catalogue),
-        "rebrickable.csv": shopping.rebrickable_csv(parts, catalogue),
+        "parts.csv": parts_csv(parts, catalogue),
+        "bricklink.xml": bricklink_xml(parts, catalogue),
+        "rebrickable.csv": rebrickable_csv(parts, catalogue),
         **({"pick-a-brick.csv": elements} if len(left_out) < len(parts) else {}),
     }
     return {f"{prefix}{name}": text for name, text in lists.items()}

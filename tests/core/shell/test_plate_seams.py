@@ -29,16 +29,6 @@ def wall_with_a_shelf(wall=RED, shelf=RED) -> UnitGrid:
     return grid_of(colour)
 
 
-def test_bricks_are_whole_columns_of_one_colour():
-    """Three solid plates of one colour, or any, are a brick; mixed, gappy and plate columns are not."""
-    colour = np.array([[RED, RED, RED], [RED, COLOUR_ANY, RED], [RED, RED, BLUE], [RED, COLOUR_EMPTY, RED], [RED] * 3])
-    grid = grid_of(colour.T[None, :, None])
-    grid.role[0, :, 0, 4] = Role.PLATE
-    brick, found = brick_columns(grid)
-    np.testing.assert_array_equal(brick[0, 0], [True, True, False, False, False])
-    assert found[0, 0, 0] == found[0, 0, 1] == RED
-
-
 def test_shelf_is_held_by_plates_in_the_wall():
     """Where a shelf of plates leaves a wall of bricks the wall becomes plates, one stud deep, in that layer only."""
     grid = with_joints(wall_with_a_shelf())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from . import exact, greedy, linear
 from .covering_lp import WHOLE, prices
 from .exchange import exchange, fewer_small, gains
 from .greedy import cover
@@ -10,9 +11,12 @@ from .pricing import guessed_prices
 __all__ = [
     "WHOLE",
     "cover",
+    "exact",
     "exchange",
     "fewer_small",
     "gains",
+    "greedy",
     "guessed_prices",
+    "linear",
     "prices",
 ]

@@ -1,0 +1,19 @@
+"""Everything of the user interface registered with Blender, in the order in which it is needed."""
+
+from __future__ import annotations
+
+from . import build, build_larger, export, learning, panels, properties
+
+_PARTS = (properties, build, build_larger, export, learning, panels)
+
+
+def register() -> None:
+    """Register everything with Blender."""
+    for part in _PARTS:
+        part.register()
+
+
+def unregister() -> None:
+    """Undo :func:`register`; a running job is stopped."""
+    for part in reversed(_PARTS):
+        part.unregister()
