@@ -132,7 +132,8 @@ def package_page(name: str) -> str:
     body = [f".. automodule:: legorize_addon.core.{name}", "   :no-members:", ""]
     for offered in offered_names(package):
         kind, module = origin(package / "__init__.py", offered)
-        body += [f".. {kind}:: {module}.{offered}", *(["   :members:"] if kind in ("autoclass", "automodule") else []), ""]
+        inside = ["   :members:"] if kind in ("autoclass", "automodule") else []
+        body += [f".. {kind}:: {module}.{offered}", *inside, ""]
     return page(name, body)
 
 
