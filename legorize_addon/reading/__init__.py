@@ -2,8 +2,16 @@
 
 from __future__ import annotations
 
-from .objects import read_objects
+from typing import TYPE_CHECKING
+
+from ..core.on_demand import on_demand
 from .shown import has_surface
+
+if TYPE_CHECKING:
+    from .objects import read_objects
+else:
+    # the panel only asks what has a surface
+    __getattr__ = on_demand(__name__, objects=("read_objects",))
 
 __all__ = [
     "has_surface",

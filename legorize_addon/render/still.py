@@ -19,7 +19,6 @@ from mathutils import Euler, Vector
 
 from ..core.arrays import Floats
 from ..core.errors import BuildError
-from ..core.files import replacing
 from ..core.units import PLATE
 from ..scene import builds, damage, hidden_side, state_of
 from ..view import corners_while_building, shown_corners
@@ -98,6 +97,8 @@ def render_still(
     BuildError
         Nothing is to be seen, Cycles is switched off, or the file cannot be written there.
     """
+    from ..core.files import replacing
+
     with replacing(path, "picture") as partial, _studio(scene) as studio:
         corners = _corners(studio, corners_while_building if whole_building else shown_corners)
         azimuth, elevation = _place(studio, view)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from ..core.model import Bricks, Verdict, load_catalogue
-from ..core.report import brick_name, layer_of
 
 if TYPE_CHECKING:
     from ..core.statics import Stability
@@ -35,6 +34,8 @@ def check_of(stability: Stability, bricks: Bricks) -> dict[str, Any]:
         ``name``, its colour and part, ``layer``, counted from 1, and ``left``,
         its margin.
     """
+    from ..core.report import brick_name, layer_of
+
     standing = np.setdiff1d(np.arange(len(bricks)), stability.unsupported)
     weakest = int(standing[stability.margin[standing].argmin()])
     left = float(stability.margin[weakest])
@@ -86,6 +87,8 @@ def _sentence(stability: Stability, bricks: Bricks, left: float) -> str:
 def _how(stability: Stability, bricks: Bricks) -> str:
     if not len(stability.torn):
         return "it tips over"
+    from ..core.report import brick_name, layer_of
+
     first = int(stability.torn[0].max())
     return f"first at the {brick_name(bricks, first, load_catalogue())} in layer {layer_of(bricks, first)}"
 

@@ -10,7 +10,6 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..core.errors import BuildError
-from ..core.files import named, write_ldr, write_mpd, write_whole
 from ..core.model import Role, load_catalogue
 from ..render import AZIMUTH, render_still
 from ..scene import read_bricks
@@ -38,6 +37,8 @@ class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
         return self.reported(self._write, current_build(context.scene))
 
     def _write(self, build: bpy.types.Collection) -> set[str]:
+        from ..core.files import write_ldr, write_whole
+
         path, bricks = chosen_path(self), read_bricks(build)
         finished = bricks.take(bricks.role != Role.SUPPORT_OUTSIDE)
         write_whole(path, write_ldr(finished, load_catalogue(), name=path.name, title=build.name))
@@ -63,6 +64,8 @@ class LEGORIZE_OT_export_mpd(OnBuild, bpy.types.Operator, ExportHelper):
         return self.reported(self._write, current_build(context.scene))
 
     def _write(self, build: bpy.types.Collection) -> set[str]:
+        from ..core.files import write_mpd, write_whole
+
         path = chosen_path(self)
         name = path.with_suffix(".ldr").name
         write_whole(path, write_mpd(read_bricks(build), load_catalogue(), name=name, title=build.name))
@@ -114,6 +117,8 @@ def chosen_path(operator: bpy.types.Operator) -> Path:
     BuildError
         It is none.
     """
+    from ..core.files import named
+
     return named(bpy.path.abspath(operator.filepath), "file", BuildError)
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Final
 import bpy
 import numpy as np
 
-from ..core.files import write_whole
 from ..core.model import Bricks, UnitGrid, load_catalogue
 from ..core.progress import Progress, part
 from ..core.settings import Settings
@@ -108,6 +107,7 @@ class LEGORIZE_OT_learn(Working, bpy.types.Operator):
         return Lessons(tuple(_lessons(context, settings)), text, version, settings.seed)
 
     def _show(self, context: bpy.types.Context, order: Lessons, text: str) -> set[str]:
+        from ..core.files import write_whole
         from ..core.layout.learning import read
 
         path, name = new_file(order.version)

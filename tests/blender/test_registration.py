@@ -17,7 +17,6 @@ import legorize_addon
 legorize_addon.register()
 view = bpy.context.scene.legorize
 looked_at = [view.top_layer, view.heat_map, view.step, bpy.ops.legorize.build.poll()]
-from legorize_addon import check, panels
 print("LOADED", *sorted({name.split(".")[0] for name in sys.modules}))
 sys.stdout.flush()
 os._exit(0)

@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
-from .check import Walk, walk
-from .contacts import Links, links
+from typing import TYPE_CHECKING
+
+from ..on_demand import on_demand
 from .moves import Action, Moves
-from .order import ordered
-from .proof import Proof, prove_steps
-from .towers import STEADY, Tipping, no_prop, tipping
+
+if TYPE_CHECKING:
+    from .check import Walk, walk
+    from .contacts import Links, links
+    from .order import ordered
+    from .proof import Proof, prove_steps
+    from .towers import STEADY, Tipping, no_prop, tipping
+else:
+    # a scene needs the moves alone, long before anything is ordered
+    __getattr__ = on_demand(
+        __name__,
+        check=("Walk", "walk"),
+        contacts=("Links", "links"),
+        order=("ordered",),
+        proof=("Proof", "prove_steps"),
+        towers=("STEADY", "Tipping", "no_prop", "tipping"),
+    )
 
 __all__ = [
     "STEADY",

@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+from ..on_demand import on_demand
 from .brick_columns import Touching, agree, brick_columns, every_plate
 from .bricks import NOBODY, SUPPORTS, Bricks, Role, joined
 from .catalogue import ASSETS, MISSING_CELL, Catalogue, Colour, Part, footprint, load_catalogue
-from .contact_graph import Connection, Rows, components, connect, middles, stacked, stud_columns
 from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid, ground_of
 from .verdict import UNSUPPORTED, Verdict
+
+if TYPE_CHECKING:
+    from .contact_graph import Connection, Rows, components, connect, middles, stacked, stud_columns
+else:
+    # the graphs of scipy
+    __getattr__ = on_demand(
+        __name__,
+        contact_graph=("Connection", "Rows", "components", "connect", "middles", "stacked", "stud_columns"),
+    )
 
 __all__ = [
     "ASSETS",

@@ -1,0 +1,49 @@
+"""Names that a package offers but whose modules are imported only when somebody asks for them.
+
+A package's ``__init__`` runs for its lightest name too. Where some of its
+modules take long to load, as those with scipy, their names wait::
+
+    from .moves import Action, Moves
+
+    if TYPE_CHECKING:
+        from .order import ordered
+    else:
+        __getattr__ = on_demand(__name__, order=("ordered",))
+
+Importing a name looks as ever, ``from ..building import ordered``, and checkers
+of types see it. A name that is also that of a module in the package cannot
+wait, since Python itself puts a module under its name into the package.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+
+def on_demand(package: str, **modules: tuple[str, ...]) -> Callable[[str], Any]:
+    """Return a package's ``__getattr__`` that imports what is offered when it is asked for.
+
+    Parameters
+    ----------
+    package
+        The package's ``__name__``.
+    **modules
+        The names that each of its modules offers through it.
+
+    Returns
+    -------
+    Callable
+        A function as PEP 562 describes it. A name that it has found stands in the package from then on.
+    """
+    homes = {name: module for module, names in modules.items() for name in names}
+
+    def found(name: str) -> Any:
+        if name not in homes:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}")
+        value = getattr(import_module(f"{package}.{homes[name]}"), name)
+        setattr(import_module(package), name, value)
+        return value
+
+    return found
