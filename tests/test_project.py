@@ -232,3 +232,10 @@ def test_readme_commands_exist() -> None:
     known = (ROOT / "scripts" / "run.py").read_text(encoding="utf-8")
     assert {"sample", "test"} <= shown
     assert all(f'"{command}"' in known for command in shown)
+
+
+def test_the_core_loads_no_package_that_most_models_do_without() -> None:
+    """Plain colours and the usual layout need no scikit-learn, which loads longer than a small model is built."""
+    code = "import sys, legorize_addon.core.pipeline, legorize_addon.core.report; sys.exit('sklearn' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False)
+    assert done.returncode == 0

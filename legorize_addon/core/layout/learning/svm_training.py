@@ -14,7 +14,6 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.metrics import confusion_matrix, f1_score
 
 from ...arrays import Mask
 from ...errors import BuildError
@@ -181,6 +180,9 @@ def train(
     BuildError
         There are fewer models than folds.
     """
+    # it loads longer than a small model is built, which needs none of it
+    from sklearn.metrics import confusion_matrix, f1_score
+
     fold = folds(samples.model, rng)
     answers = {(c, gamma): _answers(samples, fold, c, gamma) for c in costs for gamma in gammas}
     grid = {pair: float(np.mean(each == samples.pays)) for pair, each in answers.items()}
