@@ -22,14 +22,14 @@ PLACES = {
     "imports": f"import builtins; real = builtins.__import__\n"
     f"def slow(name, *rest):\n    if name == 'bpy':\n        {IN_PYTHON}\n    return real(name, *rest)\n"
     f"builtins.__import__ = slow",
-    "core": f"from legorize_addon.core import ldraw\ndef wait(*arguments, **more):\n    {IN_PYTHON}\n"
-    f"ldraw.write_ldr = wait",
+    "core": f"from legorize_addon.core.report import outputs\ndef wait(*arguments, **more):\n    {IN_PYTHON}\n"
+    f"outputs.write_ldr = wait",
     "importer": f"import io_scene_gltf2\nfrom io_scene_gltf2.io.imp import gltf2_io_gltf\n"
     f"def read(self):\n    {IN_PYTHON}\ngltf2_io_gltf.glTFImporter.read = read",
-    "swallowed": "from legorize_addon.core import ldraw\ndef wait(*arguments, **more):\n"
+    "swallowed": "from legorize_addon.core.report import outputs\ndef wait(*arguments, **more):\n"
     "    open(HERE, 'w').close()\n    while True:\n"
     "        try:\n            import time; time.sleep(100)\n        except KeyboardInterrupt:\n            pass\n"
-    "ldraw.write_ldr = wait",
+    "outputs.write_ldr = wait",
 }
 
 
