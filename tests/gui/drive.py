@@ -21,7 +21,7 @@ SAMPLE, FOLDER = sys.argv[sys.argv.index("--") + 1 :]
 TAB = "Legorize"
 BUTTON = "LEGORIZE_OT_build"
 BUTTON_HEIGHT = 40  # pixels, with the gap below it
-LIMIT = 600.0  # seconds that any one wait may take
+LIMIT = 300.0  # seconds that any one wait may take
 
 Wait = Iterator[float]  # seconds in which Blender goes on by itself
 

@@ -60,7 +60,7 @@ def run_inside(tree: Path, inside: str, *command: str) -> None:
     """Run a command inside the tree with a Blender that knows nothing of any user; its pictures are kept."""
     own = [f"HOME={inside}", f"BLENDER_USER_RESOURCES={inside}/user", "LANG=C.UTF-8", "LIBGL_ALWAYS_SOFTWARE=1"]
     path = "PATH=/usr/sbin:/usr/bin:/sbin:/bin"
-    line = ["chroot", str(tree), "env", "-i", path, *own, "timeout", "-s", "KILL", "400", *command]
+    line = ["chroot", str(tree), "env", "-i", path, *own, "timeout", "-s", "KILL", "900", *command]
     done = subprocess.run(line, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     PICTURES.mkdir(parents=True, exist_ok=True)
     for picture in (tree / inside.lstrip("/")).glob("*.png"):
