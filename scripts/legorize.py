@@ -305,6 +305,9 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         stop.too_late()
     for name in left:
         print(f"{out / name} was changed after an earlier run wrote it: it stays.", file=sys.stderr)
+    # what was lost of the file is told here too: few open the report of a run that went well
+    for sentence in facts["notes"]:
+        print(sentence)
     print(f"{out}: {facts['counts']['bricks']} bricks in {facts['grid']['layers']} layers.")
     for sentence in facts["failed_checks"]:
         print(sentence, file=sys.stderr)

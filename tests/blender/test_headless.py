@@ -251,8 +251,8 @@ def test_section_in_the_picture(axis: str, script: ModuleType, tmp_path: Path, m
     assert low.max() <= (along.min() + along.max() + 3) / 2
 
 
-def test_frame_and_objects_are_flags(script: ModuleType, tmp_path: Path) -> None:
-    """A frame gives the pose, names the objects; what animation was left out stands in the report."""
+def test_frame_and_objects_are_flags(script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A frame gives the pose, names the objects; the report and the output tell what animation was left out."""
     box, lid = add_box((1, 1, 1)), add_box((1, 1, 1), centre=(0, 0, 1))
     box.name, lid.name = "box", "lid"
     for frame, x in ((1, 0), (25, 1)):
@@ -263,8 +263,11 @@ def test_frame_and_objects_are_flags(script: ModuleType, tmp_path: Path) -> None
     runs = {"rest": [], "pose": ["--frame", "25"], "lid": ["--object", "lid"], "both": ["--object=box", "--object=lid"]}
     found = {}
     for name, flags in runs.items():
+        capsys.readouterr()
         assert script.main([str(source), "--out", str(tmp_path / name), "--scale", "0.32", *flags]) in (0, 2)
         facts = report(tmp_path / name)
+        told = [line for line in capsys.readouterr().out.splitlines() if not re.match(r" *\d+% [a-z]", line)]
+        assert told[:-1] == facts["notes"]
         found[name] = tuple(facts["grid"].values()), [note for note in facts["notes"] if "--frame" in note]
     remark = "The animation in box.glb was left out: --frame takes the pose of a frame."
     width = {name: grid[0] for name, (grid, _) in found.items()}
