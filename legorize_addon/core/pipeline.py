@@ -18,7 +18,7 @@ from .errors import enough_memory
 from .estimate import AGAIN, check_limits, estimate
 from .layout import FILLER, lay, with_seen_coloured
 from .layout.joining import strapped
-from .layout.learning import learned_table
+from .layout.learning import learned_table, samples_text
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scaled, turned_upright
 from .model import Bricks, Catalogue, Connection, UnitGrid, connect, load_catalogue
 from .progress import Overall, Progress, part, silent
@@ -314,8 +314,13 @@ def _supported(
 
 def _table(settings: Settings) -> Mask | None:
     """Return the exchanges that were learned from the user's own samples, if they are asked for."""
-    asked = settings.layout == "fast" and settings.learned and settings.learned_from
-    return learned_table(settings.learned_from) if asked else None
+    if not settings.learned_from:
+        return None
+    if settings.layout == "fast" and settings.learned:
+        return learned_table(settings.learned_from)
+    # a wrong file is told of now, not when another layout is chosen
+    samples_text(settings.learned_from)
+    return None
 
 
 def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:

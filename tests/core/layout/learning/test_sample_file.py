@@ -179,10 +179,11 @@ def test_a_fitting_without_an_end_is_told(path: Path, monkeypatch: pytest.Monkey
         learned_table(str(path))
 
 
-def test_a_wrong_file_is_refused_before_the_work(path: Path):
-    """The file is read before the mesh is."""
+@pytest.mark.parametrize(("layout", "learned"), [("fast", True), ("fast", False), ("standard", True), ("exact", True)])
+def test_a_wrong_file_is_refused_before_the_work(layout: str, learned: bool, path: Path):
+    """The file is read before the mesh is, also where its samples are not asked for."""
     path.write_text("nothing", encoding="utf-8")
-    begun = []
+    chosen, begun = Settings(layout=layout, learned=learned, learned_from=str(path)), []
     with pytest.raises(SettingsError, match="learned_from"):
-        legorize(box(), Settings(layout="fast", learned_from=str(path)), lambda stage, _: begun.append(stage))
+        legorize(box(), chosen, lambda stage, _: begun.append(stage))
     assert not begun
