@@ -197,5 +197,5 @@ def _mirrored(among: Shapes, axis: int) -> Index:
     for cells, extent in zip(among.cells, among.extent, strict=True):
         image = cells.copy()
         image[:, axis] = extent[axis] - 1 - cells[:, axis]
-        images.append(rows[int(pattern_bits(*image.T).sum(dtype=np.uint64))])
+        images.append(rows[int(pattern_bits(*image.T, among.side).sum())])
     return np.array(images)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from legorize_addon.core.layout.problem.placements import placements
@@ -16,6 +18,19 @@ from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover,
 CATALOGUE = load_catalogue()
 
 RED, WHITE = 4, 15
+
+
+def with_part(catalogue, length, width, height=3):
+    """Return a catalogue with a further part, made in all colours."""
+    part = replace(
+        catalogue.parts[0], number=f"made-{length}x{width}", length=length, width=width, height=height, corner=False
+    )
+    return replace(
+        catalogue,
+        parts=(*catalogue.parts, part),
+        exists=np.vstack([catalogue.exists, np.ones((1, len(catalogue.colours)), bool)]),
+        element=np.vstack([catalogue.element, np.zeros((1, len(catalogue.colours)), np.int64)]),
+    )
 
 
 def grid_of(colour, cover=None, role=None):

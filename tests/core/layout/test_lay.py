@@ -15,7 +15,7 @@ from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import Catalogue
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
 from legorize_addon.core.shell.hollowing import hollow
-from tests.core.layout.cells import CATALOGUE, assert_covers, brick_grid, grid_of
+from tests.core.layout.cells import CATALOGUE, assert_covers, brick_grid, grid_of, with_part
 
 RED, WHITE, BLUE, SAND_GREEN = 4, 15, 1, 378
 TIERS = get_args(Tier)
@@ -51,6 +51,17 @@ def test_what_every_layout_keeps(seed, plates, tier):
     assert (bricks.step == bricks.corner[:, 2] // 3).all()
     assert (np.diff(bricks.corner[:, 2]) >= 0).all()
     assert (bricks.piece == 0).all()
+
+
+@pytest.mark.parametrize("tier", TIERS)
+def test_parts_longer_than_those_that_are_shipped_are_laid(tier):
+    """A catalogue with bricks of 1 x 16 and plates of 9 x 1 more lays rows of them, and all else as ever."""
+    catalogue = with_part(with_part(CATALOGUE, 16, 1), 9, 1, height=1)
+    row = brick_grid(np.full((2, 1, 16), RED))
+    bricks = lay(row, catalogue, rng=np.random.default_rng(0), tier=tier)
+    assert {catalogue.parts[part].length for part in bricks.part} == {16}
+    grid = random_grid(1, plates=True)
+    assert_covers(lay(grid, catalogue, rng=np.random.default_rng(0), tier=tier), grid, catalogue)
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(0, 5), st.sampled_from(TIERS))

@@ -22,8 +22,11 @@ Index = NDArray[np.intp]
 Whole = NDArray[np.integer[Any]]
 """Whole numbers of whatever type."""
 
-_PATTERN_SIDE: Final = 8
-"""Studs along the longest part."""
+Patterns = NDArray[Any]
+"""Sets of cells as bits of whole numbers: uint64, or Python's where 64 bits are too few."""
+
+_BITS: Final = 64
+"""Cells that have a bit each in a uint64."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,7 +48,9 @@ class Shapes:
     inner : (2, n_cells_of_all_shapes) bool array
         For each of ``cells``, shape after shape: whether the next cell along x
         (row 0) and along y (row 1) belongs to the same shape.
-    pattern : (n_shapes,) uint64 array
+    side : int
+        Studs along the longest shape.
+    pattern : (n_shapes,) uint64 or object array
         Cells of each shape as bits (see :func:`pattern_bits`).
     within : (n_most, 3, n_shapes) intp array
         The largest other shapes inside each shape: row, and where the corner
@@ -68,7 +73,8 @@ class Shapes:
     size: Index
     extent: Index
     inner: Mask
-    pattern: NDArray[np.uint64]
+    side: int
+    pattern: Patterns
     within: Index
     pieces: tuple[Index, ...]
     codes: Plane
@@ -122,8 +128,9 @@ def _forms(catalogue: Catalogue, height: int) -> Shapes:
     ]
     cells = tuple(footprint(catalogue.parts[row], turn) for row, turn in oriented)
     extent = np.array([covered.max(axis=0) + 1 for covered in cells], dtype=np.intp)
-    pattern = np.array([pattern_bits(*covered.T).sum(dtype=np.uint64) for covered in cells])
-    within = _parts_within(extent, pattern)
+    side = int(extent.max())
+    pattern = np.array([pattern_bits(covered[:, 0], covered[:, 1], side).sum() for covered in cells])
+    within = _parts_within(extent, pattern, side)
     return Shapes(
         part=np.array([row for row, _ in oriented], dtype=np.int16),
         turn=np.array([turn for _, turn in oriented], dtype=np.uint8),
@@ -131,9 +138,10 @@ def _forms(catalogue: Catalogue, height: int) -> Shapes:
         size=np.array([len(covered) for covered in cells], dtype=np.intp),
         extent=extent,
         inner=np.concatenate([_inner_edges(covered) for covered in cells], axis=1),
+        side=side,
         pattern=pattern,
         within=within,
-        pieces=tuple(_pieces(within[:, :, row], pattern, whole) for row, whole in enumerate(pattern)),
+        pieces=tuple(_pieces(within[:, :, row], pattern, whole, side) for row, whole in enumerate(pattern)),
         codes=np.zeros(0, dtype=np.int16),
         made=np.zeros((len(cells), 1), dtype=bool),
         hidden=np.zeros(len(cells), dtype=np.int16),
@@ -148,28 +156,33 @@ def _inner_edges(covered: Rows) -> Mask:
     return np.stack([filled[x + 1, y], filled[x, y + 1]])
 
 
-def pattern_bits(x: Whole, y: Whole) -> NDArray[np.uint64]:
-    """Give every cell of an 8 x 8 field a bit of its own, so that a set of cells becomes one number.
+def pattern_bits(x: Whole, y: Whole, side: int) -> Patterns:
+    """Give every cell of a square field a bit of its own, so that a set of cells becomes one number.
 
     Parameters
     ----------
     x, y : integer arrays
-        Cells, counted from the corner of the set's bounding box, below 8.
+        Cells, counted from the corner of the set's bounding box, below `side`.
+    side : int
+        Cells along each side of the field, as many as the longest part has studs.
 
     Returns
     -------
-    uint64 array
-        One bit each.
+    uint64 or object array
+        One bit each; whole numbers of Python where the field has more than 64 cells.
     """
-    return np.uint64(1) << (x + _PATTERN_SIDE * y).astype(np.uint64)
+    kind = np.uint64 if side * side <= _BITS else np.object_
+    bits: Patterns = np.left_shift(np.ones(1, dtype=kind), (x + side * y).astype(kind))
+    return bits
 
 
-def _parts_within(extent: Index, pattern: NDArray[np.uint64]) -> Index:
+def _parts_within(extent: Index, pattern: Patterns, side: int) -> Index:
     """List the largest other shapes inside each shape (see ``Shapes.within``)."""
-    shape, x, y = (each.ravel() for each in np.indices((len(extent), _PATTERN_SIDE, _PATTERN_SIDE)))
-    fits = (extent[shape] + np.stack([x, y], axis=1) <= _PATTERN_SIDE).all(axis=1)
+    shape, x, y = (each.ravel() for each in np.indices((len(extent), side, side)))
+    fits = (extent[shape] + np.stack([x, y], axis=1) <= side).all(axis=1)
     shape, x, y = shape[fits], x[fits], y[fits]
-    moved = pattern[shape] << (x + _PATTERN_SIDE * y).astype(np.uint64)
+    # a set of cells moves with its first cell
+    moved = pattern[shape] * pattern_bits(x, y, side)
     largest = [_largest(moved, outer) for outer in pattern]
     table = np.full((max(map(len, largest)), 3, len(largest)), -1, dtype=np.intp)
     for row, each in enumerate(largest):
@@ -177,7 +190,7 @@ def _parts_within(extent: Index, pattern: NDArray[np.uint64]) -> Index:
     return table
 
 
-def _largest(patterns: NDArray[np.uint64], outer: np.uint64) -> Index:
+def _largest(patterns: Patterns, outer: Any) -> Index:
     """Return the patterns truly inside another one and inside no other such."""
     within = np.flatnonzero(((patterns & ~outer) == 0) & (patterns != outer))
     inner = patterns[within]
@@ -186,11 +199,11 @@ def _largest(patterns: NDArray[np.uint64], outer: np.uint64) -> Index:
     return largest
 
 
-def _pieces(inner: Index, pattern: NDArray[np.uint64], whole: np.uint64) -> Index:
+def _pieces(inner: Index, pattern: Patterns, whole: Any, side: int) -> Index:
     """Return rows of `inner` that cover a shape together, none if all of them do not."""
-    taken, covered = [], np.uint64(0)
+    taken, covered = [], whole ^ whole
     for row, x, y in inner[inner[:, 0] >= 0]:
-        moved = pattern[row] << np.uint64(x + _PATTERN_SIDE * y)
+        moved = pattern[row] * pattern_bits(x, y, side)[0]
         if moved & ~covered:
             taken.append((row, x, y))
             covered |= moved

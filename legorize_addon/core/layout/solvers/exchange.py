@@ -231,8 +231,9 @@ def _fitting(problem: Problem, cell: Index, group: Index, n_groups: int) -> Inde
     for axis in range(3):
         np.minimum.at(corner[:, axis], group, at[:, axis])
     x, y, _ = (at - corner[group]).T
-    pattern = np.zeros(n_groups, dtype=np.uint64)
-    np.add.at(pattern, group, pattern_bits(x, y))
+    bits = pattern_bits(x, y, problem.shapes.side)
+    pattern = np.zeros(n_groups, dtype=bits.dtype)
+    np.add.at(pattern, group, bits)
     known = problem.shapes.pattern
     order = np.argsort(known)
     shape = order[np.minimum(np.searchsorted(known, pattern, sorter=order), len(known) - 1)]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.layout.problem.shapes import pattern_bits, shapes
-from tests.core.layout.cells import CATALOGUE
+from tests.core.layout.cells import CATALOGUE, with_part
 
 FILLER = 71
 RED = 4
@@ -36,10 +36,23 @@ def test_rows_of_finds_part_and_turn():
     np.testing.assert_array_equal(among.rows_of(among.part, among.turn), np.arange(24))
 
 
-def test_pattern_bits_are_different():
-    """The 64 cells of the field have 64 different bits."""
-    y, x = np.divmod(np.arange(64), 8)
-    assert len(np.unique(pattern_bits(x, y))) == 64
+@pytest.mark.parametrize("side", [1, 3, 8, 9, 16])
+def test_pattern_bits_are_different(side):
+    """All cells of the field have different bits, also where they are more than 64."""
+    y, x = np.divmod(np.arange(side**2), side)
+    bits = pattern_bits(x, y, side)
+    assert sorted(bits.tolist()) == [1 << n for n in range(side**2)]
+
+
+@pytest.mark.parametrize(("length", "width"), [(9, 1), (16, 2), (9, 9)])
+def test_parts_may_be_longer_than_those_that_are_shipped(length, width):
+    """A longer part in the catalogue becomes a shape whose largest smaller parts cover it."""
+    among = shapes(with_part(CATALOGUE, length, width), 3, np.array([RED], np.int16), FILLER)
+    assert among.side == length
+    assert len(np.unique(among.pattern)) == len(among.size)
+    for row in np.flatnonzero(among.size == length * width):
+        squares = {(x, y) for part, *corner in among.pieces[row] for x, y in (among.cells[part] + corner).tolist()}
+        assert squares == {tuple(square) for square in among.cells[row].tolist()}
 
 
 def test_hidden_parts_take_the_filler_or_what_there_is():
