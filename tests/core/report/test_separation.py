@@ -35,6 +35,14 @@ def test_the_nearest_meeting_is_named(row, words: str):
     assert words in sentence(BASE, ("3003", 0, 0, 3), row) or words in sentence(BASE, row)
 
 
+def test_plates_in_a_sheet_are_told_of_by_themselves():
+    """Single plates side by side, with nothing below or above, need another cure than what stands beside a body."""
+    sheet = [("3022", 2 * x, 0, 0) for x in range(3)]
+    assert "they touch others side by side in a layer one plate thick" in sentence(*sheet)
+    assert "one plate thick" not in sentence(*sheet[:2], ("3022", 2, 0, 1))
+    assert "one plate thick" not in sentence(BASE, BESIDE)
+
+
 def test_several_are_counted_by_how_they_meet():
     """Each component but the largest is counted once, by the nearest that it comes to another one."""
     told = sentence(BASE, ("3003", 0, 0, 3), BESIDE, ALONE, AWAY)

@@ -99,6 +99,9 @@ def contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) -> Co
     reaches = list(_reaches(owner)) if plates else [_Reach(owner, np.zeros(owner.shape), 0)]
     recoloured: Floats = RECOLOURED + _OPEN_FACE * _open_faces(owner).astype(np.float64)
     stacked = _stacked(owner)
+    if len(np.unique(colour[(owner != NOBODY) & (colour >= 0) & ~stacked[owner]])) <= 1:
+        # a sheet of one colour is no picture
+        stacked[:NOBODY] = True
     found = [
         _across(axis, one, other, component, stacked, colour, recoloured)
         for axis in (1, 2)

@@ -23,9 +23,6 @@ from ..problem import Plane, Rows, owners, with_margins
 from .contacts import RECOLOURED, Contacts, contacts
 from .cutting import Bench, Laid, Seam, Square
 
-_ROUNDS: Final = 4
-"""Most rounds: in each, joints are looked for between what the rounds before have joined."""
-
 _TRIED: Final = 16
 """Most straps tried at one place."""
 
@@ -68,15 +65,14 @@ def strapped(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, *, plates: bo
     """
     links = connect(bricks, catalogue)
     colour = with_margins(grid.colour, COLOUR_EMPTY)
-    for _ in range(_ROUNDS):
-        if links.n_components <= 1:
-            break
-        bench = Bench(bricks, owners(links, colour.shape), catalogue)
-        if not _joined(bench, links.component, colour, plates=plates):
-            break
-        bricks = bench.bricks()
-        links = connect(bricks, catalogue)
-        grid = _as_laid(grid, bricks, links)
+    before = links.n_components + 1
+    # each round looks for joints between what the rounds before have joined: a row after row, if need be
+    while 1 < links.n_components < before:
+        bench, before = Bench(bricks, owners(links, colour.shape), catalogue), links.n_components
+        if _joined(bench, links.component, colour, plates=plates):
+            bricks = bench.bricks()
+            links = connect(bricks, catalogue)
+            grid = _as_laid(grid, bricks, links)
     return bricks, grid
 
 

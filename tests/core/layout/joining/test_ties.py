@@ -154,6 +154,29 @@ def test_single_plates_beside_a_foot_are_joined_on_top():
     assert np.argwhere(added)[:, :2].tolist() == [[1, 2]]
 
 
+def test_row_after_row_is_joined():
+    """A sheet of many stripes beside a foot is joined stripe by stripe, however many there are."""
+    cells = np.full((2, 3, 15, 8), COLOUR_EMPTY)
+    cells[0, 0] = np.resize([RED, BLUE, WHITE], 15)[:, None]
+    cells[:, :, :2] = RED
+    grid = grid_of(cells)
+    before, after, bricks = both(grid)
+    assert before.n_components > 10
+    assert after.n_components == 1
+    assert_covers(bricks, strapped(laid(grid), grid, CATALOGUE, plates=True)[1])
+
+
+def test_sheet_of_one_colour_is_joined_on_top():
+    """A sheet a plate thick, larger than any plate, is no picture: plates on it make it one piece."""
+    cells = np.full((1, 3, 9, 20), COLOUR_EMPTY)
+    cells[0, 0] = RED
+    grid = grid_of(cells)
+    before, after, bricks = both(grid)
+    assert before.n_components > 5
+    assert after.n_components == 1
+    assert (bricks.colour == RED).all()
+
+
 def test_flat_picture_stays_as_it_is():
     """A picture of single plates on the ground is not covered by plates and loses no pixel: it stays in pieces."""
     cells = np.full((1, 3, 2, 6), COLOUR_EMPTY)
