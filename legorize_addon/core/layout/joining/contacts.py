@@ -52,6 +52,8 @@ class Contacts:
         Axis on which the second cell follows, 1 or 2.
     added : (n,) int64 array
         How many of the two cells are empty.
+    on_top : (n,) int64 array
+        How many of these lie on what a plate there would hold to, not below it.
     price : (n,) float64 array
         Colour and looks that a plate there costs.
     """
@@ -60,6 +62,7 @@ class Contacts:
     place: Ints
     axis: Ints
     added: Ints
+    on_top: Ints
     price: Floats
 
     def take(self, rows: Index) -> Contacts:
@@ -162,17 +165,23 @@ def _across(
         place=place,
         axis=np.full(len(place), axis),
         added=np.full(len(place), one.added + other.added),
+        on_top=np.full(len(place), int(one.on_top) + int(other.on_top)),
         price=one.price[low][near] + other.price[high][near] + np.where(differ, change, 0.0),
     )
 
 
 def _seams(found: Contacts, n: int) -> Contacts:
-    """Keep the cheapest place of each seam between two of n bricks, in its middle plate if it has one."""
+    """Keep the cheapest place of each seam between two of n bricks, in its middle plate if it has one.
+
+    Below and on top of the same two bricks are different seams: what is cut for them may hold at one alone.
+    """
     pair = np.sort(found.bricks, axis=1) @ [n, 1]
     plane, y, x = found.place.T
     off_middle = np.abs((plane - 1) % PLATES_PER_BRICK - 1)
-    order = np.lexsort((found.axis, x, y, plane, off_middle, found.price, found.added, pair))
-    seam = (pair * 3 + found.added)[order]
+    # two ends are added at most
+    seam = (pair * 3 + found.added) * 3 + found.on_top
+    order = np.lexsort((found.axis, x, y, plane, off_middle, found.price, seam))
+    seam = seam[order]
     start = np.flatnonzero(np.diff(seam, prepend=-1))
     length = np.minimum(np.diff(start, append=len(seam)), _LONGEST)
     kept = found.take(order[start])

@@ -52,7 +52,8 @@ def test_edges_are_joined_by_an_added_cell():
     owner[:3, 0, 0], owner[3:, 0, 1] = 0, 1
     found = found_in(owner)
     assert set(found.added) == {1}
-    np.testing.assert_array_equal(found.place, [[3, 0, 0]])
+    # below the upper one is cheaper than on top of the lower one
+    np.testing.assert_array_equal(found.place, [[3, 0, 0], [4, 0, 0]])
     assert len(found_in(owner, plates=False).price) == 0
 
 

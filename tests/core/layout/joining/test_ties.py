@@ -12,7 +12,7 @@ from legorize_addon.core.layout.joining.cutting import Bench, Seam
 from legorize_addon.core.layout.joining.ties import _strap, strapped
 from legorize_addon.core.layout.lay import lay
 from legorize_addon.core.layout.problem.problem import owners, with_margins
-from legorize_addon.core.model.bricks import NOBODY, Role
+from legorize_addon.core.model.bricks import NOBODY, Bricks, Role
 from legorize_addon.core.model.contact_graph import connect
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
 from tests.core.layout.cells import CATALOGUE, RED, WHITE, assert_covers, grid_of, planes
@@ -39,6 +39,21 @@ def wrong(grid, bricks, links) -> np.ndarray:
     n_z, n_y, n_x = links.owner.shape
     owner[:n_z, :n_y, :n_x] = links.owner
     return (colour >= 0) & (np.append(bricks.colour, np.int16(NOBODY))[owner] != colour)
+
+
+def placed(*rows):
+    """Return bricks, given number, colour and corner of each."""
+    number, colour, *corner = zip(*rows, strict=True)
+    n = len(rows)
+    return Bricks(
+        part=np.array([CATALOGUE.part_row(each) for each in number], np.int16),
+        corner=np.array(corner, np.int32).T,
+        turn=np.zeros(n, np.uint8),
+        colour=np.array(colour, np.int16),
+        role=np.full(n, Role.PLATE, np.uint8),
+        piece=np.zeros(n, np.int16),
+        step=np.zeros(n, np.int32),
+    )
 
 
 def claw(width=1, lowest=2):
@@ -164,6 +179,29 @@ def test_row_after_row_is_joined():
     assert before.n_components > 10
     assert after.n_components == 1
     assert_covers(bricks, strapped(laid(grid), grid, CATALOGUE, plates=True)[1])
+
+
+def test_place_on_top_is_tried_where_the_one_below_does_not_hold():
+    """A plate above a row on the ground can be cut for a strap on that row, though a strap beside it is cheaper."""
+    cells = np.full((1, 3, 2, 3), COLOUR_EMPTY)
+    cells[0, 0] = [[COLOUR_EMPTY, RED, BLUE], [RED, RED, RED]]
+    cells[0, 1, 0] = COLOUR_ANY, COLOUR_ANY, RED
+    cells[0, 2, 0] = RED, BLUE, BLUE
+    grid = grid_of(cells)
+    bricks = placed(
+        ("3024", RED, 1, 0, 0),
+        ("3024", BLUE, 2, 0, 0),
+        ("3623", RED, 0, 1, 0),
+        ("3623", RED, 0, 0, 1),
+        ("3024", RED, 0, 0, 2),
+        ("3023", BLUE, 1, 0, 2),
+    )
+    assert connect(bricks, CATALOGUE).n_components == 2
+    found, joined = strapped(bricks, grid, CATALOGUE, plates=True)
+    links = connect(found, CATALOGUE)
+    assert links.n_components == 1
+    assert not wrong(grid, found, links).any()
+    assert_covers(found, joined)
 
 
 def test_sheet_of_one_colour_is_joined_on_top():
