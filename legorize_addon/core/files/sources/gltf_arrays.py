@@ -24,6 +24,8 @@ _SIZES: Final = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
 _INDEX: Final = {5121: "u1", 5123: "<u2", 5125: "<u4"}
 """Those that may be indices, as numpy calls them."""
 
+_FLOAT: Final = 5126
+
 _COMPONENTS: Final = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
 _CORNERS: Final = ((1, 1), (2, 2), (1, 2), (1, 2), (3, 3), (1, 3), (1, 3))
@@ -58,6 +60,38 @@ def check_arrays(source: Path, document: Json, buffers: Buffers) -> None:
     for place, primitive in _primitives(document):
         if DRACO not in primitive.get("extensions", {}):
             _check_primitive(source, place, primitive, document, buffers)
+
+
+def lost_places(source: Path, document: Json, buffers: Buffers) -> tuple[str, ...]:
+    """Return a remark if vertices have no place: the importer puts them at the origin, which bends the shape."""
+    accessors, views = document.get("accessors", []), document.get("bufferViews", [])
+    numbers = {each.get("attributes", {}).get("POSITION") for _, each in _primitives(document)} - {None}
+    lost = sum(_without_place(accessors[number], views, buffers) for number in numbers)
+    if not lost:
+        return ()
+    which = "1 vertex whose coordinates are" if lost == 1 else f"{lost} vertices whose coordinates are"
+    moved = "it was" if lost == 1 else "they were"
+    return (f"{source.name} has {which} no numbers or infinite: {moved} put at the origin.",)
+
+
+def _without_place(accessor: Json, views: list[Json], buffers: Buffers) -> int:
+    """Return how many points of an array are no numbers or infinite; 0 where they are compressed."""
+    places = accessor["componentType"] == _FLOAT and accessor["type"] == "VEC3"
+    points = _rows(accessor, views, buffers, "<f4", 3) if places else None
+    return 0 if points is None else int((~np.isfinite(points)).any(axis=1).sum())
+
+
+def _rows(accessor: Json, views: list[Json], buffers: Buffers, kind: str, width: int) -> np.ndarray | None:
+    """Return the rows of an array; None where they are compressed, or not all in one place."""
+    if "bufferView" not in accessor or not accessor["count"] or "sparse" in accessor:
+        return None
+    view = views[accessor["bufferView"]]
+    data = buffers[view["buffer"]]
+    if data is None or _is_compressed(view):
+        return None
+    size = np.dtype(kind).itemsize
+    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    return np.ndarray((accessor["count"], width), kind, data, start, (view.get("byteStride") or size * width, size))
 
 
 def _draco(document: Json) -> Iterator[Json]:
@@ -153,12 +187,5 @@ def _check_primitive(source: Path, place: str, primitive: Json, document: Json, 
 def _largest_index(accessor: Json, views: list[Json], buffers: Buffers) -> int:
     """Return the largest of some indices; -1 where they are compressed, or all zero."""
     kind = _INDEX.get(accessor["componentType"])
-    if "bufferView" not in accessor or not accessor["count"] or kind is None or "sparse" in accessor:
-        return -1
-    view = views[accessor["bufferView"]]
-    data = buffers[view["buffer"]]
-    if data is None or _is_compressed(view):
-        return -1
-    stride = view.get("byteStride") or np.dtype(kind).itemsize
-    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-    return int(np.ndarray(accessor["count"], kind, data, start, (stride,)).max())
+    rows = None if kind is None else _rows(accessor, views, buffers, kind, 1)
+    return -1 if rows is None else int(rows.max())
