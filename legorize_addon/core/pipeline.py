@@ -39,7 +39,16 @@ from .slicing import (
 from .statics import Stability, stability
 from .supports import Joint, Supports, segmented, supported, with_falling_propped, with_floating_carried
 from .texturing import remarks_on_unseen, seen_part, with_reduced_images
-from .unit_bricks import Detail, Offsets, facing_of, unit_bricks, with_backing, with_offset_bricks
+from .unit_bricks import (
+    Detail,
+    Offsets,
+    dithering_of,
+    facing_of,
+    remarks_on_dithering,
+    unit_bricks,
+    with_backing,
+    with_offset_bricks,
+)
 from .units import PLATES_PER_BRICK
 
 
@@ -84,7 +93,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     with stage("trajectories"):
         trajectories = link_loops(mesh, cut.slices, surface, chord_deviation=settings.chord_deviation)
     with stage("unit bricks"):
-        grid = _unit_grid(mesh, repairs, trajectories, surface, frame, cut, settings, catalogue, overall)
+        grid = _unit_grid(mesh, repairs, trajectories, surface, frame, cut, settings, palette, catalogue, overall)
     with stage("overhangs"):
         grid, offsets = _overhangs(grid, settings)
     with stage("hollowing"):
@@ -105,6 +114,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
             proof = prove_steps(supports.moves, supports.bricks, catalogue, hold=settings.hold, progress=overall)
     overall.finish()
     made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
+    unseen = (*unseen, *remarks_on_dithering(mesh, settings.dithering))
     notes = (*repairs.sentences(), *unseen, *_notes(found, supports, proof, settings, catalogue))
     return Build(settings, *made, supports, joints, proof, notes, timings)
 
@@ -131,16 +141,10 @@ def _prepared(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, Rep
     mesh, turn = turned_upright(mesh, settings.up)
     least, scale = settings.least_alpha, partial(_scale, settings=settings)
     mesh, repairs, share = seen_part(mesh, repairs, least=least, scale=scale)
-    mesh, factor = _sized(mesh, settings)
+    factor = scale(mesh)
+    mesh = scaled(mesh, factor)
     mesh = with_reduced_images(mesh, least=least, mean=settings.fine_texture == "mean")
     return mesh, repairs, turn, factor, remarks_on_unseen(share, least=least)
-
-
-def _sized(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, float]:
-    """Return the mesh in the size of the model, and the scale."""
-    scale = _scale(mesh, settings)
-    mesh = scaled(mesh, scale)
-    return mesh, scale
 
 
 def _scale(mesh: TriangleMesh, settings: Settings) -> float:
@@ -197,6 +201,7 @@ def _unit_grid(
     frame: Grid,
     cut: Cut,
     settings: Settings,
+    palette: NDArray[np.int16],
     catalogue: Catalogue,
     progress: Progress,
 ) -> UnitGrid:
@@ -215,6 +220,7 @@ def _unit_grid(
         closed=repairs.watertight,
         detail=_detail(cut.layer, frame, settings),
         facing=facing,
+        dithering=dithering_of(settings.dithering, palette, mesh, surface, facing),
         progress=progress,
     )
     check_any(grid, mesh, keep_thin=settings.keep_thin)

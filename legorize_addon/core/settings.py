@@ -72,6 +72,10 @@ class Settings:
     fine_texture: Literal["mean", "texels"] = setting(
         "mean", "What becomes of a texture that changes within a stud, as checkers and noise do: its mean as seen from "
         "afar, or whichever of its colours wins on each brick.", group="Colours")
+    dithering: Literal["none", "ordered", "diffusion"] = setting(
+        "none", "How bricks show shades that no brick has: each in its likeliest colour, colours of the palette mixed "
+        "in a fixed pattern, or each brick's error passed on to the next ones, for flat pictures and reliefs.",
+        group="Colours")
     least_alpha: float = setting(
         0.5, "Alpha from which on a surface is built: glass, and what of the picture of a leaf or a decal is clear, is "
         "left out; 0 builds all.", group="Colours", low=0.0, high=1.0)
@@ -169,6 +173,12 @@ class Settings:
         if self.open_bottom and not self.hollow:
             raise SettingsError(
                 "open_bottom is on but hollow is off: a solid model has no open side; turn one of them."
+            )
+        if self.dithering != "none" and (self.one_to_one or self.cell_colour == "longest"):
+            other = "one_to_one is on" if self.one_to_one else "cell_colour is 'longest'"
+            raise SettingsError(
+                f"dithering is {self.dithering!r} but {other}: a mixture of colours leaves no such choice; change "
+                "one of them."
             )
         if self.hollow_rule == "upper" and not self.hollow:
             raise SettingsError("hollow_rule is 'upper' but hollow is off: turn hollow on, or set the rule to 'both'.")

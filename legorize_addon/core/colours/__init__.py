@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from .difference import ciede2000, lab_from_srgb, linear_from_srgb, srgb_from_linear
-from .dominant import SurfaceColours, chosen_palette, surface_colours
+from .dithering import PaletteMixer
+from .dominant import SurfaceColours, chosen_palette, surface_colours, texels_at
 from .texels import texel_at
 
 __all__ = [
+    "PaletteMixer",
     "SurfaceColours",
     "chosen_palette",
     "ciede2000",
@@ -15,4 +17,5 @@ __all__ = [
     "srgb_from_linear",
     "surface_colours",
     "texel_at",
+    "texels_at",
 ]

@@ -270,10 +270,25 @@ def _surface_texels(mesh: TriangleMesh, rng: np.random.Generator) -> Bytes:
     root = np.sqrt(a)
     weight = np.stack([1 - root, root * (1 - b), root * b], axis=1)
     uv = (mesh.uvs[face] * weight[:, :, None]).sum(axis=1)
-    return _texels_at(mesh, mesh.face_image[face], uv)
+    return texels_at(mesh, mesh.face_image[face], uv)
 
 
-def _texels_at(mesh: TriangleMesh, image: NDArray[np.integer], uv: Floats) -> Bytes:
+def texels_at(mesh: TriangleMesh, image: NDArray[np.integer], uv: Floats) -> Bytes:
+    """Return the texels at points of a mesh's images.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    image : (k,) int array
+        Image of each point.
+    uv : (k, 2) float64 array
+        Image coordinates.
+
+    Returns
+    -------
+    (k, 3) uint8 array
+        sRGB.
+    """
     texels = np.empty((len(uv), 3), dtype=np.uint8)
     for row, pixels in enumerate(mesh.images):
         here = image == row

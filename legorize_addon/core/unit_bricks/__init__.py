@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .backing import with_backing
+from .dithering import dithering_of, remarks_on_dithering
 from .facing import facing_of
 from .generation import unit_bricks
 from .offset_bricks import with_offset_bricks
@@ -13,8 +14,10 @@ __all__ = [
     "Detail",
     "Offsets",
     "OverhangKind",
+    "dithering_of",
     "facing_of",
     "overhang_kinds",
+    "remarks_on_dithering",
     "unit_bricks",
     "with_backing",
     "with_offset_bricks",

@@ -72,6 +72,12 @@ class Facing:
         return replace(samples, area=area).at(kept)
 
 
+def is_flat(mesh: TriangleMesh) -> bool:
+    """Return whether a mesh is a picture or a relief: at most a quarter as thick as it is broad."""
+    thickness, breadth, _ = np.sort(np.ptp(mesh.vertices, axis=0))
+    return bool(thickness <= _FLAT * breadth)
+
+
 def facing_of(mesh: TriangleMesh, surface: SurfaceColours) -> Facing:
     """Find out which way a flat model looks.
 
@@ -96,8 +102,8 @@ def facing_of(mesh: TriangleMesh, surface: SurfaceColours) -> Facing:
         The model is not flat.
     """
     size = np.ptp(mesh.vertices, axis=0)
-    thickness, breadth, _ = np.sort(size)
-    if thickness > _FLAT * breadth:
+    if not is_flat(mesh):
+        thickness, breadth, _ = np.sort(size)
         raise SettingsError(
             f"The model is {thickness:.0f} mm thick and {breadth:.0f} mm broad, but only pictures and reliefs at most "
             "a quarter as thick as they are broad can be backed: set backing to 0 or make the model flatter."

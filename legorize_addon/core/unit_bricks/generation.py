@@ -27,6 +27,7 @@ from ..slicing import Grid, Levels, Pieces, Trajectories, covered, cut_at_grid
 from ..units import BRICK, CELL_AREA, PLATE, PLATES_PER_BRICK
 from .bridges import bridging_cells, under_steps
 from .colour_votes import likeliest_colours
+from .dithering import Dithering, dithered
 from .facing import Facing
 from .longest_trajectory import longest_colours
 from .plates import Detail, settled, settled_colours
@@ -51,6 +52,7 @@ def unit_bricks(
     closed: bool = True,
     detail: Detail | None = None,
     facing: Facing | None = None,
+    dithering: Dithering | None = None,
     progress: Progress = silent,
 ) -> UnitGrid:
     """Turn trajectories into unit bricks.
@@ -79,6 +81,9 @@ def unit_bricks(
     facing : Facing, optional
         The way that a flat model is looked at, if from one side alone: what looks
         that way colours the bricks, unless by length.
+    dithering : Dithering, optional
+        How colours are mixed, after plates are settled; None leaves each cell
+        its likeliest colour.
     progress : Progress, optional
         Told between the steps.
 
@@ -116,6 +121,8 @@ def unit_bricks(
     colour[seen] = ballot.winners(seen, grid.height)
     if detail is not None:
         colour = settled_colours(colour, seen, ballot, detail)
+    if dithering is not None:
+        colour = dithered(colour, seen, air, mesh, samples, grid, dithering, catalogue)
     return _unit_grid(colour, grid)
 
 

@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints, Mask
-from ..colours import SurfaceColours
+from ..colours import SurfaceColours, linear_from_srgb, texels_at
 from ..mesh import TriangleMesh, vertical_hits
 from ..slicing import Grid, Levels, Pieces, Trajectories
 from ..units import BRICK, STUD
 
 _RAYS: Final = 3
-"""Vertical rays along each side of a cell."""
+"""Rays along each side of a cell, and of light along each stud's length."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,8 +40,8 @@ class SurfaceSamples:
         Outward direction, along layer, y and x, in cells; not of unit length.
     area : (n,) float64 array
         Surface that a sample stands for in mm^2.
-    colour : (n,) int16 array
-        LDraw code.
+    colour : (n,) int16 array or (n, 3) float64 array
+        LDraw code, or light: red, green and blue from 0 to 1.
     height : float
         Height of a cell in mm.
     """
@@ -51,7 +51,7 @@ class SurfaceSamples:
     cell: Ints
     normal: Floats
     area: Floats
-    colour: NDArray[np.int16]
+    colour: NDArray[Any]
     height: float = BRICK
 
     @property
@@ -161,6 +161,43 @@ def horizontal_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid) 
         normal=face_normals(mesh, grid.height)[face],
         area=pitch * pitch * level_shares(mesh)[face],
         colour=surface.at(mesh.face_image[face], uvs),
+        height=grid.height,
+    )
+
+
+def light_samples(mesh: TriangleMesh, grid: Grid) -> SurfaceSamples:
+    """Return the light of the texels where lattices of rays along all three axes meet the surface.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    grid : Grid
+
+    Returns
+    -------
+    SurfaceSamples
+        Together they stand for the whole area, whichever way it faces.
+    """
+    upward, *others = (_light_along(mesh, grid, axis) for axis in (2, 1, 0))
+    for other in others:
+        upward = upward.joined(other)
+    return upward
+
+
+def _light_along(mesh: TriangleMesh, grid: Grid, axis: int) -> SurfaceSamples:
+    """Return the light where rays along an axis meet the surface."""
+    pitch, shift = STUD / _RAYS, 2 - axis
+    turned = replace(mesh, vertices=np.roll(mesh.vertices, shift, axis=1))
+    face, points, uvs = vertical_hits(turned, corner=np.roll(grid.origin, shift)[:2], pitch=pitch)
+    points = np.roll(points, -shift, axis=1)
+    place = ((points - grid.origin) / [STUD, STUD, grid.height])[:, ::-1]
+    return SurfaceSamples(
+        place=place,
+        along=np.zeros_like(place),
+        cell=np.clip(np.floor(place).astype(np.int64), 0, np.array(grid.shape) - 1),
+        normal=face_normals(mesh, grid.height)[face],
+        area=pitch * pitch * level_shares(turned)[face],
+        colour=linear_from_srgb(texels_at(mesh, mesh.face_image[face], uvs)),
         height=grid.height,
     )
 
