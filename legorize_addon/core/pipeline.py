@@ -308,12 +308,7 @@ def _supported(
     progress("supports", 0.0)
     bricks, joints = segmented(bricks, catalogue, connection, most=settings.split, deepest=settings.hanging)
     supports = supported(
-        bricks,
-        catalogue,
-        wish=settings.supports,
-        deepest=settings.hanging,
-        hold=settings.hold,
-        progress=progress,
+        bricks, catalogue, wish=settings.supports, deepest=settings.hanging, hold=settings.hold, progress=progress
     )
     return supports, joints
 
