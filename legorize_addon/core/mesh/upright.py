@@ -35,9 +35,9 @@ _FIRM: Final = 3.0
 _GAIN: Final = 5.0
 """Degrees: what stands less firmly than the first may be turned, to stand by the second at least, and the third more.
 
-Nine models and twenty shapes of boxes, balls, capsules and cones were tried, standing, on their faces and on their
-backs: with these numbers nothing that stood was turned, and all of the models that lay but one, which flies. What is
-shaky is a column more than eight times as high as wide.
+Chosen on models and shapes of boxes, balls, capsules and cones, standing and lying. The rule as it is now was measured
+on eight models and the sample alone; that it never turns what stands is not proven. What is shaky is a column more than
+eight times as high as wide.
 """
 
 _FLATTER: Final = 8.0
