@@ -359,10 +359,12 @@ def show(build: Build, folder: Path, wanted: Wanted, *, name: str, sources: Sequ
     if wanted.render:
         with posed(shown, wanted):
             view = wanted.view or ("section" if wanted.section else "front_right")
-            render_still(scene, folder / "render.png", view=view, outlines=wanted.outlines)
+            with quiet():
+                render_still(scene, folder / "render.png", view=view, outlines=wanted.outlines)
     if wanted.contact_sheet:
         path = folder / "contact-sheet.png"
-        render_contact_sheet(scene, shown, path, pictures=wanted.contact_sheet, outlines=wanted.outlines)
+        with quiet():
+            render_contact_sheet(scene, shown, path, pictures=wanted.contact_sheet, outlines=wanted.outlines)
     if wanted.save_blend:
         save(folder / "build.blend")
 

@@ -1,4 +1,4 @@
-"""Importers speak to whoever develops them: their lines and tracebacks stay off the user's screen."""
+"""Importers and renderers speak to whoever develops them: their lines and tracebacks stay off the user's screen."""
 
 from __future__ import annotations
 
