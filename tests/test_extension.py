@@ -24,16 +24,23 @@ pytestmark = [pytest.mark.slow, pytest.mark.skipif(not PLATFORM, reason="no whee
 
 
 @pytest.fixture(scope="module")
-def extension() -> Path:
+def extension(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the validated zip for this machine; building raises where Blender's tool refuses it."""
-    [path] = build([PLATFORM], ROOT / "dist")
+    [path] = build([PLATFORM], folder(tmp_path_factory.mktemp("built")))
     return path
+
+
+def folder(place: Path) -> Path:
+    """Return a folder to build in, which shares the downloaded wheels and nothing else."""
+    wheels = ROOT / "dist" / "wheels"
+    wheels.mkdir(parents=True, exist_ok=True)
+    (place / "wheels").symlink_to(wheels)
+    return place
 
 
 def test_same_sources_same_bytes(extension: Path, tmp_path: Path) -> None:
     """A second build, in another folder, gives the same file."""
-    (tmp_path / "wheels").symlink_to(ROOT / "dist" / "wheels")
-    [again] = build([PLATFORM], tmp_path)
+    [again] = build([PLATFORM], folder(tmp_path))
     assert again.read_bytes() == extension.read_bytes()
 
 
