@@ -147,7 +147,10 @@ def offered_names(package: Path) -> list[str]:
 
 def origin(file: Path, name: str) -> tuple[str, str]:
     """Return Sphinx's directive for a name, and the module that defines it, looked up along the imports."""
-    for node in ast.parse(file.read_text(encoding="utf-8")).body:
+    body = ast.parse(file.read_text(encoding="utf-8")).body
+    # what is loaded on demand is imported for the checker of types alone
+    body += [each for node in body if isinstance(node, ast.If) for each in node.body]
+    for node in body:
         if isinstance(node, ast.ImportFrom) and node.level and name in {each.name for each in node.names}:
             if node.module is None:  # a module of the package, offered as such
                 return "automodule", dotted(file)

@@ -25,7 +25,10 @@ from ..model import Catalogue
 from .difference import ciede2000, lab_from_srgb, linear_from_srgb, srgb_from_linear
 
 _BAYER: Final = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
-"""Ranks of 16 thresholds. A matrix of 64 came no nearer to gradients and pictures, in coarser patterns."""
+"""Ranks of 16 thresholds.
+
+A matrix of 64 came up to a twentieth nearer to pictures and gradients blurred over a stud, and farther from a grey ramp.
+"""
 
 _FEEDBACK: Final = 0.5
 """Share of the error that the next candidate makes up for; with more of it, farther colours come in for no gain."""
@@ -34,8 +37,8 @@ _KERNEL: Final = ((0, 1, 7 / 16), (1, -1, 3 / 16), (1, 0, 5 / 16), (1, 1, 1 / 16
 """Step along rows and columns, and share of the error that goes there.
 
 Every row in the same direction: so a whole diagonal can be done at once. Turning
-at the end of each row (serpentine) made differences of 2 % either way, less than
-what the limit below gains.
+at the end of each row (serpentine) came up to a tenth nearer on ramps blurred over
+two studs, and up to 3 % farther on gradients blurred over one.
 """
 
 _BEYOND: Final = 0.1
