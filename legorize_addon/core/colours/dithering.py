@@ -27,7 +27,7 @@ from .difference import ciede2000, lab_from_srgb, linear_from_srgb, srgb_from_li
 _BAYER: Final = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
 """Ranks of 16 thresholds.
 
-A matrix of 64 came up to a twentieth nearer to pictures and gradients blurred over a stud, and farther from a grey ramp.
+A matrix of 64 came up to a twentieth nearer to pictures and gradients blurred over a stud, and farther from a ramp.
 """
 
 _FEEDBACK: Final = 0.5
