@@ -143,7 +143,8 @@ def _prepared(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, Rep
     mesh, repairs, share = seen_part(mesh, repairs, least=least, scale=scale)
     factor = scale(mesh)
     mesh = scaled(mesh, factor)
-    mesh = with_reduced_images(mesh, least=least, mean=settings.fine_texture == "mean")
+    # where nothing is seen, all of it was taken
+    mesh = with_reduced_images(mesh, least=least * (share < 1), mean=settings.fine_texture == "mean")
     return mesh, repairs, turn, factor, remarks_on_unseen(share, least=least)
 
 

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints, Mask
 from ..colours import texel_at
-from ..errors import MeshError
 from ..mesh import Repairs, TriangleMesh, repair
 from ..units import STUD
 from .splitting import Triangles, split_edges
@@ -106,14 +105,9 @@ def without_unseen(mesh: TriangleMesh, *, least: float, finest: float) -> tuple[
     Returns
     -------
     TriangleMesh
-        What is seen; the mesh itself where all of it is.
+        What is seen; the mesh itself where all of it is, or nothing.
     float
-        Share of the area that was left out.
-
-    Raises
-    ------
-    MeshError
-        If nothing is seen.
+        Share of the area that is not seen: 1 where nothing is.
     """
     texels = _texels(mesh, least)
     if all(image is None or image.seen.all() for image in texels):
@@ -131,13 +125,8 @@ def without_unseen(mesh: TriangleMesh, *, least: float, finest: float) -> tuple[
         open_ = np.flatnonzero(kinds == _BOTH)
         kinds[open_] = _kinds(triangles.uvs[open_], image[open_], texels)
     kept = _seen_faces(triangles.uvs, image, kinds, texels)
-    if not kept.any():
-        raise MeshError(
-            f"Nothing of the model is seen, as its surface has an alpha below {least:g}: lower the setting "
-            "least_alpha; 0 builds everything."
-        )
-    if kept.all():
-        return mesh, 0.0
+    if kept.all() or not kept.any():
+        return mesh, float(not kept.any())
     return _with_faces(mesh, triangles, image, kept), float(1 - _area(triangles)[kept].sum() / whole)
 
 
@@ -160,11 +149,12 @@ def seen_part(
     Returns
     -------
     TriangleMesh
-        The part that is seen.
+        The part that is seen. A model of which nothing would be left is taken whole: some exporters write an alpha of 0
+        into materials that their own program shows.
     Repairs
         Of the mesh as it came, but whether it is closed now.
     float
-        Share of the area that was left out.
+        Share of the area that is not seen: 1 where nothing is.
     """
     whole, share, finest = mesh, 0.0, np.inf
     # what is seen may be smaller than the whole, so that each part of it becomes larger
@@ -172,19 +162,19 @@ def seen_part(
         finest = finer
         mesh, share = without_unseen(whole, least=least, finest=finest)
     if mesh is whole:
-        return mesh, repairs, 0.0
+        return mesh, repairs, share
     mesh, again = repair(mesh, fill=False)
     kept = ("welded", "degenerate", "duplicate", "flipped", "turned", "filled", "open_edges", "patches")
     return mesh, replace(again, **{name: getattr(repairs, name) for name in kept}), share
 
 
 def remarks_on_unseen(share: float, *, least: float) -> tuple[str, ...]:
-    """Return a sentence on what was left out, none if nothing was.
+    """Return a sentence on what was left out, or had to be taken as seen; none if all is seen.
 
     Parameters
     ----------
     share : float
-        Of the area.
+        Of the area that is not seen.
     least : float
         Alpha from which on surface is built.
 
@@ -194,6 +184,8 @@ def remarks_on_unseen(share: float, *, least: float) -> tuple[str, ...]:
     """
     if share == 0:
         return ()
+    if share == 1:
+        return (f"All of the surface has an alpha below {least:g}: it is built as if it were opaque.",)
     percent = "Less than 1" if share < 0.01 else f"{100 * share:.0f}"
     return (
         f"{percent} % of the surface is not built, as its alpha is below {least:g}: the setting least_alpha changes "

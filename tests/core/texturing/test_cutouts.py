@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from legorize_addon.core.errors import MeshError
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, repair
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
@@ -89,13 +88,22 @@ def test_repeated_images_repeat_their_alpha_and_others_keep_their_edge() -> None
 
 
 def test_texels_finer_than_parts_count_by_their_share() -> None:
-    """A fence much finer than the parts stays as a whole if most of it is seen, and goes if most of it is not."""
+    """A fence much finer than the parts stays whole if most of it is seen, and is not seen if most is not."""
     fence = np.zeros((8, 8), dtype=np.uint8)
     fence[:6] = 255
     seen, _ = without_unseen(card(fence, repeats=1000.0), least=0.5, finest=0.2)
     assert area(seen) == pytest.approx(1.0)
-    with pytest.raises(MeshError, match="least_alpha"):
-        without_unseen(card(255 - fence, repeats=1000.0), least=0.5, finest=0.2)
+    hidden = card(255 - fence, repeats=1000.0)
+    assert without_unseen(hidden, least=0.5, finest=0.2) == (hidden, 1.0)
+
+
+def test_a_model_of_which_nothing_is_seen_is_built() -> None:
+    """Some exporters write an alpha of 0 into all materials: the model is as without alpha, and that is said."""
+    mesh = replace(box((0, 0, 0), (40, 32, 30)), opacities=(np.zeros((1, 1), dtype=np.uint8),))
+    hidden, opaque = (legorize(mesh, Settings(width=5, least_alpha=least)) for least in (0.5, 0.0))
+    np.testing.assert_array_equal(hidden.grid.colour, opaque.grid.colour)
+    said = "All of the surface has an alpha below 0.5: it is built as if it were opaque."
+    assert [said in build.notes for build in (hidden, opaque)] == [True, False]
 
 
 def test_everything_is_built_at_zero() -> None:
