@@ -133,6 +133,8 @@ def package_page(name: str) -> str:
     for offered in offered_names(package):
         kind, module = origin(package / "__init__.py", offered)
         inside = ["   :members:"] if kind in ("autoclass", "automodule") else []
+        if kind == "automodule":  # some of what is in it may be offered by itself, too
+            inside.append("   :no-index:")
         body += [f".. {kind}:: {module}.{offered}", *inside, ""]
     return page(name, body)
 
