@@ -147,12 +147,14 @@ def test_too_little_to_learn_from_is_said(folder: Path) -> None:
     assert list(folder.iterdir()) == []
 
 
-def test_missing_file_is_said(ball, tmp_path: Path) -> None:
-    """A file that is gone gives a sentence when it would be used, and only then."""
+@pytest.mark.parametrize("layout", ["fast", "standard"])
+def test_missing_file_is_said(ball, tmp_path: Path, layout: str) -> None:
+    """A file that is gone gives a sentence, also where the layout would not use it."""
     bpy.context.scene.legorize.settings.learned_from = str(tmp_path / "gone.csv")
+    bpy.context.scene.legorize.settings.layout = layout
     with pytest.raises(RuntimeError, match="or leave it empty"):
         bpy.ops.legorize.build()
-    bpy.context.scene.legorize.settings.layout = "standard"
+    bpy.context.scene.legorize.settings.learned_from = ""
     assert bpy.ops.legorize.build() == {"FINISHED"}
 
 
