@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing
 import resource
 import time
 import traceback
 from collections.abc import Callable
-from multiprocessing.connection import Connection
+from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Final
 
@@ -82,24 +83,25 @@ def run(seed: int, number: int, work: Work | None = None) -> Row:
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(["__main__", __name__])
     here, there = context.Pipe(duplex=False)
-    child = context.Process(target=_child, args=(there, seed, number, work or outcome_of))
+    child = context.Process(target=_child, args=(there, seed, number, work or outcome_of, SECONDS))
     child.start()
     there.close()
-    told: Row = {}
-    try:
-        told = here.recv()
-    except EOFError:
-        told = {"outcome": "endless", "what": f"more than {SECONDS} s of CPU time, or killed"}
+    # a killed child says nothing, and its end of the pipe may live on in the server
+    wait([here, child.sentinel])
+    told: Row = {"outcome": "endless", "what": f"more than {SECONDS} s of CPU time, or killed"}
+    with contextlib.suppress(EOFError):
+        if here.poll():
+            told = here.recv()
     child.join()
     name, _, settings = case(seed, number)
     return {"case": number, "body": name, "size": f"{settings.size_by} {getattr(settings, settings.size_by)}", **told}
 
 
-def _child(there: Connection, seed: int, number: int, work: Work) -> None:
+def _child(there: Connection, seed: int, number: int, work: Work, seconds: int) -> None:
     used = int(time.process_time())
     loaded = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * resource.getpagesize()
     resource.setrlimit(resource.RLIMIT_AS, (loaded + MEMORY, loaded + MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (used + SECONDS, used + SECONDS))
+    resource.setrlimit(resource.RLIMIT_CPU, (used + seconds, used + seconds))
     start = time.process_time()
 
     def tell(outcome: str, what: str) -> None:
