@@ -259,7 +259,7 @@ def _settings(rng: np.random.Generator) -> Settings:
     chosen["prove_steps"] = bool(rng.random() < 0.03)
     if not chosen.get("hollow", True):
         chosen |= {"open_bottom": False, "hollow_rule": "both"}
-    if chosen["one_to_one"] or chosen["cell_colour"] == "longest":
+    if chosen.get("one_to_one") or chosen.get("cell_colour") == "longest":
         chosen["dithering"] = "none"
     return Settings(**chosen)
 
