@@ -40,6 +40,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PYTHONS = {"4.5": "3.11", "5.2": "3.13", "4.2": "3.11"}  # Blender: its Python; the favourite first
 DOCS = "docs"  # the environment of the documentation, beside those of the Blenders
 DOCS_PYTHON = PYTHONS["5.2"]
+CHECKED = "5.2"  # types are checked against the numpy of this Blender: those of older ones say less
 LIMIT = 40 * 60  # seconds
 NO_PYTHON = 3
 NO_WINDOW = 4
@@ -71,7 +72,7 @@ def main() -> int:
     try:
         if chosen.command == "docs":
             return _docs(rest)
-        blender, python = _find(chosen.blender)
+        blender, python = _find(chosen.blender or (CHECKED if chosen.command == "check" else None))
         if python != sys.executable:
             os.execv(python, [python, *sys.argv])  # the running Python may be too old for what follows
         own = _environment(blender, python)
