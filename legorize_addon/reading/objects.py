@@ -11,7 +11,7 @@ colour of a material        becomes
 an image                    that image, by the UV map that its node uses
 an image times a colour     a new image, multiplied in linear light
 a plain colour              an image of one texel
-a colour attribute          texels of an image, see :mod:`.read_colours`
+a colour attribute          texels of an image, see :mod:`.colours`
 anything else               an image baked by Cycles, see :mod:`.bake`
 no material                 the active colour attribute, else a middle grey
 ==========================  ==========================================================
