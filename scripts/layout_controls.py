@@ -21,7 +21,7 @@ from legorize_addon.core.layout.problem.problem import Problem
 from legorize_addon.core.layout.solvers import exact, linear
 from legorize_addon.core.layout.solvers.exchange import exchange, fewer_small
 from legorize_addon.core.layout.solvers.greedy import cover
-from legorize_addon.core.measures.lower_bound import bound
+from legorize_addon.core.measures.lower_bound import lower_bound
 from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.model.unit_grid import UnitGrid
@@ -47,7 +47,7 @@ class Result:
 
     Attributes
     ----------
-    bricks, single, must : int
+    bricks, single, required : int
         Bricks, those of one cell, cells that have to be covered.
     cost : float
         What the layout costs, with single cells and bonding.
@@ -57,7 +57,7 @@ class Result:
 
     bricks: int
     single: int
-    must: int
+    required: int
     cost: float
     seconds: float
 
@@ -94,7 +94,7 @@ def compared(title: str, models: Mapping[str, tuple[UnitGrid, Bricks]]) -> Table
     """Return the table of all ways over some models."""
     catalogue = load_catalogue()
     problems = [list(tasks(grid, bricks, catalogue)) for grid, bricks in models.values()]
-    least = sum(bound(grid, catalogue) for grid, _ in models.values())
+    least = sum(lower_bound(grid, catalogue) for grid, _ in models.values())
     results = {name: [in_way(way, each) for each in problems] for name, way in ways().items()}
     rows = [row(name, each, results[LEARNED], least) for name, each in results.items()]
     return Table("controls", f"{len(models)} {title}; J is the cost with single cells and bonding", tuple(rows))
@@ -158,8 +158,8 @@ def rule(samples: Samples) -> Floats:
     """Return the cost of the bricks in the way in proportion, less the own, less the best threshold on the samples."""
 
     def freed(levels: NDArray[np.int16]) -> Floats:
-        units, hold, _, area = levels.astype(float).T
-        return units + (hold - 8) / 8 + area / 6
+        units, clutch, _, area = levels.astype(float).T
+        return units + (clutch - 8) / 8 + area / 6
 
     steps = np.arange(0, 4, 0.05)
     right = [((freed(samples.levels) > step) == samples.pays).mean() for step in steps]
@@ -182,7 +182,7 @@ def in_way(way: Way, problems: Sequence[Problem]) -> Result:
     return Result(
         bricks=sum(map(len, chosen)),
         single=sum(int((problem.placements.size[rows] == 1).sum()) for problem, rows in pairs),
-        must=sum(int(problem.must.sum()) for problem in problems),
+        required=sum(int(problem.required.sum()) for problem in problems),
         cost=sum(float(problem.cost[rows].sum()) for problem, rows in pairs),
         seconds=seconds,
     )
@@ -203,5 +203,5 @@ def row(name: str, results: Sequence[Result], learned: Sequence[Result], least: 
         "SVM_wins": int((ours < theirs - 1e-9).sum()),
         "SVM_losses": int((ours > theirs + 1e-9).sum()),
         "p": None if same else float(wilcoxon(ours, theirs).pvalue),
-        "us_per_must": 1e6 * sum(each.seconds for each in results) / sum(each.must for each in results),
+        "us_per_must": 1e6 * sum(each.seconds for each in results) / sum(each.required for each in results),
     }

@@ -55,9 +55,9 @@ try:
     from legorize_addon.core.pipeline import legorize
     from legorize_addon.core.progress import Meter, Overall, Progress, duration, part
     from legorize_addon.core.report.checks import failed_checks
-    from legorize_addon.core.report.outputs import texts
+    from legorize_addon.core.report.outputs import output_texts
     from legorize_addon.core.report.report import report
-    from legorize_addon.core.settings import Settings, choices, setting_type
+    from legorize_addon.core.settings import Settings, choices, renamed, setting_type
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.reading.importers import load
     from legorize_addon.reading.objects import read_rendered
@@ -227,6 +227,9 @@ def add_flag(group: Any, entry: Field[Any]) -> None:
     else:
         options.update(type=kind, metavar=kind.__name__.upper())
     group.add_argument(f"--{entry.name.replace('_', '-')}", **options)
+    if entry.metadata["was"]:
+        earlier = f"--{entry.metadata['was'].replace('_', '-')}"
+        group.add_argument(earlier, **{**options, "dest": entry.metadata["was"], "help": argparse.SUPPRESS})
 
 
 def section(text: str) -> Section:
@@ -271,7 +274,11 @@ def pictures(text: str) -> int:
 
 
 def settings_of(options: dict[str, Any]) -> Settings:
-    """Return the settings that the flags ask for."""
+    """Return the settings that the flags ask for; those of an earlier version are told."""
+    for entry in fields(Settings):
+        if entry.metadata["was"] in options:
+            options[entry.name] = options.pop(entry.metadata["was"])
+            print(renamed(entry), file=sys.stderr)
     named = [name for name in SIZES[1:] if name in options]
     return Settings(**options, **({"size_by": named[0]} if named else {}))
 
@@ -295,7 +302,7 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         rest = Overall(later, part(line, built, 1.0))
         facts = described(replace(build, settings=settings), rest, with_bound=wanted.bound)
         with rest.stage("files"), writing(out):
-            for name, text in texts(build, load_catalogue(), facts, source.stem).items():
+            for name, text in output_texts(build, load_catalogue(), facts, source.stem).items():
                 (folder / name).parent.mkdir(exist_ok=True)
                 (folder / name).write_text(text, encoding="utf-8", newline="")
         if wanted.any_picture:

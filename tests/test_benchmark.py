@@ -16,8 +16,8 @@ Image = pytest.importorskip("PIL.Image", reason="benchmarks need pillow")
 
 from legorize_addon.core.errors import BuildError, MeshError  # noqa: E402
 from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402 - after the packages that may be missing
-from legorize_addon.core.model.contact_graph import connect  # noqa: E402
-from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Cover, UnitGrid  # noqa: E402
+from legorize_addon.core.model.contacts import contact_graph  # noqa: E402
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill, UnitGrid  # noqa: E402
 from legorize_addon.core.pipeline import legorize  # noqa: E402
 from legorize_addon.core.settings import Settings  # noqa: E402
 from legorize_addon.core.slicing.slices import slice_mesh  # noqa: E402
@@ -263,7 +263,7 @@ def red_cube(side: int) -> UnitGrid:
     cells = np.ones((side, 3, side, side), dtype=bool)
     return UnitGrid(
         colour=np.where(cells, 4, 0).astype(np.int16),
-        cover=np.where(cells, Cover.MUST, Cover.EMPTY).astype(np.uint8),
+        cover=np.where(cells, Fill.REQUIRED, Fill.EMPTY).astype(np.uint8),
         role=np.zeros(cells.shape, dtype=np.uint8),
         origin=np.zeros(3),
     )
@@ -272,8 +272,8 @@ def red_cube(side: int) -> UnitGrid:
 def test_fixed_shell_is_two_cells() -> None:
     """All but the inner five cubed of nine cubed must be built, and nothing else may."""
     shell = hollowing.fixed_shell(red_cube(9))
-    assert (shell.cover == Cover.MUST).sum() == 3 * (9**3 - 5**3)
-    assert (shell.cover != Cover.MAY).all()
+    assert (shell.cover == Fill.REQUIRED).sum() == 3 * (9**3 - 5**3)
+    assert (shell.cover != Fill.OPTIONAL).all()
 
 
 def test_holes_and_loose_cells_are_found() -> None:
@@ -281,9 +281,9 @@ def test_holes_and_loose_cells_are_found() -> None:
     cube = red_cube(5)
     assert hollowing.soundness(cube, cube) == {"behind_holes": 0, "cut_off": 0, "sound_met": True}
     torn = red_cube(5)
-    torn.cover[2, 1, 0, 2] = Cover.EMPTY
+    torn.cover[2, 1, 0, 2] = Fill.EMPTY
     assert hollowing.soundness(cube, torn) == {"behind_holes": 1, "cut_off": 0, "sound_met": False}
-    torn.cover[2] = Cover.EMPTY
+    torn.cover[2] = Fill.EMPTY
     assert hollowing.soundness(cube, torn) == {"behind_holes": 75, "cut_off": 150, "sound_met": False}
 
 
@@ -321,15 +321,15 @@ def test_what_a_layout_is_like() -> None:
         [("3003", 0, 0, 0, 0), ("3003", 2, 0, 0, 0), ("3003", 0, 0, 3, 0), ("3003", 2, 0, 3, 0), ("3001", 0, 0, 6, 0)],
         catalogue,
     )
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     # the pillars carry the beam both: without one the other still does
     assert layout_figures.articulations(bricks, links) == 0
     assert layout_figures.coinciding_seams(links) == 0.5
     tower = bricks.take(np.array([0, 2, 4]))
-    assert layout_figures.articulations(tower, connect(tower, catalogue)) == 2
+    assert layout_figures.articulations(tower, contact_graph(tower, catalogue)) == 2
     # the middle one carries nothing but what is left out
     top = np.array([False, False, True])
-    assert layout_figures.articulations(tower, connect(tower, catalogue), top) == 1
+    assert layout_figures.articulations(tower, contact_graph(tower, catalogue), top) == 1
 
 
 def test_forced_small_bricks_are_counted_apart() -> None:
@@ -346,9 +346,9 @@ def test_forced_small_bricks_are_counted_apart() -> None:
     # three red cells in a row need none
     assert layout_figures.fewest_singles(bricks, row, catalogue) == 2
     # all bricks are red: the blue cell is lost, and so is what is not built
-    assert layout_figures.colours_lost(row, bricks, connect(bricks, catalogue)) == (15, 3)
+    assert layout_figures.colours_lost(row, bricks, contact_graph(bricks, catalogue)) == (15, 3)
     fewer = bricks.take(np.arange(4))
-    assert layout_figures.colours_lost(row, fewer, connect(fewer, catalogue)) == (15, 6)
+    assert layout_figures.colours_lost(row, fewer, contact_graph(fewer, catalogue)) == (15, 6)
 
 
 def test_seams_between_colours_are_counted_apart() -> None:
@@ -357,7 +357,7 @@ def test_seams_between_colours_are_counted_apart() -> None:
     grid = red_cube(2)
     grid.colour[..., 1] = 1
     bricks = placed([("3004", x, 0, 3 * z, 1) for z in range(2) for x in range(2)], catalogue)
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     along_y, along_x = layout_figures.edges_to_bridge(grid, links, catalogue)
     assert along_y[:, 0].all()
     assert not along_x.any()
@@ -371,7 +371,7 @@ def test_fewest_small_bricks_is_a_bound_that_a_cross_reaches() -> None:
     grid = red_cube(3)
     cross = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]], dtype=bool)
     outside = ~np.broadcast_to(cross, grid.cover.shape)
-    colour, cover = np.where(outside, COLOUR_EMPTY, grid.colour), np.where(outside, Cover.EMPTY, grid.cover)
+    colour, cover = np.where(outside, COLOUR_EMPTY, grid.colour), np.where(outside, Fill.EMPTY, grid.cover)
     five = replace(grid, colour=colour.astype(np.int16), cover=cover.astype(np.uint8))
     bricks = placed([("3005", x, y, 3 * z, 0) for z in range(3) for y, x in np.argwhere(cross).tolist()], catalogue)
     assert layout_figures.fewest_singles(bricks, five, catalogue) == 3 * 2
@@ -380,9 +380,9 @@ def test_fewest_small_bricks_is_a_bound_that_a_cross_reaches() -> None:
 def test_exponent_is_fitted_within_models() -> None:
     """Seconds that grow with the cells to the 1.5 give 1.5, whatever the factor of each model."""
     costs = [
-        {"model": model, "must": must, "layout": factor * must**1.5}
+        {"model": model, "must": required, "layout": factor * required**1.5}
         for model, factor in (("a", 1e-6), ("b", 3e-5))
-        for must in (100, 1000, 20_000)
+        for required in (100, 1000, 20_000)
     ]
     assert goals.exponent(costs) == pytest.approx(1.5)
     assert goals.exponent(costs[:1]) is None
@@ -406,7 +406,7 @@ def test_missed_goals_are_named() -> None:
 
 
 def test_goals_command(tmp_path: Path) -> None:
-    """A leaning arm stands on posts and is named with the reason; every case has figures, costs and memory."""
+    """A leaning arm stands on pillars and is named with the reason; every case has figures, costs and memory."""
     foot, arm = trimesh.creation.box([0.16, 0.16, 0.48]), trimesh.creation.box([1.6, 0.16, 0.48])
     arm.apply_translation([0.72, 0, 0.48])
     both = trimesh.util.concatenate([foot, arm])
@@ -418,7 +418,7 @@ def test_goals_command(tmp_path: Path) -> None:
         assert row["bound"] <= row["bricks"]
         assert (row["floating"], row["not_made"], row["colours_lost"]) == (0, 0, 0)
         assert (row["at_0.98"], row["by_itself"]) == ("stable", "collapses")
-        assert row["posts"] > 0
+        assert row["pillars"] > 0
     for row in tables["goals_costs"]:
         assert row["layout_us"] == pytest.approx(1e6 * row["layout"] / row["must"])
         assert row["memory_mb"] > 50

@@ -19,8 +19,8 @@ from legorize_addon.core.errors import BuildError  # noqa: E402
 from legorize_addon.core.layout.learning import energies as features  # noqa: E402
 from legorize_addon.core.model.bricks import NOBODY, Bricks  # noqa: E402
 from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402 - after the packages that may be missing
-from legorize_addon.core.model.contact_graph import connect  # noqa: E402
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid  # noqa: E402
+from legorize_addon.core.model.contacts import contact_graph  # noqa: E402
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid  # noqa: E402
 from scripts import benchmark  # noqa: E402
 from scripts.benchmarks import annealing, baselines, layout_goals, merging, peer, rules, tiling, volumes  # noqa: E402
 from scripts.benchmarks.baselines import LayerWay  # noqa: E402
@@ -38,7 +38,7 @@ FIELD = [name for name in METHODS if name.startswith("B")]
 def grid_of(colour: np.ndarray) -> UnitGrid:
     """Return a model of bricks, all of which must be built, given the colours by layer, y and x."""
     plates = np.repeat(colour[:, None], 3, axis=1).astype(np.int16)
-    cover = np.where(plates != COLOUR_EMPTY, Cover.MUST, Cover.EMPTY).astype(np.uint8)
+    cover = np.where(plates != COLOUR_EMPTY, Fill.REQUIRED, Fill.EMPTY).astype(np.uint8)
     return UnitGrid(plates, cover, np.zeros(plates.shape, dtype=np.uint8), np.zeros(3))
 
 
@@ -60,7 +60,7 @@ def test_layouts_are_right_and_repeatable(name: str) -> None:
     """Every cell has one brick of its colour that is made in it, and the same seed gives the same bricks."""
     grid, catalogue = blob(), load_catalogue()
     bricks, again = laid(name, grid), laid(name, grid)
-    assert faults(grid, bricks, connect(bricks, catalogue), catalogue) == 0
+    assert faults(grid, bricks, contact_graph(bricks, catalogue), catalogue) == 0
     np.testing.assert_array_equal(bricks.corner, again.corner)
     np.testing.assert_array_equal(bricks.part, again.part)
 
@@ -73,10 +73,10 @@ def test_faults_are_found() -> None:
     assert len(bricks) == 2
     for rows, wrong in (([0], 2 * n), ([0, 0, 1], n)):
         some = bricks.take(np.array(rows))
-        assert faults(grid, some, connect(some, catalogue), catalogue) == wrong
+        assert faults(grid, some, contact_graph(some, catalogue), catalogue) == wrong
     painted = Bricks(*(getattr(bricks, each) for each in Bricks.__slots__))
     painted.colour[0] = WHITE
-    assert faults(grid, painted, connect(painted, catalogue), catalogue) == n
+    assert faults(grid, painted, contact_graph(painted, catalogue), catalogue) == n
 
 
 def test_merging_is_maximal() -> None:
@@ -86,7 +86,7 @@ def test_merging_is_maximal() -> None:
     rows = merging.merged(problem, np.random.default_rng(1))
     unions, keys = merging.Unions(problem.shapes), problem.placements.key[rows].tolist()
     known = set(problem.placements.key.tolist())
-    assert len(rows) < len(problem.must)
+    assert len(rows) < len(problem.required)
     sheet = problem.placements.corner[rows, 2]
     pairs = [(a, b) for a in range(len(rows)) for b in range(a) if sheet[a] == sheet[b]]
     assert not [pair for pair in pairs if unions.key(*(keys[each] for each in pair)) in known]
@@ -134,11 +134,11 @@ def test_energies_are_the_papers() -> None:
 def test_energies_of_whole_models() -> None:
     """A 2 x 8 alone has nothing above or below; two on each other have one side each; two studs across are a pair."""
     alone, both = (table(*(("3007", 0, 0, 3 * level) for level in range(n))) for n in (1, 2))
-    assert list(energies(alone, connect(alone, CATALOGUE), CATALOGUE).values()) == [0, 2, 2, 0, 0]
-    found = energies(both, connect(both, CATALOGUE), CATALOGUE)
+    assert list(energies(alone, contact_graph(alone, CATALOGUE), CATALOGUE).values()) == [0, 2, 2, 0, 0]
+    found = energies(both, contact_graph(both, CATALOGUE), CATALOGUE)
     assert (found["e_vertical"], found["e_horizontal"]) == (1, 2)
     pair = table(("3005", 0, 0, 0), ("3005", 1, 1, 0))
-    found = energies(pair, connect(pair, CATALOGUE), CATALOGUE)
+    found = energies(pair, contact_graph(pair, CATALOGUE), CATALOGUE)
     assert (found["e_unit_connection"], found["e_efficiency"], found["e_symmetry"]) == (1, 1, 1)
 
 
@@ -198,10 +198,10 @@ def test_shells_of_the_field() -> None:
     """Two cells of a cube of nine stay, and nothing may be built within; columns add to a shell of one."""
     cube = grid_of(np.full((9, 9, 9), RED))
     shell = baselines.shell_of(cube, 2, columns=False)
-    assert (shell.cover == Cover.MUST).sum() == 3 * (9**3 - 5**3)
-    assert (shell.cover != Cover.MAY).all()
+    assert (shell.cover == Fill.REQUIRED).sum() == 3 * (9**3 - 5**3)
+    assert (shell.cover != Fill.OPTIONAL).all()
     bare, carried = (baselines.shell_of(cube, 1, columns=columns) for columns in (False, True))
-    assert (bare.cover == Cover.MUST).sum() < (carried.cover == Cover.MUST).sum() < 3 * 9**3
+    assert (bare.cover == Fill.REQUIRED).sum() < (carried.cover == Fill.REQUIRED).sum() < 3 * 9**3
 
 
 def test_bricks_on_nothing_are_counted() -> None:
@@ -211,10 +211,10 @@ def test_bricks_on_nothing_are_counted() -> None:
     grid, catalogue = grid_of(colour), load_catalogue()
     bricks = laid(FIELD[1], grid)
     assert len(bricks) == 3
-    assert nothing_beneath(bricks, connect(bricks, catalogue)) == 1
+    assert nothing_beneath(bricks, contact_graph(bricks, catalogue)) == 1
     colour[1, 0, ::2] = WHITE
     bricks = laid(FIELD[1], grid_of(colour))
-    assert nothing_beneath(bricks, connect(bricks, catalogue)) == 8
+    assert nothing_beneath(bricks, contact_graph(bricks, catalogue)) == 8
 
 
 def test_percentages_are_volumes() -> None:

@@ -12,11 +12,11 @@ from .arrays import Floats
 from .building import Proof
 from .colours import SurfaceColours
 from .mesh import Repairs, TriangleMesh
-from .model import Bricks, Connection, UnitGrid
+from .model import Bricks, ContactGraph, UnitGrid
 from .settings import Settings
 from .slicing import Marks, Slices, Trajectories
 from .statics import Stability
-from .supports import Joint, Supports
+from .supports import AssemblyPlan, Joint
 from .unit_bricks import Offsets
 
 
@@ -70,13 +70,13 @@ class Build:
     hollow : UnitGrid
         What must and what may be built.
     bricks : Bricks
-        The layout, with the posts that stay in it, and the step in which each
+        The layout, with the pillars that stay in it, and the step in which each
         brick is placed.
-    connection : Connection
+    graph : ContactGraph
         How the bricks hold together.
     stability : Stability
         Whether they stand, and the proof.
-    supports : Supports
+    supports : AssemblyPlan
         What stands below them while they are built, and the building order.
     joints : tuple of Joint
         Between the pieces of a split model.
@@ -100,9 +100,9 @@ class Build:
     grid: UnitGrid
     hollow: UnitGrid
     bricks: Bricks
-    connection: Connection
+    graph: ContactGraph
     stability: Stability
-    supports: Supports
+    supports: AssemblyPlan
     joints: tuple[Joint, ...]
     proof: Proof | None
     notes: tuple[str, ...]

@@ -18,7 +18,7 @@ from typing import Any, Final
 import numpy as np
 
 from .errors import LimitError
-from .mesh import TriangleMesh, checked_vertices, scale_of_extent, turned
+from .mesh import TriangleMesh, checked_vertices, scale_of_extent, turn_mesh
 from .progress import duration
 from .settings import Settings
 from .slicing import ALPHA
@@ -120,7 +120,7 @@ def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
     SettingsError
         The mesh has no extent along what shall have the asked size.
     """
-    mesh = turned(mesh, settings.up)
+    mesh = turn_mesh(mesh, settings.up)
     extent = np.ptp(checked_vertices(mesh), axis=0)
     scale = scale_of_extent(
         extent, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale

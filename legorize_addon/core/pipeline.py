@@ -16,15 +16,15 @@ from .building import Proof, prove_steps
 from .colours import SurfaceColours, chosen_palette, surface_colours
 from .errors import enough_memory
 from .estimate import AGAIN, check_limits, estimate
-from .layout import FILLER, lay, with_seen_coloured
-from .layout.joining import strapped
+from .layout import FILLER, lay, recolour_visible
+from .layout.joining import add_ties
 from .layout.learning import learned_table, samples_text
-from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scaled, turned_upright
-from .model import Bricks, Catalogue, Connection, UnitGrid, connect, load_catalogue
+from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
+from .model import Bricks, Catalogue, ContactGraph, UnitGrid, contact_graph, load_catalogue
 from .progress import Overall, Progress, part, silent
 from .report import remarks, remarks_on_building, remarks_on_proof, remarks_on_split
 from .settings import Settings
-from .shell import held_together, hollow
+from .shell import hollow, make_cohesive
 from .slicing import (
     Grid,
     Marks,
@@ -37,17 +37,17 @@ from .slicing import (
     slice_mesh,
 )
 from .statics import Stability, stability
-from .supports import Joint, Supports, segmented, supported, with_falling_propped, with_floating_carried
-from .texturing import remarks_on_unseen, seen_part, with_reduced_images
+from .supports import AssemblyPlan, Joint, add_bracing, add_pillars, plan_assembly, segment
+from .texturing import reduce_images, remarks_on_unseen, seen_part
 from .unit_bricks import (
     Detail,
     Offsets,
+    add_backing,
+    add_offset_bricks,
     dithering_of,
     facing_of,
     remarks_on_dithering,
     unit_bricks,
-    with_backing,
-    with_offset_bricks,
 )
 from .units import PLATES_PER_BRICK
 
@@ -101,26 +101,26 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     with stage("layout"):
         shell, bricks = _laid(shell, settings, palette, table, catalogue, rng, overall)
     with stage("stability"):
-        bricks, connection, found = _standing(bricks, settings, catalogue, overall)
+        bricks, graph, found = _standing(bricks, settings, catalogue, overall)
     with stage("supports"):
-        supports, joints = _supported(bricks, connection, settings, catalogue, overall)
+        supports, joints = _supported(bricks, graph, settings, catalogue, overall)
     if len(supports.stays) > len(bricks):
         with stage("stability again"):
-            connection = connect(supports.stays, catalogue)
-            found = stability(supports.stays, catalogue, connection, hold=settings.hold, progress=overall)
+            graph = contact_graph(supports.stays, catalogue)
+            found = stability(supports.stays, catalogue, graph, clutch=settings.clutch, progress=overall)
     bricks, proof = supports.stays, None
     if settings.prove_steps:
         with stage("proof"):
-            proof = prove_steps(supports.moves, supports.bricks, catalogue, hold=settings.hold, progress=overall)
+            proof = prove_steps(supports.moves, supports.bricks, catalogue, clutch=settings.clutch, progress=overall)
     overall.finish()
-    made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, bricks, connection, found)
+    made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, bricks, graph, found)
     unseen = (*unseen, *remarks_on_dithering(mesh, settings.dithering))
     notes = (*repairs.sentences(), *unseen, *_notes(found, supports, proof, settings, catalogue))
     return Build(settings, *made, supports, joints, proof, notes, timings)
 
 
 def _notes(
-    found: Stability, supports: Supports, proof: Proof | None, settings: Settings, catalogue: Catalogue
+    found: Stability, supports: AssemblyPlan, proof: Proof | None, settings: Settings, catalogue: Catalogue
 ) -> tuple[str, ...]:
     """Return what a user has to know about bricks and building, a sentence each."""
     return (
@@ -138,13 +138,13 @@ def _in_plates(settings: Settings) -> bool:
 def _prepared(mesh: TriangleMesh, settings: Settings) -> tuple[TriangleMesh, Repairs, Floats, float, tuple[str, ...]]:
     """Return the mesh as it is built, its repairs, turn and scale, and what has to be said of what is not seen."""
     mesh, repairs = repair(mesh)
-    mesh, turn = turned_upright(mesh, settings.up)
+    mesh, turn = turn_upright(mesh, settings.up)
     least, scale = settings.least_alpha, partial(_scale, settings=settings)
     mesh, repairs, share = seen_part(mesh, repairs, least=least, scale=scale)
     factor = scale(mesh)
-    mesh = scaled(mesh, factor)
+    mesh = scale_mesh(mesh, factor)
     # where nothing is seen, all of it was taken
-    mesh = with_reduced_images(mesh, least=least * (share < 1), mean=settings.fine_texture == "mean")
+    mesh = reduce_images(mesh, least=least * (share < 1), mean=settings.fine_texture == "mean")
     return mesh, repairs, turn, factor, remarks_on_unseen(share, least=least)
 
 
@@ -225,7 +225,7 @@ def _unit_grid(
         progress=progress,
     )
     check_any(grid, mesh, keep_thin=settings.keep_thin)
-    return grid if facing is None else with_backing(grid, facing, depth=settings.backing)
+    return grid if facing is None else add_backing(grid, facing, depth=settings.backing)
 
 
 def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail | None:
@@ -240,7 +240,7 @@ def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail
 
 def _overhangs(grid: UnitGrid, settings: Settings) -> tuple[UnitGrid, Offsets]:
     """Return the cells with the colours of offset bricks, and those."""
-    return with_offset_bricks(
+    return add_offset_bricks(
         grid,
         plates=_in_plates(settings),
         critical_angle=settings.critical_angle,
@@ -261,7 +261,7 @@ def _hollowed(grid: UnitGrid, settings: Settings, progress: Progress) -> UnitGri
         progress=part(progress, 0.0, 0.8),
     )
     progress("hollowing", 0.8)
-    return held_together(shell_alone, plates=_in_plates(settings))
+    return make_cohesive(shell_alone, plates=_in_plates(settings))
 
 
 def _laid(
@@ -285,31 +285,31 @@ def _laid(
         progress=part(progress, 0.0, 0.97),
     )
     progress("layout", 0.97)
-    bricks, shell = strapped(bricks, shell, catalogue, plates=_in_plates(settings))
-    return shell, with_seen_coloured(bricks, shell, connect(bricks, catalogue), catalogue)
+    bricks, shell = add_ties(bricks, shell, catalogue, plates=_in_plates(settings))
+    return shell, recolour_visible(bricks, shell, contact_graph(bricks, catalogue), catalogue)
 
 
 def _standing(
     bricks: Bricks, settings: Settings, catalogue: Catalogue, progress: Progress
-) -> tuple[Bricks, Connection, Stability]:
-    """Test the bricks by force, with posts under what floats or falls if there may be supports."""
-    connection = connect(bricks, catalogue)
-    tested = partial(stability, catalogue=catalogue, hold=settings.hold, progress=progress)
+) -> tuple[Bricks, ContactGraph, Stability]:
+    """Test the bricks by force, with pillars under what floats or falls if there may be supports."""
+    graph = contact_graph(bricks, catalogue)
+    tested = partial(stability, catalogue=catalogue, clutch=settings.clutch, progress=progress)
     if settings.supports == "none":
-        return bricks, connection, tested(bricks, connection=connection)
-    bricks, connection = with_floating_carried(bricks, catalogue, connection)
-    found = tested(bricks, connection=connection)
-    return with_falling_propped(bricks, catalogue, connection, found, hold=settings.hold, progress=progress)
+        return bricks, graph, tested(bricks, graph=graph)
+    bricks, graph = add_pillars(bricks, catalogue, graph)
+    found = tested(bricks, graph=graph)
+    return add_bracing(bricks, catalogue, graph, found, clutch=settings.clutch, progress=progress)
 
 
 def _supported(
-    bricks: Bricks, connection: Connection, settings: Settings, catalogue: Catalogue, progress: Progress
-) -> tuple[Supports, tuple[Joint, ...]]:
+    bricks: Bricks, graph: ContactGraph, settings: Settings, catalogue: Catalogue, progress: Progress
+) -> tuple[AssemblyPlan, tuple[Joint, ...]]:
     """Cut the model into pieces, put supports under them, and find the building order."""
     progress("supports", 0.0)
-    bricks, joints = segmented(bricks, catalogue, connection, most=settings.split, deepest=settings.hanging)
-    supports = supported(
-        bricks, catalogue, wish=settings.supports, deepest=settings.hanging, hold=settings.hold, progress=progress
+    bricks, joints = segment(bricks, catalogue, graph, most=settings.split, deepest=settings.hanging)
+    supports = plan_assembly(
+        bricks, catalogue, wish=settings.supports, deepest=settings.hanging, clutch=settings.clutch, progress=progress
     )
     return supports, joints
 

@@ -15,7 +15,9 @@ from typing import Any, Literal, get_args, get_type_hints
 from .errors import SettingsError
 
 
-def setting(default: Any, text: str, *, group: str, low: float | None = None, high: float | None = None) -> Any:
+def setting(
+    default: Any, text: str, *, group: str, low: float | None = None, high: float | None = None, was: str = ""
+) -> Any:
     """Declare a setting.
 
     Parameters
@@ -28,13 +30,16 @@ def setting(default: Any, text: str, *, group: str, low: float | None = None, hi
         Section of the panel.
     low, high : float, optional
         Limits of a number, both allowed values.
+    was : str, optional
+        Name that it had in an earlier version: still read from scenes and the
+        command line, with a remark.
 
     Returns
     -------
     Field
         A dataclass field that carries the above as metadata.
     """
-    return field(default=default, metadata={"text": text, "group": group, "low": low, "high": high})
+    return field(default=default, metadata={"text": text, "group": group, "low": low, "high": high, "was": was})
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -144,9 +149,9 @@ class Settings:
         1, "Most pieces in which the model may be built, each on the table by itself, where that saves a fifth of the "
         "supports.", group="Supports", low=1, high=8)
 
-    hold: float = setting(
+    clutch: float = setting(
         0.98, "Pull in N that the friction of one contact point of a stud bears; 0.7 is cautious.",
-        group="Check", low=0.05, high=5.0)
+        group="Check", low=0.05, high=5.0, was="hold")
 
     prove_steps: bool = setting(
         False, "Test by forces after every building step whether what is in place stands, supports included; it "
@@ -197,6 +202,11 @@ def _types() -> dict[str, Any]:
 def choices(entry: Field[Any]) -> tuple[str, ...]:
     """Return the allowed words of a setting, empty where any value may stand."""
     return tuple(str(choice) for choice in get_args(setting_type(entry)))
+
+
+def renamed(entry: Field[Any]) -> str:
+    """Return what to tell who still uses the earlier name of a setting."""
+    return f"The setting {entry.metadata['was']} is called {entry.name} now: its value was taken."
 
 
 def _check(entry: Field[Any], value: Any) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 import bpy
@@ -14,8 +15,8 @@ from ..view import show_result
 from . import job
 from .build_larger import ask
 from .progress_text import STOPPED, progress_text
-from .properties import current_build, settings_of
-from .requests import Order, by_uid, chosen_sources, order_of
+from .properties import current_build, settings_of, take_renamed
+from .requests import BuildRequest, build_request, by_uid, chosen_sources
 
 if TYPE_CHECKING:
     from ..core.build import Build
@@ -153,11 +154,13 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
-    def _take_order(self, context: bpy.types.Context) -> Order:
-        order = order_of(context, chosen_sources(context), settings_of(context.scene.legorize.settings))
+    def _take_order(self, context: bpy.types.Context) -> BuildRequest:
+        renamed = take_renamed(context.scene.legorize.settings)
+        order = build_request(context, chosen_sources(context), settings_of(context.scene.legorize.settings))
+        order = replace(order, remarks=(*renamed, *order.remarks))
         return order.within_limits() if self.larger else order
 
-    def _begin(self, context: bpy.types.Context, order: Order) -> set[str]:
+    def _begin(self, context: bpy.types.Context, order: BuildRequest) -> set[str]:
         try:
             order.check_limits()
         except LimitError as reason:
@@ -165,7 +168,7 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
             return {"CANCELLED"}
         return super()._begin(context, order)
 
-    def _show(self, context: bpy.types.Context, order: Order, build: Build) -> set[str]:
+    def _show(self, context: bpy.types.Context, order: BuildRequest, build: Build) -> set[str]:
         [scene] = by_uid(bpy.data.scenes, [order.scene]) or [None]
         if scene is None:
             raise BuildError("The scene was deleted while its model was being built: open another one and start again.")

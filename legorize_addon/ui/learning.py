@@ -16,7 +16,7 @@ from ..scene import builds_of, is_own, sources_of, state_of
 from .build import Reporting, Working
 from .learned_files import new_file, own_versions, resolved
 from .properties import settings_of
-from .requests import chosen_sources, order_of
+from .requests import build_request, chosen_sources
 
 if TYPE_CHECKING:
     from ..core.mesh import TriangleMesh
@@ -75,14 +75,14 @@ class Lessons:
 
     def work(self, progress: Progress) -> str:
         """Return the text of the next version; no Blender in here."""
-        from ..core.layout.learning import learned_more
+        from ..core.layout.learning import learn_more
 
         turns, n = enumerate(self.models), len(self.models)
         laid = [model.laid(part(progress, _LAYING * turn / n, _LAYING * (turn + 1) / n)) for turn, model in turns]
         progress("learning", _LAYING)
         rng = np.random.default_rng(self.seed)
         names = [model.name for model in self.models]
-        return learned_more(self.text, laid, load_catalogue(), rng, names=names, version=self.version)
+        return learn_more(self.text, laid, load_catalogue(), rng, names=names, version=self.version)
 
 
 class LEGORIZE_OT_learn(Working, bpy.types.Operator):
@@ -155,7 +155,7 @@ def _known(stored: dict[str, Any]) -> Settings:
 
 
 def _lesson(context: bpy.types.Context, sources: Sequence[bpy.types.Object], settings: Settings) -> Lesson:
-    order = order_of(context, sources, settings)
+    order = build_request(context, sources, settings)
     return Lesson(order.name, order.mesh, settings)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from ..core.model import Role, load_catalogue
-from ..core.settings import Settings, choices, setting_type
+from ..core.settings import Settings, choices, renamed, setting_type
 from ..scene import AXES, Section, builds, damage, own_parts, point_objects, set_detail, show_sources, state_of
 from ..view import (
     cut_away,
@@ -71,14 +71,33 @@ def _property(entry: Field[Any]) -> Any:
     return IntProperty(**common, **limits) if kind is int else FloatProperty(**common, **limits)
 
 
+def _earlier_property(entry: Field[Any]) -> Any:
+    """Return the property under which files of an earlier version have a setting."""
+    kind, keywords = _property(entry).function, _property(entry).keywords
+    return kind(**{**keywords, "options": {"HIDDEN"}})
+
+
+RENAMED: Final = [entry for entry in fields(Settings) if entry.metadata["was"]]
+"""Settings that had another name in an earlier version."""
+
 LegorizeSettings = type(
     "LegorizeSettings",
     (bpy.types.PropertyGroup,),
     {
         "__doc__": "The settings of the next build.",
-        "__annotations__": {entry.name: _property(entry) for entry in fields(Settings)},
+        "__annotations__": {entry.name: _property(entry) for entry in fields(Settings)}
+        | {entry.metadata["was"]: _earlier_property(entry) for entry in RENAMED},
     },
 )
+
+
+def take_renamed(group: bpy.types.PropertyGroup) -> tuple[str, ...]:
+    """Move what a file of an earlier version says to today's names; return what to tell of it."""
+    found = [entry for entry in RENAMED if group.is_property_set(entry.metadata["was"])]
+    for entry in found:
+        setattr(group, entry.name, getattr(group, entry.metadata["was"]))
+        group.property_unset(entry.metadata["was"])
+    return tuple(renamed(entry) for entry in found)
 
 
 def settings_of(group: bpy.types.PropertyGroup) -> Settings:

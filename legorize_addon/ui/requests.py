@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Order:
+class BuildRequest:
     """What a build is made of, read on the main thread.
 
     Attributes
@@ -65,7 +65,7 @@ class Order:
 
         check_limits(estimate(self.mesh, self.settings), self.settings)
 
-    def within_limits(self) -> Order:
+    def within_limits(self) -> BuildRequest:
         """Return the same with limits that allow it."""
         from ..core.estimate import estimate, within_limits
 
@@ -116,7 +116,7 @@ def replaced_by(context: bpy.types.Context, sources: Sequence[bpy.types.Object])
     return replaced
 
 
-def order_of(context: bpy.types.Context, sources: Sequence[bpy.types.Object], settings: Settings) -> Order:
+def build_request(context: bpy.types.Context, sources: Sequence[bpy.types.Object], settings: Settings) -> BuildRequest:
     """Read objects, which may be hidden, for a build.
 
     Parameters
@@ -130,14 +130,14 @@ def order_of(context: bpy.types.Context, sources: Sequence[bpy.types.Object], se
 
     Returns
     -------
-    Order
+    BuildRequest
     """
     from ..reading import read_objects
 
     with readable(context, sources):
         context.view_layer.update()
         mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get())
-    return Order(
+    return BuildRequest(
         name=" + ".join(source.name for source in sources),
         scene=context.scene.session_uid,
         sources=tuple(source.session_uid for source in sources),

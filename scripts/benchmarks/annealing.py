@@ -44,7 +44,7 @@ def annealed(layer: Layer, rng: np.random.Generator, moves: int = MOVES) -> Inde
         Rows of the placements of the best layout met.
     """
     state = _State(layer, by_key(largest_in_rows)(layer.problem, rng))
-    count = moves * len(layer.problem.must)
+    count = moves * len(layer.problem.required)
     thrown = rng.integers(len(layer.cells), size=count).tolist()
     dice = rng.random(count).tolist()
     cooling = (COLD / HOT) ** (1 / max(count, 1))
@@ -73,7 +73,7 @@ class _State:
 
     def __init__(self, layer: Layer, chosen: Index) -> None:
         self._layer = layer
-        self._brick = [-1] * len(layer.problem.must)
+        self._brick = [-1] * len(layer.problem.required)
         self._lines = {line: number for number, line in enumerate(dict.fromkeys(layer.line))}
         self._losses: dict[tuple[int, int], float] = {}
         self._bridged, self._alone, self._loss = 0, 0, sum(self._lost(line, 0) for line in self._lines)

@@ -12,10 +12,10 @@ from legorize_addon.core.layout.problem.placements import placements
 from legorize_addon.core.layout.problem.problem import Problem, pose, with_margins
 from legorize_addon.core.layout.problem.shapes import shapes
 from legorize_addon.core.layout.problem.sheets import split
-from legorize_addon.core.layout.problem.table import bricks_of, gathered
+from legorize_addon.core.layout.problem.table import brick_table, gather
 from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import Catalogue
-from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill, UnitGrid
 from legorize_addon.core.shell.hollowing import hollow
 from legorize_addon.core.units import PLATES_PER_BRICK
 from scripts.benchmarks.rules import Index, Way
@@ -30,7 +30,7 @@ def at_once(way: Way) -> Lay:
 
     def laid(grid: UnitGrid, catalogue: Catalogue, rng: np.random.Generator) -> Bricks:
         problem = posed(grid, catalogue)
-        return gathered([bricks_of(problem, way(problem, rng))])
+        return gather([brick_table(problem, way(problem, rng))])
 
     return laid
 
@@ -48,9 +48,9 @@ def upwards(way: LayerWay) -> Lay:
             chosen = way(Layer.of(problem, below), rng)
             below = np.full_like(below, NOBODY)
             below.reshape(-1)[problem.sheets.cells] = problem.owner(chosen)
-            tables.append(bricks_of(problem, chosen))
+            tables.append(brick_table(problem, chosen))
             level = above + PLATES_PER_BRICK
-        return gathered(tables)
+        return gather(tables)
 
     return laid
 
@@ -60,8 +60,8 @@ def posed(grid: UnitGrid, catalogue: Catalogue) -> Problem:
     [sheets] = split(grid)
     codes = np.unique(grid.colour[grid.colour >= 0])
     among = shapes(catalogue, PLATES_PER_BRICK, codes, FILLER)
-    must = with_margins(grid.cover == Cover.MUST, False)
-    return pose(sheets, among, placements(sheets, among), np.full(must.shape, NOBODY, dtype=np.int32), must)
+    required = with_margins(grid.cover == Fill.REQUIRED, False)
+    return pose(sheets, among, placements(sheets, among), np.full(required.shape, NOBODY, dtype=np.int32), required)
 
 
 def layers(problem: Problem) -> Iterator[Problem]:
@@ -71,8 +71,8 @@ def layers(problem: Problem) -> Iterator[Problem]:
         found = problem.placements.on(np.array([row]), sheets.n_cells)
         corner = problem.corner[cell_sheet == row] - (0, 0, row)
         cost = problem.cost[problem.placements.corner[:, 2] == row]
-        must = problem.must[cell_sheet == row]
-        yield Problem(sheets.take(np.array([row])), problem.shapes, found, must, corner, cost)
+        required = problem.required[cell_sheet == row]
+        yield Problem(sheets.take(np.array([row])), problem.shapes, found, required, corner, cost)
 
 
 def shell_of(grid: UnitGrid, thickness: int, *, columns: bool) -> UnitGrid:
@@ -92,6 +92,6 @@ def shell_of(grid: UnitGrid, thickness: int, *, columns: bool) -> UnitGrid:
     UnitGrid
     """
     shell = hollow(grid, shell=thickness, ceilings="pillars" if columns else "free")
-    must = shell.cover == Cover.MUST
-    cover = np.where(must, shell.cover, np.uint8(Cover.EMPTY))
-    return replace(shell, cover=cover, colour=np.where(must, shell.colour, np.int16(COLOUR_EMPTY)))
+    required = shell.cover == Fill.REQUIRED
+    cover = np.where(required, shell.cover, np.uint8(Fill.EMPTY))
+    return replace(shell, cover=cover, colour=np.where(required, shell.colour, np.int16(COLOUR_EMPTY)))

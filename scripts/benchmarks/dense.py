@@ -18,7 +18,7 @@ from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.slicing.coverage import Pieces
 from legorize_addon.core.slicing.lattice import Grid
 from legorize_addon.core.slicing.trajectories import Trajectories
-from legorize_addon.core.unit_bricks.colour_votes import chosen, counted, likeliest_colours
+from legorize_addon.core.unit_bricks.colour_votes import count_votes, likeliest_colours, winning_colours
 from legorize_addon.core.unit_bricks.longest_trajectory import excluded_neighbours, participants
 from legorize_addon.core.unit_bricks.surface_samples import SurfaceSamples, face_normals, inner_cells
 from legorize_addon.core.units import BRICK, STUD
@@ -130,14 +130,14 @@ def dense_longest(
     cell, entry = participants(samples.cell, np.where(on_trajectory, brick, -1), excluded, solid)
     level = _level_share(samples)
     upright = samples.area * np.sqrt(1 - level**2)
-    codes, votes = counted(
+    codes, votes = count_votes(
         np.concatenate([cell, brick]),
         np.concatenate([samples.colour[entry], samples.colour]),
         # as in the core: level surface decides only where no trajectory does
         np.concatenate([upright[entry], samples.area * level * 1e-9]),
         seen,
     )
-    return chosen(codes, votes, votes, seen)
+    return winning_colours(codes, votes, votes, seen)
 
 
 def _level_share(samples: SurfaceSamples) -> Floats:

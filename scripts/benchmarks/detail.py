@@ -58,7 +58,7 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int], judge: Path | None,
         mesh = read_mesh(path)
         for width in widths:
             print(f"{path.stem}, {width} studs", file=sys.stderr, flush=True)
-            # posts that stay would be judged as shape
+            # pillars that stay would be judged as shape
             builds = {way: legorize(mesh, Settings(width=width, plates=way, supports="none")) for way in WAYS}
             said = _judged(builds, judge, path, width, out / "detail") if judge else _compared(builds)
             start: Row = {"model": path.stem, "studs": width}
@@ -110,8 +110,8 @@ def _compared(builds: Mapping[str, Build]) -> dict[str, Facts]:
             "surface_p95": round(like.p95, 3),
             "surface_lost": round(like.lost, 4),
             "colour_error": round(like.colour, 2),
-            "components": build.connection.n_components,
-            "floating": build.connection.n_floating,
+            "components": build.graph.n_components,
+            "floating": build.graph.n_floating,
         }
     return found
 

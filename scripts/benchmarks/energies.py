@@ -9,20 +9,20 @@ import numpy as np
 from legorize_addon.core.layout.learning import energies as features
 from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import Catalogue
-from legorize_addon.core.model.contact_graph import Connection
+from legorize_addon.core.model.contacts import ContactGraph
 
 ENERGIES: Final = ("e_unit_connection", "e_vertical", "e_horizontal", "e_symmetry", "e_efficiency")
 """The paper's energies of a layer."""
 
 
-def energies(bricks: Bricks, links: Connection, catalogue: Catalogue) -> dict[str, float]:
+def energies(bricks: Bricks, links: ContactGraph, catalogue: Catalogue) -> dict[str, float]:
     """Return the paper's energies of a layout, layer by layer, on average over its bricks; lower is better.
 
     Parameters
     ----------
     bricks : Bricks
         All of one height.
-    links : Connection
+    links : ContactGraph
         The same as cells.
     catalogue : Catalogue
 

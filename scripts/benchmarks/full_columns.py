@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from legorize_addon.core.arrays import Mask
 from legorize_addon.core.supports.boxes import TALL, Boxes
-from legorize_addon.core.supports.clearance import Room
-from legorize_addon.core.supports.columns import Cells, covered, with_room
+from legorize_addon.core.supports.clearance import Clearance
+from legorize_addon.core.supports.columns import Cells, covered, within_clearance
 from legorize_addon.core.units import PLATES_PER_BRICK
 
 FLAT: Final = ((6, 2), (4, 2), (6, 1), (3, 2), (4, 1), (2, 2), (3, 1), (2, 1), (1, 1))
@@ -26,7 +26,7 @@ TALL_SIZES: Final = ((4, 2), (2, 2))
 """Type 3: bricks three times as high."""
 
 
-def full_columns(cells: Cells, room: Room) -> Boxes:
+def full_columns(cells: Cells, room: Clearance) -> Boxes:
     """Fill all room below cells with the largest bricks that fit, as support without any optimisation does.
 
     Parameters
@@ -34,14 +34,14 @@ def full_columns(cells: Cells, room: Room) -> Boxes:
     cells : (n, 3) integer array
         Cells (x, y, z) in the room, z the plate on which the carried brick lies.
         Those without room down to the ground are left out.
-    room : Room
+    room : Clearance
 
     Returns
     -------
     (n, 6) int32 array
         Boxes of the paper's three types, and plates right under the cells.
     """
-    x, y, z = with_room(cells, room).T
+    x, y, z = within_clearance(cells, room).T
     height = np.zeros(room.open.shape[1:], dtype=np.int64)
     height[y, x] = z
     layers, plates = np.divmod(height, PLATES_PER_BRICK)

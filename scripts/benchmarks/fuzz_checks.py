@@ -11,7 +11,7 @@ import numpy as np
 from legorize_addon.core.build import Build
 from legorize_addon.core.model.bricks import SUPPORTS
 from legorize_addon.core.model.catalogue import Catalogue, Part
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, Fill
 from legorize_addon.core.report.checks import failed_checks
 from legorize_addon.core.report.report import report
 
@@ -25,8 +25,8 @@ def faults(build: Build, catalogue: Catalogue) -> list[str]:
     parts = cells_of(build, catalogue)
     found = faults_of_bricks(build, catalogue)
     n = n_components(parts)
-    if n != build.connection.n_components:
-        found.append(f"The connection has {build.connection.n_components} components, but there are {n}.")
+    if n != build.graph.n_components:
+        found.append(f"The connection has {build.graph.n_components} components, but there are {n}.")
     checks = failed_checks(report(build, catalogue, version="0", mm_per_unit=1.0))
     if (n > 1) != any(check.startswith("Components") for check in checks):
         found.append(f"There are {n} components, but the checks say: {checks}.")
@@ -72,16 +72,16 @@ def _cover(build: Build, parts: list[set[Cell]]) -> Iterator[str]:
     if twice:
         yield f"{twice} cells are in more than one brick."
     roles = build.bricks.role.tolist()
-    # pillars under ceilings are cells that must be built as well; posts that came later are not
+    # pillars under ceilings are cells that must be built as well; pillars that came later are not
     own = {cell for cells, role in zip(parts, roles, strict=True) if role not in SUPPORTS for cell in cells}
     cover = build.hollow.cover.reshape(-1, *build.hollow.cover.shape[2:])
-    must, may = (
-        {tuple(cell) for cell in np.argwhere(cells).tolist()} for cells in (cover == Cover.MUST, cover != Cover.EMPTY)
+    required, optional = (
+        {tuple(cell) for cell in np.argwhere(cells).tolist()} for cells in (cover == Fill.REQUIRED, cover != Fill.EMPTY)
     )
-    if must - set(count):
-        yield f"{len(must - set(count))} cells that must be built are empty."
-    if own - may:
-        yield f"{len(own - may)} cells are built that must be empty."
+    if required - set(count):
+        yield f"{len(required - set(count))} cells that must be built are empty."
+    if own - optional:
+        yield f"{len(own - optional)} cells are built that must be empty."
 
 
 def _colours(build: Build, catalogue: Catalogue) -> Iterator[str]:
@@ -119,7 +119,7 @@ def n_components(parts: list[set[Cell]]) -> int:
 def n_lumps(build: Build) -> int:
     """Count what hangs together by the faces of the cells that must be built."""
     cover = build.hollow.cover.reshape(-1, *build.hollow.cover.shape[2:])
-    cells = [tuple(cell) for cell in np.argwhere(cover == Cover.MUST).tolist()]
+    cells = [tuple(cell) for cell in np.argwhere(cover == Fill.REQUIRED).tolist()]
     number = {cell: row for row, cell in enumerate(cells)}
     home = list(range(len(cells)))
     for (z, y, x), row in number.items():

@@ -15,10 +15,10 @@ import numpy as np
 from legorize_addon.core.build import Build
 from legorize_addon.core.files.shopping import count_parts, not_made
 from legorize_addon.core.layout.lay import lay
-from legorize_addon.core.measures.lower_bound import bound
+from legorize_addon.core.measures.lower_bound import lower_bound
 from legorize_addon.core.model.bricks import SUPPORTS, Bricks
 from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
-from legorize_addon.core.model.contact_graph import Connection, connect
+from legorize_addon.core.model.contacts import ContactGraph, contact_graph
 from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.report.remarks import remarks
@@ -126,7 +126,7 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int]) -> list[Table]:
         Table("goals_met", "The goals, and the worst of all models", tuple(goals_met(results, costs))),
     ]
     fallen = tuple(row["fallen"] for row in rows if row["fallen"]["reason"])
-    return [*tables, Table("goals_fallen", "What cannot stand without posts, and why", fallen)] if fallen else tables
+    return [*tables, Table("goals_fallen", "What cannot stand without pillars, and why", fallen)] if fallen else tables
 
 
 def _told(path: Path, width: int, row: dict[str, Row]) -> dict[str, Row]:
@@ -157,13 +157,13 @@ def case(path: Path, width: int) -> dict[str, Row]:
     build = legorize(mesh, Settings(width=width))
     memory = peak_memory()
     start: Row = {"model": path.stem, "studs": width}
-    must = must_cells(build.hollow)
-    costs = _costs(build, must, memory, limit=SECONDS.get(width) if small else None)
+    required = must_cells(build.hollow)
+    costs = _costs(build, required, memory, limit=SECONDS.get(width) if small else None)
     bricks = build.bricks.take(~np.isin(build.bricks.role, SUPPORTS))
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     alone = stability(bricks, catalogue, links)
     return {
-        "results": start | _results(build, bricks, links, must, catalogue) | {"by_itself": alone.verdict.value},
+        "results": start | _results(build, bricks, links, required, catalogue) | {"by_itself": alone.verdict.value},
         "costs": start | {"triangles": len(mesh.faces)} | costs,
         "fallen": start | {"reason": "" if alone.stable else " ".join(remarks(bricks, alone, catalogue))},
     }
@@ -179,18 +179,18 @@ def peak_memory() -> float | None:
     return peak / 2**20 if sys.platform == "darwin" else peak / 2**10
 
 
-def _results(build: Build, bricks: Bricks, links: Connection, must: int, catalogue: Catalogue) -> Row:
-    """Return what came out: of the model without the posts that stay in it, but for whether it stands."""
-    fewest = bound(build.hollow, catalogue)
+def _results(build: Build, bricks: Bricks, links: ContactGraph, required: int, catalogue: Catalogue) -> Row:
+    """Return what came out: of the model without the pillars that stay in it, but for whether it stands."""
+    fewest = lower_bound(build.hollow, catalogue)
     before = lay(build.hollow, catalogue, rng=np.random.default_rng(build.settings.seed), join=False)
     singles, forced = single(bricks, catalogue).mean(), fewest_singles(bricks, build.hollow, catalogue) / len(bricks)
     left_out = forced_singles(bricks, build.hollow, catalogue)
     seen, lost = colours_lost(build.grid, bricks, links)
-    cautious = stability(build.bricks, catalogue, build.connection, hold=CAUTIOUS_HOLD)
+    cautious = stability(build.bricks, catalogue, build.graph, clutch=CAUTIOUS_HOLD)
     return {
-        "must": must,
+        "must": required,
         "bricks": len(bricks),
-        "posts": len(build.bricks) - len(bricks),
+        "pillars": len(build.bricks) - len(bricks),
         "bound": fewest,
         "ratio_laid": len(before) / fewest,
         "ratio": len(bricks) / fewest,
@@ -212,17 +212,17 @@ def _results(build: Build, bricks: Bricks, links: Connection, must: int, catalog
     }
 
 
-def _costs(build: Build, must: int, memory: float | None, limit: float | None) -> Row:
+def _costs(build: Build, required: int, memory: float | None, limit: float | None) -> Row:
     """Return what it cost from mesh to proof; supports that are taken out again are not part of it."""
     total = sum(seconds for stage, seconds in build.timings.items() if stage != "supports")
     return {
-        "must": must,
+        "must": required,
         **build.timings,
         "total_s": total,
         "limit_s": limit,
         "time_met": None if limit is None else total <= limit,
-        "layout_us": 1e6 * build.timings["layout"] / must,
-        "layout_met": None if must > CELLS else 1e6 * build.timings["layout"] / must <= LAYOUT,
+        "layout_us": 1e6 * build.timings["layout"] / required,
+        "layout_met": None if required > CELLS else 1e6 * build.timings["layout"] / required <= LAYOUT,
         "memory_mb": memory,
     }
 
@@ -230,7 +230,7 @@ def _costs(build: Build, must: int, memory: float | None, limit: float | None) -
 def goals_met(results: Sequence[Row], costs: Sequence[Row]) -> list[Row]:
     """Return a row for each goal: what is wanted, the worst of all models, and how many keep it."""
     rows = [_goal(goal, results) for goal in GOALS]
-    rows += [_standing(results, hold, wanted) for hold, wanted in ((HOLD, True), (CAUTIOUS_HOLD, False))]
+    rows += [_standing(results, clutch, wanted) for clutch, wanted in ((HOLD, True), (CAUTIOUS_HOLD, False))]
     rows.append(_cost("CPU seconds of the whole way, by their limit", costs, "time_met", _share_of_limit, 1.0))
     rows.append(_cost("layout in microseconds a must cell", costs, "layout_met", lambda row: row["layout_us"], LAYOUT))
     rows += [_growth(costs, width, goal) for width, goal in ((0, GROWTH), (RATIO_SIZES[0], None))]
@@ -259,10 +259,10 @@ def _goal(goal: Goal, results: Sequence[Row]) -> Row:
     return _goal_row(goal.text + at, goal.most, worst, kept, _names(broken), not broken if rows else None)
 
 
-def _standing(results: Sequence[Row], hold: float, wanted: bool) -> Row:
-    fallen = [row for row in results if row[f"at_{hold}"] != Verdict.STABLE.value]
+def _standing(results: Sequence[Row], clutch: float, wanted: bool) -> Row:
+    fallen = [row for row in results if row[f"at_{clutch}"] != Verdict.STABLE.value]
     kept = f"{len(results) - len(fallen)} of {len(results)}"
-    return _goal_row(f"certified at {hold} N", None, None, kept, _names(fallen), not fallen if wanted else None)
+    return _goal_row(f"certified at {clutch} N", None, None, kept, _names(fallen), not fallen if wanted else None)
 
 
 def _cost(text: str, costs: Sequence[Row], met: str, figure: Callable[[Row], float], most: float) -> Row:
@@ -287,7 +287,7 @@ def exponent(costs: Sequence[Row]) -> float | None:
     Parameters
     ----------
     costs : sequence of Row
-        ``model``, ``must`` and ``layout`` of each case.
+        ``model``, ``required`` and ``layout`` of each case.
 
     Returns
     -------

@@ -18,11 +18,11 @@ from legorize_addon.core.geometry.neighbourhoods import outer_air
 from legorize_addon.core.layout.lay import FILLER, lay
 from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
-from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill, UnitGrid
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.report.report import report
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.shell.cohesion import held_together
+from legorize_addon.core.shell.cohesion import make_cohesive
 from legorize_addon.core.shell.hollowing import hollow
 from scripts.benchmarks.meshes import read_mesh
 from scripts.benchmarks.tables import Row, Table
@@ -79,14 +79,14 @@ def fixed_shell(grid: UnitGrid) -> UnitGrid:
         Ready to be laid.
     """
     shell = hollow(grid, shell=SHELL)
-    left_out = shell.cover == Cover.MAY
+    left_out = shell.cover == Fill.OPTIONAL
     shell = replace(
         shell,
-        cover=np.where(left_out, np.uint8(Cover.EMPTY), shell.cover),
+        cover=np.where(left_out, np.uint8(Fill.EMPTY), shell.cover),
         colour=np.where(left_out, np.int16(COLOUR_EMPTY), shell.colour),
     )
     # as the pipeline prepares what hollowing leaves, plates and all
-    return held_together(shell, plates=True)
+    return make_cohesive(shell, plates=True)
 
 
 def _cells(build: Build) -> Row:
@@ -95,9 +95,9 @@ def _cells(build: Build) -> Row:
     within = cover[solid]
     return {
         "solid": len(within),
-        "must_share": float((within == Cover.MUST).mean()),
-        "may_share": float((within == Cover.MAY).mean()),
-        "added_share": int((cover[~solid] == Cover.MUST).sum()) / len(within),
+        "must_share": float((within == Fill.REQUIRED).mean()),
+        "may_share": float((within == Fill.OPTIONAL).mean()),
+        "added_share": int((cover[~solid] == Fill.REQUIRED).sum()) / len(within),
     }
 
 
@@ -114,7 +114,7 @@ def _saved(build: Build, fixed: Bricks, catalogue: Catalogue) -> Row:
         "fixed_mass_g": mass,
         "mass_saved": lighter,
         "saved_met": min(fewer, lighter) >= SAVED,
-        "floating": build.connection.n_floating,
+        "floating": build.graph.n_floating,
     }
 
 
@@ -136,9 +136,9 @@ def soundness(grid: UnitGrid, left: UnitGrid) -> Row:
         built and are not joined, face to face, to the lowest level by what must
         or may be, though they were in the solid model.
     """
-    solid, must = _levels(grid.solid), _levels(left.cover == Cover.MUST)
-    behind_holes = int((outer_air(must) & solid).sum())
-    cut_off = int((must & _standing(solid) & ~_standing(_levels(left.solid))).sum())
+    solid, required = _levels(grid.solid), _levels(left.cover == Fill.REQUIRED)
+    behind_holes = int((outer_air(required) & solid).sum())
+    cut_off = int((required & _standing(solid) & ~_standing(_levels(left.solid))).sum())
     return {"behind_holes": behind_holes, "cut_off": cut_off, "sound_met": behind_holes == cut_off == 0}
 
 

@@ -10,8 +10,8 @@ from legorize_addon.core.files.shopping import count_parts, not_made
 from legorize_addon.core.layout.problem.problem import owners, with_margins
 from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import Catalogue
-from legorize_addon.core.model.contact_graph import Connection, connect
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, Cover, UnitGrid
+from legorize_addon.core.model.contacts import ContactGraph, contact_graph
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, Fill, UnitGrid
 from scripts.benchmarks.baselines import Lay
 from scripts.benchmarks.clock import least_seconds
 from scripts.benchmarks.energies import energies
@@ -26,7 +26,7 @@ class Laid:
     Attributes
     ----------
     bricks : Bricks
-    links : Connection
+    links : ContactGraph
     faults : int
         Cells without or with a wrong brick, and bricks that are not made.
     seconds : float
@@ -34,7 +34,7 @@ class Laid:
     """
 
     bricks: Bricks
-    links: Connection
+    links: ContactGraph
     faults: int
     seconds: float
 
@@ -58,18 +58,18 @@ def timed(way: Lay, shell: UnitGrid, catalogue: Catalogue, *, seed: int, repeats
     -------
     Laid
     """
-    done: list[tuple[Bricks, Connection, int]] = []
+    done: list[tuple[Bricks, ContactGraph, int]] = []
 
     def run() -> None:
         bricks = way(shell, catalogue, np.random.default_rng(seed))
-        links = connect(bricks, catalogue)
+        links = contact_graph(bricks, catalogue)
         done.append((bricks, links, faults(shell, bricks, links, catalogue)))
 
     [seconds] = least_seconds(run, repeats=repeats)
     return Laid(*done[-1], seconds)
 
 
-def faults(shell: UnitGrid, bricks: Bricks, links: Connection, catalogue: Catalogue) -> int:
+def faults(shell: UnitGrid, bricks: Bricks, links: ContactGraph, catalogue: Catalogue) -> int:
     """Count what is wrong with a layout.
 
     Parameters
@@ -77,7 +77,7 @@ def faults(shell: UnitGrid, bricks: Bricks, links: Connection, catalogue: Catalo
     shell : UnitGrid
         What it was to be a layout of.
     bricks : Bricks
-    links : Connection
+    links : ContactGraph
         The same as cells.
     catalogue : Catalogue
 
@@ -89,20 +89,20 @@ def faults(shell: UnitGrid, bricks: Bricks, links: Connection, catalogue: Catalo
     """
     solid = with_margins(shell.solid, False)
     built = owners(links, solid.shape) != NOBODY
-    must = with_margins(shell.cover == Cover.MUST, False)
+    required = with_margins(shell.cover == Fill.REQUIRED, False)
     _, wrong = colours_lost(with_colour_where_built(shell), bricks, links)
     pairs = int(not_made(count_parts(bricks, catalogue), catalogue).count.sum())
-    return links.collisions + int((must & ~built).sum()) + int((built & ~solid).sum()) + wrong + pairs
+    return links.collisions + int((required & ~built).sum()) + int((built & ~solid).sum()) + wrong + pairs
 
 
 def with_colour_where_built(shell: UnitGrid) -> UnitGrid:
     """Return a grid that shows colours only where something has to be built."""
-    return replace(shell, colour=np.where(shell.cover == Cover.MUST, shell.colour, np.int16(COLOUR_ANY)))
+    return replace(shell, colour=np.where(shell.cover == Fill.REQUIRED, shell.colour, np.int16(COLOUR_ANY)))
 
 
 def cells_of(shell: UnitGrid) -> int:
     """Count the cells of a model of bricks that have to be built."""
-    return int((shell.cover == Cover.MUST).all(axis=1).sum())
+    return int((shell.cover == Fill.REQUIRED).all(axis=1).sum())
 
 
 def figures(laid: Laid, catalogue: Catalogue) -> Row:
@@ -121,7 +121,7 @@ def figures(laid: Laid, catalogue: Catalogue) -> Row:
     }
 
 
-def nothing_beneath(bricks: Bricks, links: Connection) -> int:
+def nothing_beneath(bricks: Bricks, links: ContactGraph) -> int:
     """Count the bricks that rest on nothing when a model is built upwards: neither on the ground nor on a brick."""
     resting = bricks.corner[:, 2] == bricks.corner[:, 2].min()
     resting[links.pairs[:, 1]] = True

@@ -11,7 +11,7 @@ from scipy.ndimage import maximum_filter
 
 from legorize_addon.core.arrays import Ints, Mask
 from legorize_addon.core.layout.lay import FILLER
-from legorize_addon.core.layout.problem.candidates import Live
+from legorize_addon.core.layout.problem.candidates import Candidates
 from legorize_addon.core.layout.problem.placements import placements
 from legorize_addon.core.layout.problem.problem import owners
 from legorize_addon.core.layout.problem.shapes import Shapes, shapes
@@ -19,7 +19,7 @@ from legorize_addon.core.layout.problem.sheets import Sheets, split
 from legorize_addon.core.layout.solvers.covering_lp import shares
 from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import Catalogue
-from legorize_addon.core.model.contact_graph import Connection
+from legorize_addon.core.model.contacts import ContactGraph
 from legorize_addon.core.model.unit_grid import UnitGrid
 from legorize_addon.core.units import PLATES_PER_BRICK
 
@@ -41,7 +41,7 @@ def single(bricks: Bricks, catalogue: Catalogue) -> Mask:
 
 def must_cells(grid: UnitGrid) -> int:
     """Count the cells that must be built, one brick high where bricks are laid and one plate high where plates are."""
-    return sum(int(sheets.must.sum()) for sheets in split(grid))
+    return sum(int(sheets.required.sum()) for sheets in split(grid))
 
 
 def alone(grid: UnitGrid, catalogue: Catalogue) -> Mask:
@@ -71,7 +71,7 @@ def alone(grid: UnitGrid, catalogue: Catalogue) -> Mask:
 def _alone(sheet: Sheets, among: Shapes) -> Mask:
     every = placements(sheet, among)
     larger = every.take(np.flatnonzero(every.size > 1))
-    left = sheet.must[0].copy()
+    left = sheet.required[0].copy()
     left.reshape(-1)[sheet.cells[larger.cells]] = False
     return left
 
@@ -114,27 +114,27 @@ def fewest_singles(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue) -> int:
 
 def _fewest(sheet: Sheets, among: Shapes, small: Ints) -> int:
     """Return the bound of one sheet, given the 1 x 1 on its level by x and y."""
-    near = np.zeros(sheet.must[0].shape, dtype=bool)
+    near = np.zeros(sheet.required[0].shape, dtype=bool)
     near[small[:, 1], small[:, 0]] = True
     near = maximum_filter(near, size=2 * NEAR + 1).reshape(-1)[sheet.cells]
-    must = sheet.must.reshape(-1)[sheet.cells]
+    required = sheet.required.reshape(-1)[sheet.cells]
     found = placements(sheet, among)
     # places that need not be covered leave the bound a bound
-    live = Live.of(found).within(near & must)
-    if not len(live.rows):
+    candidates = Candidates.of(found).within(near & required)
+    if not len(candidates.rows):
         return 0
-    cost = (found.size == 1)[live.rows].astype(np.float64)
-    return int(np.ceil(cost @ shares(live, must & near, cost) - ROUNDING))
+    cost = (found.size == 1)[candidates.rows].astype(np.float64)
+    return int(np.ceil(cost @ shares(candidates, required & near, cost) - ROUNDING))
 
 
-def articulations(bricks: Bricks, links: Connection, left_out: Mask | None = None) -> int:
+def articulations(bricks: Bricks, links: ContactGraph, left_out: Mask | None = None) -> int:
     """Count the bricks without which others would hold to the ground no more.
 
     Parameters
     ----------
     bricks : Bricks
         The layout.
-    links : Connection
+    links : ContactGraph
         What holds to what.
     left_out : (n,) bool array, optional
         Bricks that do not count as others, nor by themselves.
@@ -151,12 +151,12 @@ def articulations(bricks: Bricks, links: Connection, left_out: Mask | None = Non
     return len(set(nx.articulation_points(graph)) - {GROUND})
 
 
-def coinciding_seams(links: Connection, bridgeable: Mask | None = None) -> float:
+def coinciding_seams(links: ContactGraph, bridgeable: Mask | None = None) -> float:
     """Return the share of seams that another one lies upon, where a new level of bricks begins on both sides.
 
     Parameters
     ----------
-    links : Connection
+    links : ContactGraph
         The bricks as cells.
     bridgeable : (2, n_z, n_y, n_x) bool array, optional
         As :func:`edges_to_bridge`: seams count as coinciding only where a part
@@ -182,14 +182,14 @@ def coinciding_seams(links: Connection, bridgeable: Mask | None = None) -> float
     return coinciding / max(seams, 1)
 
 
-def edges_to_bridge(grid: UnitGrid, links: Connection, catalogue: Catalogue) -> Mask:
+def edges_to_bridge(grid: UnitGrid, links: ContactGraph, catalogue: Catalogue) -> Mask:
     """Find the edges between cells across which some part could lie: its colour and height allow it.
 
     Parameters
     ----------
     grid : UnitGrid
         The hollowed model.
-    links : Connection
+    links : ContactGraph
         Its bricks as cells.
     catalogue : Catalogue
         Parts and colours.
@@ -219,7 +219,7 @@ def _along(axis: int, part: slice) -> tuple[slice, ...]:
     return tuple(part if each == axis else slice(None) for each in range(3))
 
 
-def colours_lost(grid: UnitGrid, bricks: Bricks, links: Connection) -> tuple[int, int]:
+def colours_lost(grid: UnitGrid, bricks: Bricks, links: ContactGraph) -> tuple[int, int]:
     """Count the cells that are seen, and those of them in which no brick of their colour lies.
 
     Parameters
@@ -228,7 +228,7 @@ def colours_lost(grid: UnitGrid, bricks: Bricks, links: Connection) -> tuple[int
         The solid model before hollowing: what is seen of it has a colour.
     bricks : Bricks
         The layout.
-    links : Connection
+    links : ContactGraph
         The same as cells.
 
     Returns

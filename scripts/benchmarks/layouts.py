@@ -19,16 +19,16 @@ from typing import Final
 
 import numpy as np
 
-from legorize_addon.core.layout.joining.ties import strapped
+from legorize_addon.core.layout.joining.ties import add_ties
 from legorize_addon.core.layout.lay import lay
 from legorize_addon.core.layout.problem.problem import owners, with_margins
-from legorize_addon.core.measures.lower_bound import bound
+from legorize_addon.core.measures.lower_bound import lower_bound
 from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
 from legorize_addon.core.model.unit_grid import UnitGrid
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.shell.cohesion import held_together
+from legorize_addon.core.shell.cohesion import make_cohesive
 from legorize_addon.core.shell.hollowing import hollow
 from scripts.benchmarks import annealing, merging, staggering, tiling
 from scripts.benchmarks.baselines import Lay, at_once, shell_of, upwards
@@ -69,7 +69,7 @@ def ours(tier: str, *, learned: bool = True, join: bool = True) -> Lay:
 
     def laid(grid: UnitGrid, catalogue: Catalogue, rng: np.random.Generator) -> Bricks:
         bricks = lay(grid, catalogue, rng=rng, tier=tier, learned=learned, join=join)
-        return strapped(bricks, grid, catalogue, plates=False)[0] if join else bricks
+        return add_ties(bricks, grid, catalogue, plates=False)[0] if join else bricks
 
     return laid
 
@@ -166,7 +166,7 @@ def case(path: Path, options: Options) -> dict[str, list[Row]]:
     same = {name: run(way, shells[SHELL]) for name, way in METHODS.items()}
     own = {name: same[name] if rule == SHELL else run(METHODS[name], shells[rule]) for name, rule in RULES.items()}
     start: Row = {"model": path.stem, "studs": options.width}
-    fewest = bound(shells[SHELL], catalogue)
+    fewest = lower_bound(shells[SHELL], catalogue)
     head: Row = start | {"cells": cells_of(shells[SHELL]), "bound": fewest}
     best = own[STANDARD].bricks
     peers = against_peer(shells[SHELL], same[STANDARD], options) if options.peer else []
@@ -185,7 +185,7 @@ def hollowed(grid: UnitGrid, settings: Settings) -> dict[str, UnitGrid]:
     return {
         SHELL: shell_of(grid, 2, columns=False),
         COLUMNS: shell_of(grid, 1, columns=True),
-        OWN: held_together(own, plates=False),
+        OWN: make_cohesive(own, plates=False),
     }
 
 

@@ -36,7 +36,7 @@ def merged(problem: Problem, rng: np.random.Generator) -> Index:
         Rows of the placements.
     """
     growth = _Growth(problem)
-    order = rng.permutation(len(problem.must)).tolist()
+    order = rng.permutation(len(problem.required)).tolist()
     # what could not grow may when its neighbours have
     while sum(growth.grow(cell, rng) for cell in order):
         pass
@@ -60,7 +60,7 @@ class _Growth:
         self._beside = neighbours(problem)
         self._unions = Unions(problem.shapes)
         single = np.flatnonzero(found.size == 1)
-        self.brick = [-1] * len(problem.must)
+        self.brick = [-1] * len(problem.required)
         for cell, row in zip(found.cells[found.start[single]].tolist(), single.tolist(), strict=True):
             self.brick[cell] = row
 

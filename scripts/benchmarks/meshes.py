@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from legorize_addon.core.colours.dominant import SurfaceColours, chosen_palette, surface_colours
 from legorize_addon.core.errors import MeshError
 from legorize_addon.core.mesh.size import model_scale
-from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh, repair, scaled
+from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh, repair, scale_mesh
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.units import MM_PER_METRE
@@ -60,7 +60,7 @@ def prepared(path: Path, settings: Settings) -> Model:
     """Read, repair and scale a mesh and find its colours, as the pipeline does."""
     mesh, repairs = repair(read_mesh(path))
     size = {name: getattr(settings, name) for name in ("size_by", "width", "height", "scale")}
-    mesh = scaled(mesh, model_scale(mesh, **size))
+    mesh = scale_mesh(mesh, model_scale(mesh, **size))
     return Model(path.stem, mesh, textured(mesh, settings), repairs)
 
 

@@ -13,7 +13,7 @@ from scipy import ndimage
 from legorize_addon.core.build import Build
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
-from legorize_addon.core.model.unit_grid import Cover
+from legorize_addon.core.model.unit_grid import Fill
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.report.report import report
 from legorize_addon.core.settings import Settings
@@ -90,8 +90,8 @@ def _results(build: Build, catalogue: Catalogue) -> Row:
         "unit_bricks": facts["counts"]["unit_bricks_before"],
         # no layout can join what the cells leave apart
         "cell_components": int(ndimage.label(solid.reshape(-1, *solid.shape[2:]))[1]),
-        "must_plates": int((cover == Cover.MUST).sum()),
-        "may_plates": int((cover == Cover.MAY).sum()),
+        "must_plates": int((cover == Fill.REQUIRED).sum()),
+        "may_plates": int((cover == Fill.OPTIONAL).sum()),
         "bricks": len(build.bricks),
         "share_1x1": float(single[build.bricks.part].mean()),
         **facts["connection"],

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from legorize_addon.core.layout.problem.candidates import Live
+from legorize_addon.core.layout.problem.candidates import Candidates
 from legorize_addon.core.layout.problem.problem import Problem
 
 Index = NDArray[np.intp]
@@ -18,17 +18,17 @@ def by_key(key: Callable[[Problem, np.random.Generator], Index]) -> Way:
     """Return a way that lays whatever has the greatest key where it lies, until nothing fits."""
 
     def way(problem: Problem, rng: np.random.Generator) -> Index:
-        keys, covered, live = (
+        keys, covered, candidates = (
             key(problem, rng).astype(np.int64),
-            np.zeros_like(problem.must),
-            Live.of(problem.placements),
+            np.zeros_like(problem.required),
+            Candidates.of(problem.placements),
         )
-        chosen = [live.rows[:0]]
-        while len(live.rows):
-            won = live.only(live.winners(keys[live.rows], len(covered)))
+        chosen = [candidates.rows[:0]]
+        while len(candidates.rows):
+            won = candidates.only(candidates.winners(keys[candidates.rows], len(covered)))
             chosen.append(won.rows)
             covered[won.cells] = True
-            live = live.clear_of(covered)
+            candidates = candidates.clear_of(covered)
         return np.concatenate(chosen)
 
     return way

@@ -89,7 +89,7 @@ class Layer:
         found = problem.placements
         cells = [part.tolist() for part in np.split(found.cells, found.start[1:-1])]
         order = np.lexsort((np.arange(len(found)), -found.size)).tolist()
-        first: list[list[int]] = [[] for _ in problem.must]
+        first: list[list[int]] = [[] for _ in problem.required]
         for row in order:
             first[min(cells[row])].append(row)
         pairs, line, place = _seams(problem, below)
@@ -140,7 +140,7 @@ def _seams(problem: Problem, below: Plane) -> tuple[Index, Index, Index]:
     """Return the cells beside each seam, (m, 2), the number of its line and its place on that, (m,)."""
     [colour] = problem.sheets.colour
     number = np.full(colour.shape, NOBODY)
-    number[colour != COLOUR_EMPTY] = np.arange(len(problem.must))
+    number[colour != COLOUR_EMPTY] = np.arange(len(problem.required))
     pairs, lines, places = [], [], []
     for cells, under in ((number, below), (number.T, below.T)):
         there = (cells[:, :-1] >= 0) & (cells[:, 1:] >= 0) & (under[:, :-1] >= 0) & (under[:, 1:] >= 0)
@@ -156,7 +156,7 @@ def _seams(problem: Problem, below: Plane) -> tuple[Index, Index, Index]:
 def _touched(problem: Problem, pairs: Index) -> tuple[list[list[int]], list[list[int]]]:
     """Return the seams of which each placement covers one cell, and those of which it covers both."""
     found = problem.placements
-    n, m, n_cells = len(found), len(pairs), len(problem.must)
+    n, m, n_cells = len(found), len(pairs), len(problem.required)
     if m == 0:
         return [[] for _ in range(n)], [[] for _ in range(n)]
     covers = coo_array(

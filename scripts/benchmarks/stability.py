@@ -12,11 +12,11 @@ from scipy.optimize import linprog
 
 from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.statics.collapse import least_hold
+from legorize_addon.core.statics.collapse import least_clutch
 from legorize_addon.core.statics.forces import CAUTIOUS_HOLD, HOLD, Ground, Statics, statics
 from legorize_addon.core.statics.stability import stability
 from scripts.benchmarks.clock import least_seconds, seconds
@@ -74,7 +74,7 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int], repeats: int, progr
 def judged(bricks: Bricks, *, repeats: int, programme: int) -> Row:
     """Return verdicts, proof and times of one model."""
     catalogue = load_catalogue()
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     found = stability(bricks, catalogue, links)
     [taken] = least_seconds(lambda: stability(bricks, catalogue, links), repeats=repeats)
     limit = next((limit for count, limit in LIMITS if len(bricks) <= count), None)
@@ -87,7 +87,7 @@ def judged(bricks: Bricks, *, repeats: int, programme: int) -> Row:
         "floating": len(found.unsupported),
         "verdict": found.verdict.value,
         "standing": found.standing.value,
-        "cautious": stability(bricks, catalogue, links, hold=CAUTIOUS_HOLD).standing.value,
+        "cautious": stability(bricks, catalogue, links, clutch=CAUTIOUS_HOLD).standing.value,
         "check_met": found.check(),
         "worst_margin": float(found.margin[links.grounded].min()),
         "failing": int(np.count_nonzero(found.margin < 0)),
@@ -114,14 +114,14 @@ def case_row(case: Case) -> Row:
     """Return the article's verdict on a case and ours."""
     catalogue = load_catalogue()
     bricks, loads = case.bricks(catalogue), case.loads(catalogue)
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     found = stability(bricks, catalogue, links, ground=Ground.BASEPLATE, loads=loads)
     expected = Verdict.STABLE if case.stands else Verdict.COLLAPSES
     return {
         "case": case.name,
         "bricks": len(bricks),
-        "least_hold_n": least_hold(found.statics),
-        "share_of_hold": least_hold(found.statics) / HOLD,
+        "least_hold_n": least_clutch(found.statics),
+        "share_of_hold": least_clutch(found.statics) / HOLD,
         "article": expected.value,
         "ours": found.verdict.value,
         "iterations": found.iterations,
@@ -134,13 +134,13 @@ def stair_row(levels: int) -> Row:
     """Return the verdicts on a stair."""
     catalogue = load_catalogue()
     bricks = placed(stair(levels), catalogue)
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     verdicts = [
-        stability(bricks, catalogue, links, ground=Ground.BASEPLATE, hold=hold) for hold in (HOLD, CAUTIOUS_HOLD)
+        stability(bricks, catalogue, links, ground=Ground.BASEPLATE, clutch=clutch) for clutch in (HOLD, CAUTIOUS_HOLD)
     ]
     return {
         "levels": levels,
-        "least_hold_n": least_hold(verdicts[0].statics),
+        "least_hold_n": least_clutch(verdicts[0].statics),
         f"at_{HOLD}": verdicts[0].verdict.value,
         f"at_{CAUTIOUS_HOLD}": verdicts[1].verdict.value,
     }

@@ -21,9 +21,9 @@ from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.supports.beams import beams
-from legorize_addon.core.supports.boxes import OUTSIDE_COLOUR, Boxes, bricks_of_boxes, joined_upwards
+from legorize_addon.core.supports.boxes import OUTSIDE_COLOUR, Boxes, bricks_of_boxes, merge_upwards
 from legorize_addon.core.supports.columns import columns, pillars
-from legorize_addon.core.supports.demand import Need, needed
+from legorize_addon.core.supports.demand import Demand, support_demand
 from legorize_addon.core.supports.tree import tree
 from scripts.benchmarks.clock import least_seconds
 from scripts.benchmarks.full_columns import full_columns
@@ -53,14 +53,14 @@ class Supported:
     Attributes
     ----------
     model : str
-    need : Need
+    need : Demand
     made : dict
         Bricks of each kind, and the CPU seconds that they took; those of what is
         built take in the building order and all its checks.
     """
 
     model: str
-    need: Need
+    need: Demand
     made: Made
 
 
@@ -117,7 +117,7 @@ def supported(name: str, mesh: TriangleMesh, *, width: int, repeats: int, catalo
     Supported
     """
     build = legorize(mesh, Settings(width=width, supports="tree"))
-    need = needed(build.bricks, catalogue, build.connection, deepest=build.settings.hanging)
+    need = support_demand(build.bricks, catalogue, build.graph, deepest=build.settings.hanging)
     ways = _ways(need, catalogue)
     taken = least_seconds(*ways.values(), repeats=repeats)
     made = {way: (_white(make(), catalogue), s) for (way, make), s in zip(ways.items(), taken, strict=True)}
@@ -131,13 +131,13 @@ def with_fixtures(paths: Sequence[Path]) -> Iterator[tuple[str, TriangleMesh]]:
     yield from overhanging(FIXTURE_SIZE).items()
 
 
-def _ways(need: Need, catalogue: Catalogue) -> dict[str, Callable[[], Boxes]]:
+def _ways(need: Demand, catalogue: Catalogue) -> dict[str, Callable[[], Boxes]]:
     """Return what makes supports of each kind; all but sparse pillars take tall bricks where they can."""
     contacts = need.contacts.tolist()
     free = np.zeros(len(need.contacts), dtype=bool)
 
     def tall(boxes: Boxes) -> Boxes:
-        return joined_upwards(boxes, catalogue, OUTSIDE_COLOUR)
+        return merge_upwards(boxes, catalogue, OUTSIDE_COLOUR)
 
     return {
         REFERENCE: lambda: tall(full_columns(need.cells, need.room)),

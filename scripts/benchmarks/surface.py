@@ -135,9 +135,9 @@ def likeness(surface: SeenSurface, build: Build, catalogue: Catalogue) -> Likene
     -------
     Likeness
     """
-    owner = build.connection.owner
+    owner = build.graph.owner
     cells, cell = outer_faces(owner >= 0)
-    places = build.grid.origin + (cells + build.connection.low) * CELL_SIZE
+    places = build.grid.origin + (cells + build.graph.low) * CELL_SIZE
     distance, near = cKDTree(places / STUD).query(surface.points / STUD)
     code = build.bricks.colour[owner[tuple(cell[near].T)]]
     codes, row = np.unique(code, return_inverse=True)

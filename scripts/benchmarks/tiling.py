@@ -15,7 +15,7 @@ from typing import Final
 
 import numpy as np
 
-from legorize_addon.core.layout.problem.candidates import Live
+from legorize_addon.core.layout.problem.candidates import Candidates
 from scripts.benchmarks.rules import Index
 from scripts.benchmarks.seams import EQUAL, LARGEST, Layer, Weights
 
@@ -46,13 +46,13 @@ def tiled(layer: Layer, rng: np.random.Generator, most: int = OPEN, weights: Wei
         Rows of the placements.
     """
     del rng
-    live = Live.of(layer.problem.placements)
-    group = live.groups(len(layer.problem.must))
-    everything = (1 << len(layer.problem.must)) - 1
+    candidates = Candidates.of(layer.problem.placements)
+    group = candidates.groups(len(layer.problem.required))
+    everything = (1 << len(layer.problem.required)) - 1
     chosen = 0
     for number in np.unique(group):
         inside = 0
-        for row in np.flatnonzero((group == number) & (live.size == 1)).tolist():
+        for row in np.flatnonzero((group == number) & (candidates.size == 1)).tolist():
             inside |= layer.mask[row]
         chosen = _tiled(layer, everything & ~inside, chosen, most // LARGEST, weights)
     return np.flatnonzero(np.array(list(reversed(f"{chosen:b}"))) == "1")
@@ -60,7 +60,7 @@ def tiled(layer: Layer, rng: np.random.Generator, most: int = OPEN, weights: Wei
 
 def _tiled(layer: Layer, outside: int, chosen: int, width: int, weights: Weights) -> int:
     """Tile what is not outside, beside what is chosen already, and return both."""
-    n_cells = len(layer.problem.must) - outside.bit_count()
+    n_cells = len(layer.problem.required) - outside.bit_count()
     opened: list[dict[int, State]] = [{} for _ in range(n_cells + 1)]
     opened[0][outside] = (0.0, chosen, outside, 0, 0, 0.0, 0)
     for count in range(n_cells):

@@ -845,8 +845,19 @@ def test_end_of_the_memory_is_a_sentence_everywhere(
 
     add_box(BOX)
     source = save(tmp_path / "box.blend")
-    for step in ("read_rendered", "legorize", "report", "texts", "show"):
+    for step in ("read_rendered", "legorize", "report", "output_texts", "show"):
         with monkeypatch.context() as patch:
             patch.setattr(script, step, full)
             flags = ["--width", "4", "--save-blend"]
             assert_refused(script, source, out, "The memory does not suffice", capsys, flags)
+
+
+def test_flags_of_an_earlier_version_are_read(script, capsys) -> None:
+    """The earlier name of a setting works on the command line, with one remark; the help has today's name alone."""
+    parser = script.parser()
+    options = vars(parser.parse_args(["in.obj", "--out", "out", "--hold", "0.5"]))
+    assert script.settings_of({"hold": options["hold"]}) == Settings(clutch=0.5)
+    assert capsys.readouterr().err == "The setting hold is called clutch now: its value was taken.\n"
+    assert "--hold" not in parser.format_help()
+    assert script.settings_of({"clutch": 0.5}) == Settings(clutch=0.5)
+    assert not capsys.readouterr().err

@@ -87,7 +87,7 @@ import sys
 from legorize_addon.core.building import Action, Moves
 from legorize_addon.core.model import Bricks, Role
 print("scipy" in sys.modules)
-from legorize_addon.core.model import connect
+from legorize_addon.core.model import contact_graph
 print("scipy" in sys.modules)
 """
     assert printed(code).split() == ["False", "True"]

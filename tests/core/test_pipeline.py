@@ -14,7 +14,7 @@ from legorize_addon.core.mesh.size import model_scale
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import footprint, load_catalogue
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, Fill
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from tests.core.light import holes
@@ -39,12 +39,14 @@ SMALL = Settings(width=12)
 
 
 def covered(build: Build) -> np.ndarray:
-    """Count how many bricks cover every cell, (3 n_layers, n_y, n_x), leaving out posts that were put in to stay."""
+    """Count how many bricks cover every cell, (3 n_layers, n_y, n_x), leaving out pillars that were put in to stay."""
     parts = load_catalogue().parts
     _, _, n_y, n_x = build.grid.colour.shape
     count = np.zeros((build.grid.colour.shape[0] * 3, n_y, n_x), int)
-    posts = (build.bricks.role == Role.SUPPORT_KEPT).sum() + sum(len(piece.posts) for piece in build.supports.pieces)
-    bricks = build.bricks.take(np.arange(len(build.bricks) - posts))
+    pillars = (build.bricks.role == Role.SUPPORT_KEPT).sum() + sum(
+        len(piece.pillars) for piece in build.supports.pieces
+    )
+    bricks = build.bricks.take(np.arange(len(build.bricks) - pillars))
     for part, corner, turn in zip(bricks.part, bricks.corner, bricks.turn, strict=True):
         for x, y in footprint(parts[part], int(turn)):
             count[corner[2] : corner[2] + parts[part].height, corner[1] + y, corner[0] + x] += 1
@@ -56,8 +58,8 @@ def check(build: Build) -> None:
     hollow = build.hollow
     count = covered(build).reshape(hollow.cover.shape)
     assert count.max() == 1
-    assert (count[hollow.cover == Cover.MUST] == 1).all()
-    assert (count[hollow.cover == Cover.EMPTY] == 0).all()
+    assert (count[hollow.cover == Fill.REQUIRED] == 1).all()
+    assert (count[hollow.cover == Fill.EMPTY] == 0).all()
     catalogue = load_catalogue()
     assert catalogue.exists_in(build.bricks.part, build.bricks.colour).all()
     assert (build.bricks.colour >= 0).all()
@@ -372,11 +374,11 @@ def test_open_mesh_keeps_its_walls_and_is_told():
 
 
 def test_floating_part_is_told():
-    """A body in the air is told, and gets a post unless none is wanted; one piece is not complained about."""
+    """A body in the air is told, and gets a pillar unless none is wanted; one piece is not complained about."""
     build = legorize(KINDS["apart"], Settings(width=15, supports="none"))
     assert any("in the air" in note for note in build.notes)
     carried = legorize(KINDS["apart"], Settings(width=15))
-    assert carried.connection.n_floating == 0
+    assert carried.graph.n_floating == 0
     assert any("stay in the model" in note or "stays in the model" in note for note in carried.notes)
     assert legorize(box(), SMALL).notes == ()
 
@@ -391,17 +393,17 @@ def lattice(cells) -> np.ndarray:
 def test_no_hole_shows_the_inside(kind, plates):
     """From 26 directions no light meets a hollowed-out cell before a brick, and all that must stay is joined."""
     build = legorize(KINDS[kind], Settings(width=20, plates=plates))
-    solid, must, built = (
-        lattice(cells) for cells in (build.grid.solid, build.hollow.cover == Cover.MUST, build.hollow.solid)
+    solid, required, built = (
+        lattice(cells) for cells in (build.grid.solid, build.hollow.cover == Fill.REQUIRED, build.hollow.solid)
     )
-    assert holes(solid, must) == 0
+    assert holes(solid, required) == 0
     # every cell that must be built reaches the ground through cells that must or may be
     label, _ = ndimage.label(built)
     whole, _ = ndimage.label(solid | built)
     lowest = np.unique(label[0][label[0] > 0])
     grounded = np.isin(label, lowest)
     reachable = np.isin(whole, np.unique(whole[0][whole[0] > 0]))
-    assert (grounded | ~must | ~reachable).all()
+    assert (grounded | ~required | ~reachable).all()
 
 
 def test_cavities_and_tunnels_stay():
@@ -422,6 +424,6 @@ def test_hollow_leaves_the_inside_empty():
     full = legorize(box(), Settings(width=12, hollow=False))
     empty = legorize(box(), Settings(width=12))
     assert (full.hollow.cover == full.grid.cover).all()
-    assert (empty.hollow.cover == Cover.EMPTY).sum() > (full.hollow.cover == Cover.EMPTY).sum()
+    assert (empty.hollow.cover == Fill.EMPTY).sum() > (full.hollow.cover == Fill.EMPTY).sum()
     seen = empty.grid.colour > COLOUR_ANY
-    assert (empty.hollow.cover[seen] == Cover.MUST).all()
+    assert (empty.hollow.cover[seen] == Fill.REQUIRED).all()

@@ -18,7 +18,7 @@ WORDS = [name for name, entry in ENTRIES.items() if choices(entry)]
 
 def test_default_hold_is_that_of_the_force_test():
     """Who tests bricks without settings tests them as the product does."""
-    assert Settings().hold == HOLD
+    assert Settings().clutch == HOLD
 
 
 def refusal(name, value) -> str:

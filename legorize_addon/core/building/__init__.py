@@ -9,8 +9,8 @@ from .moves import Action, Moves
 
 if TYPE_CHECKING:
     from .check import Walk, walk
-    from .contacts import Links, links
-    from .order import ordered
+    from .contacts import BuildingContacts, building_contacts
+    from .order import order_moves
     from .proof import Proof, prove_steps
     from .towers import STEADY, Tipping, no_prop, tipping
 else:
@@ -18,8 +18,8 @@ else:
     __getattr__ = on_demand(
         __name__,
         check=("Walk", "walk"),
-        contacts=("Links", "links"),
-        order=("ordered",),
+        contacts=("BuildingContacts", "building_contacts"),
+        order=("order_moves",),
         proof=("Proof", "prove_steps"),
         towers=("STEADY", "Tipping", "no_prop", "tipping"),
     )
@@ -27,14 +27,14 @@ else:
 __all__ = [
     "STEADY",
     "Action",
-    "Links",
+    "BuildingContacts",
     "Moves",
     "Proof",
     "Tipping",
     "Walk",
-    "links",
+    "building_contacts",
     "no_prop",
-    "ordered",
+    "order_moves",
     "prove_steps",
     "tipping",
     "walk",

@@ -10,9 +10,9 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Ints, Mask
-from ..model import NOBODY, Bricks, Catalogue, Rows, components, connect, stacked, stud_columns
+from ..model import NOBODY, Bricks, Catalogue, Rows, components, contact_graph, stacked, stud_columns
 from ..progress import Progress, silent
-from .contacts import Links
+from .contacts import BuildingContacts
 from .moves import Action, Moves
 
 _PAUSE: Final = 256
@@ -61,7 +61,7 @@ def walk(
     moves: Moves,
     bricks: Bricks,
     catalogue: Catalogue,
-    found: Links,
+    found: BuildingContacts,
     *,
     temporary: Mask,
     progress: Progress = silent,
@@ -75,7 +75,7 @@ def walk(
     bricks : Bricks
         Model and supports, n rows.
     catalogue : Catalogue
-    found : Links
+    found : BuildingContacts
         Contacts of these bricks.
     temporary : (n,) bool array
         Bricks that must be gone at the end.
@@ -105,7 +105,7 @@ def walk(
 class _Walked:
     """The bricks in place on the way; those of different assemblies do not touch each other."""
 
-    def __init__(self, bricks: Bricks, catalogue: Catalogue, found: Links) -> None:
+    def __init__(self, bricks: Bricks, catalogue: Catalogue, found: BuildingContacts) -> None:
         n = len(bricks)
         self.bricks, self.catalogue, self.links = bricks, catalogue, found
         self.below, self.above = stacked(found.pairs, n)
@@ -184,7 +184,7 @@ class _Walked:
         """Whether a brick of the first piece lies above one of a piece, which then cannot come from above."""
         first = np.flatnonzero(self.placed & (self.assembly == 0))
         there = np.concatenate([mine, first])
-        owner = connect(self.bricks.take(there), self.catalogue).owner
+        owner = contact_graph(self.bricks.take(there), self.catalogue).owner
         own = (owner != NOBODY) & (owner < len(mine))
         return bool((np.logical_or.accumulate(own, axis=0) & (owner >= len(mine))).any())
 
@@ -205,15 +205,15 @@ class _Walked:
         """Tell which bricks, taken out in this order, have others left below them."""
         there = np.flatnonzero(self.placed & (self.assembly == self.assembly[rows[0]]))
         bricks = self.bricks.take(there)
-        connection = connect(bricks, self.catalogue)
+        graph = contact_graph(bricks, self.catalogue)
         # the turn in which each is taken out, the last place being that of NOBODY
         turn = np.full(len(self.placed), len(rows))
         turn[rows] = np.arange(len(rows))
         turn = np.append(turn[there], -1)
         # the last turn of all bricks in a column, up to each plate
-        latest = np.maximum.accumulate(turn[connection.owner], axis=0)
+        latest = np.maximum.accumulate(turn[graph.owner], axis=0)
         brick, columns = stud_columns(bricks, self.catalogue)
-        x, y, z = (columns - connection.low).T
+        x, y, z = (columns - graph.low).T
         below = np.where(z > 0, latest[z - 1, y, x], -1)
         blocked = np.zeros(len(self.placed), dtype=bool)
         np.logical_or.at(blocked, there[brick], below > turn[brick])

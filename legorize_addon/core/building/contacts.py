@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Ints, Mask
-from ..model import Bricks, Catalogue, Connection, Rows, connect
+from ..model import Bricks, Catalogue, ContactGraph, Rows, contact_graph
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Links:
+class BuildingContacts:
     """Contacts of bricks on their way.
 
     Attributes
@@ -29,7 +29,7 @@ class Links:
     collisions: int
 
 
-def links(bricks: Bricks, catalogue: Catalogue, *, temporary: Mask) -> Links:
+def building_contacts(bricks: Bricks, catalogue: Catalogue, *, temporary: Mask) -> BuildingContacts:
     """Find the contacts of a model in pieces, each with its supports.
 
     Parameters
@@ -43,7 +43,7 @@ def links(bricks: Bricks, catalogue: Catalogue, *, temporary: Mask) -> Links:
 
     Returns
     -------
-    Links
+    BuildingContacts
     """
     stays = np.flatnonzero(~temporary)
     found = [_among(bricks, catalogue, stays, np.ones(len(stays), dtype=bool))]
@@ -52,15 +52,15 @@ def links(bricks: Bricks, catalogue: Catalogue, *, temporary: Mask) -> Links:
         with_it = ~temporary if number == 0 else ~temporary & (bricks.piece == number)
         rows = np.flatnonzero(with_it | (temporary & (bricks.piece == number)))
         found.append(_among(bricks, catalogue, rows, temporary[rows]))
-    return Links(
+    return BuildingContacts(
         pairs=np.concatenate([each.pairs for each in found]),
         studs=np.concatenate([each.studs for each in found]),
         collisions=max(each.collisions for each in found),
     )
 
 
-def _among(bricks: Bricks, catalogue: Catalogue, rows: Ints, wanted: Mask) -> Links:
+def _among(bricks: Bricks, catalogue: Catalogue, rows: Ints, wanted: Mask) -> BuildingContacts:
     """Return the contacts among some bricks of which one at least is wanted."""
-    connection: Connection = connect(bricks.take(rows), catalogue)
-    kept = wanted[connection.pairs].any(axis=1)
-    return Links(rows[connection.pairs[kept]].astype(np.int32), connection.studs[kept], connection.collisions)
+    graph: ContactGraph = contact_graph(bricks.take(rows), catalogue)
+    kept = wanted[graph.pairs].any(axis=1)
+    return BuildingContacts(rows[graph.pairs[kept]].astype(np.int32), graph.studs[kept], graph.collisions)

@@ -19,7 +19,7 @@ from ..progress import Progress, silent
 from .moves import Action, Moves
 
 
-def ordered(bricks: Bricks, pairs: Rows, *, temporary: Mask, progress: Progress = silent) -> Moves:
+def order_moves(bricks: Bricks, pairs: Rows, *, temporary: Mask, progress: Progress = silent) -> Moves:
     """Find a building order.
 
     Parameters

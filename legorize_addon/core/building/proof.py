@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Ints
-from ..model import Bricks, Catalogue, Verdict, connect
+from ..model import Bricks, Catalogue, Verdict, contact_graph
 from ..progress import Progress, silent
 from ..statics import stability
 from .moves import Action, Moves
@@ -38,7 +38,7 @@ class Proof:
 
 
 def prove_steps(
-    moves: Moves, bricks: Bricks, catalogue: Catalogue, *, hold: float, progress: Progress = silent
+    moves: Moves, bricks: Bricks, catalogue: Catalogue, *, clutch: float, progress: Progress = silent
 ) -> Proof:
     """Test the bricks in place after every step by forces.
 
@@ -52,7 +52,7 @@ def prove_steps(
     bricks : Bricks
         Model and supports.
     catalogue : Catalogue
-    hold : float
+    clutch : float
         Pull in N that one contact point bears.
     progress : Progress
         Told before each step; may cancel.
@@ -76,7 +76,7 @@ def prove_steps(
                 placed[moves.brick[row]] = moves.action[row] == Action.PLACE
         start = end + 1
         there = bricks.take(placed & (assembly == piece))
-        found = stability(there, catalogue, connect(there, catalogue), hold=hold)
+        found = stability(there, catalogue, contact_graph(there, catalogue), clutch=clutch)
         verdicts.append(found.verdict)
     steps = moves.step[ends].astype(np.int64)
     bad = [[verdict is each for verdict in verdicts] for each in (Verdict.COLLAPSES, Verdict.UNDECIDED)]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from .lay import FILLER, lay
-from .recolour import with_seen_coloured
+from .recolour import recolour_visible
 
 __all__ = [
     "FILLER",
     "lay",
-    "with_seen_coloured",
+    "recolour_visible",
 ]

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..arrays import Floats, Mask
 from ..errors import BuildError
-from ..model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Cover, UnitGrid, ground_of
+from ..model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Fill, UnitGrid, ground_of
 from ..progress import Progress, silent
 from ..units import PLATES_PER_BRICK
 from .joining import connect_loose, join_by_windows
@@ -31,8 +31,8 @@ from .problem import (
     Rows,
     Shapes,
     Sheets,
-    bricks_of,
-    gathered,
+    brick_table,
+    gather,
     placements,
     pose,
     shapes,
@@ -116,27 +116,27 @@ def lay(
         There is nothing to build, or a must cell cannot be covered, because no
         part of one cell is made in its colour.
     """
-    must = with_margins(grid.cover == Cover.MUST, False)
-    if not must.any():
+    required = with_margins(grid.cover == Fill.REQUIRED, False)
+    if not required.any():
         raise BuildError("The model has 0 cells to build: make it larger.")
     codes = np.unique(grid.colour[grid.colour >= 0])
     work = [(each, shapes(catalogue, each.height, codes, filler)) for each in split(grid)]
-    owner = np.full(must.shape, NOBODY, dtype=np.int32)
-    owner[: ground_of(must)] = GROUND
+    owner = np.full(required.shape, NOBODY, dtype=np.int32)
+    owner[: ground_of(required)] = GROUND
     slab_of_layer = np.cumsum(grid.solid.any(axis=1).sum(axis=(1, 2))) // _SLAB
     worth = (shipped() if table is None else table) if tier == "fast" and learned else None
     laid: list[Bricks] = []
     slabs = np.unique(slab_of_layer)
     for turn, slab in enumerate(slabs):
-        listed = _listed(work, slab_of_layer == slab, owner, must, tier)
+        listed = _listed(work, slab_of_layer == slab, owner, required, tier)
 
         def tell(share: float, turn: int = turn) -> None:
             progress("layout", (turn + share) / len(slabs))
 
-        laid += _passed(listed, _PASSES[tier], owner, must, worth, rng, tell)
+        laid += _passed(listed, _PASSES[tier], owner, required, worth, rng, tell)
     if not join:
-        return gathered(laid)
-    bricks = connect_loose(gathered(laid), grid, work, catalogue, rng, progress)
+        return gather(laid)
+    bricks = connect_loose(gather(laid), grid, work, catalogue, rng, progress)
     return join_by_windows(bricks, grid, work, catalogue, progress)
 
 
@@ -156,14 +156,16 @@ class _Listed:
         return _Listed(self.sheets.take(which), self.among, self.found.on(which, self.sheets.n_cells), price)
 
 
-def _listed(work: Sequence[tuple[Sheets, Shapes]], layers: Mask, owner: Rows, must: Mask, tier: Tier) -> list[_Listed]:
+def _listed(
+    work: Sequence[tuple[Sheets, Shapes]], layers: Mask, owner: Rows, required: Mask, tier: Tier
+) -> list[_Listed]:
     """List what may lie on the sheets of some layers."""
     listed = []
     for sheets, among in work:
         inside = sheets.take(layers[sheets.level // PLATES_PER_BRICK])
         if len(inside):
             found = placements(inside, among)
-            price = guessed_prices(pose(inside, among, found, owner, must)) if tier == "standard" else None
+            price = guessed_prices(pose(inside, among, found, owner, required)) if tier == "standard" else None
             listed.append(_Listed(inside, among, found, price))
     return listed
 
@@ -172,7 +174,7 @@ def _passed(
     listed: Sequence[_Listed],
     passes: Sequence[tuple[Way, float]],
     owner: Rows,
-    must: Mask,
+    required: Mask,
     worth: Mask | None,
     rng: np.random.Generator,
     tell: Callable[[float], None],
@@ -184,7 +186,7 @@ def _passed(
         halves[number % 2] = half = []
         for each in _batches(listed, number % 2, np.inf if way is greedy.cover else _BATCH):
             tell(number / len(passes))
-            problem = pose(each.sheets, each.among, each.found, owner, must, bridge)
+            problem = pose(each.sheets, each.among, each.found, owner, required, bridge)
             half.append(_laid(replace(problem, price=each.price), owner, first, way, worth, rng))
             first += len(half[-1])
     return halves[0] + halves[1]
@@ -217,14 +219,14 @@ def _laid(problem: Problem, owner: Rows, first: int, way: Way, worth: Mask | Non
     if worth is not None:
         chosen = improved(problem, chosen, rng, worth)
     covering = problem.owner(chosen)
-    _check_covered(sheets, problem.must & (covering == NOBODY))
+    _check_covered(sheets, problem.required & (covering == NOBODY))
     here = np.full(sheets.colour.shape, NOBODY, dtype=np.int32)
     here.reshape(-1)[sheets.cells] = np.where(covering == NOBODY, NOBODY, first + covering)
     # bricks and plates of a layer share its planes
     for plate in range(1, sheets.height + 1):
         planes = owner[sheets.level + plate]
         owner[sheets.level + plate] = np.where(sheets.colour == COLOUR_EMPTY, planes, here)
-    return bricks_of(problem, chosen)
+    return brick_table(problem, chosen)
 
 
 def _check_covered(sheets: Sheets, missing: Mask) -> None:

@@ -15,7 +15,7 @@ from scipy import ndimage
 
 from ..arrays import Ints, Mask
 from ..geometry import outer_air
-from ..model import COLOUR_ANY, NOBODY, Bricks, Catalogue, Connection, UnitGrid, ground_of
+from ..model import COLOUR_ANY, NOBODY, Bricks, Catalogue, ContactGraph, UnitGrid, ground_of
 
 _UPWARDS: Final = (1, 0, 0)
 _AROUND: Final = ((-1, 0, 0), (0, -1, 0), (0, 1, 0), (0, 0, -1), (0, 0, 1))
@@ -25,7 +25,7 @@ _ABOVE: Final = 100
 """How many faces beside one face above counts for."""
 
 
-def with_seen_coloured(bricks: Bricks, grid: UnitGrid, connection: Connection, catalogue: Catalogue) -> Bricks:
+def recolour_visible(bricks: Bricks, grid: UnitGrid, graph: ContactGraph, catalogue: Catalogue) -> Bricks:
     """Colour the bricks of free colour that the outer air touches.
 
     Parameters
@@ -34,7 +34,7 @@ def with_seen_coloured(bricks: Bricks, grid: UnitGrid, connection: Connection, c
         A layout of the grid.
     grid : UnitGrid
         The hollowed model: cells of colour ``COLOUR_ANY`` may have any.
-    connection : Connection
+    graph : ContactGraph
         Of the bricks.
     catalogue : Catalogue
 
@@ -45,25 +45,25 @@ def with_seen_coloured(bricks: Bricks, grid: UnitGrid, connection: Connection, c
         colour of the coloured bricks right above them, or else beside them, in
         which their part is made; they stay as they are where there is none.
     """
-    free = _free(bricks, grid, connection)
+    free = _free(bricks, grid, graph)
     # what lies on the ground is not seen from below
-    owner = connection.owner[ground_of(connection.owner != NOBODY) :]
+    owner = graph.owner[ground_of(graph.owner != NOBODY) :]
     seen = ndimage.binary_dilation(outer_air(owner != NOBODY), border_value=0) & (owner != NOBODY)
     wanted = np.zeros(len(bricks), dtype=bool)
     wanted[owner[seen]] = True
     wanted &= free
     # what has taken a colour hands it on
-    while (more := _coloured(bricks, connection, wanted, free, catalogue)) is not None:
+    while (more := _coloured(bricks, graph, wanted, free, catalogue)) is not None:
         bricks, taken = more
         wanted[taken] = free[taken] = False
     return bricks
 
 
 def _coloured(
-    bricks: Bricks, connection: Connection, wanted: Mask, free: Mask, catalogue: Catalogue
+    bricks: Bricks, graph: ContactGraph, wanted: Mask, free: Mask, catalogue: Catalogue
 ) -> tuple[Bricks, Ints] | None:
     """Colour the wanted bricks that have a coloured one beside them; return which, or None if there are none."""
-    brick, colour, faces = _beside(bricks, connection, np.append(wanted, False), free)
+    brick, colour, faces = _beside(bricks, graph, np.append(wanted, False), free)
     made = catalogue.exists_in(bricks.part[brick], colour)
     brick, colour, faces = brick[made], colour[made], faces[made]
     if not len(brick):
@@ -75,20 +75,20 @@ def _coloured(
     return replace(bricks, colour=coloured), brick[first]
 
 
-def _free(bricks: Bricks, grid: UnitGrid, connection: Connection) -> Mask:
+def _free(bricks: Bricks, grid: UnitGrid, graph: ContactGraph) -> Mask:
     """Tell which bricks cover no cell that has a colour."""
     colour = grid.colour.reshape(-1, *grid.colour.shape[2:])
-    cell = np.argwhere(connection.owner != NOBODY)
-    owner = connection.owner[tuple(cell.T)]
-    z, y, x = (cell + connection.low[::-1]).T
+    cell = np.argwhere(graph.owner != NOBODY)
+    owner = graph.owner[tuple(cell.T)]
+    z, y, x = (cell + graph.low[::-1]).T
     free = np.ones(len(bricks), dtype=bool)
     free[owner[colour[z, y, x] != COLOUR_ANY]] = False
     return free
 
 
-def _beside(bricks: Bricks, connection: Connection, wanted: Mask, free: Mask) -> tuple[Ints, Ints, Ints]:
+def _beside(bricks: Bricks, graph: ContactGraph, wanted: Mask, free: Mask) -> tuple[Ints, Ints, Ints]:
     """Count the faces that each wanted brick has in common with coloured ones: brick, colour and faces."""
-    owner = np.pad(connection.owner, 1, constant_values=NOBODY)
+    owner = np.pad(graph.owner, 1, constant_values=NOBODY)
     at = np.argwhere(wanted[owner])
     own = owner[tuple(at.T)]
     found, weight = [], []

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from .lower_bound import bound
+from .lower_bound import lower_bound
 from .pass_through import corner_windings, pass_through_types
 
 __all__ = [
-    "bound",
     "corner_windings",
+    "lower_bound",
     "pass_through_types",
 ]

@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Floats, Mask
-from ..layout.problem import Index, Live, Placements, Shapes, Sheets, blocks, dominated, placements, shapes, split
+from ..layout.problem import Candidates, Index, Placements, Shapes, Sheets, blocks, dominated, placements, shapes, split
 from ..layout.solvers import prices
 from ..model import Catalogue, UnitGrid
 from ..progress import Progress, silent
@@ -37,7 +37,7 @@ _ROUNDING: Final = 1e-6
 """What the prices of a component may lose by rounding."""
 
 
-def bound(grid: UnitGrid, catalogue: Catalogue, *, progress: Progress = silent) -> int:
+def lower_bound(grid: UnitGrid, catalogue: Catalogue, *, progress: Progress = silent) -> int:
     """Return a number of bricks that no layout of a model falls below.
 
     Parameters
@@ -85,25 +85,25 @@ def _batches(found: Placements, n_sheets: int) -> list[Index]:
 def _fewest(sheets: Sheets, among: Shapes, found: Placements) -> int:
     """Return the bound of some sheets."""
     cells = sheets.cells
-    must = sheets.must.reshape(-1)[cells]
-    everything = Live.of(found)
-    live = everything.only(~dominated(found, among, must, np.ones(len(found))))
+    required = sheets.required.reshape(-1)[cells]
+    everything = Candidates.of(found)
+    candidates = everything.only(~dominated(found, among, required, np.ones(len(found))))
     sheet, y, x = np.unravel_index(cells, sheets.colour.shape)
-    price = cell_prices(live, must, np.stack([x, y, sheet], axis=1))
-    group = everything.groups(len(must))
-    of_cell = np.zeros(len(must), dtype=np.intp)
+    price = cell_prices(candidates, required, np.stack([x, y, sheet], axis=1))
+    group = everything.groups(len(required))
+    of_cell = np.zeros(len(required), dtype=np.intp)
     of_cell[found.cells] = np.repeat(group, found.size)
     return int(np.ceil(np.bincount(of_cell, weights=price) - _ROUNDING).sum())
 
 
-def cell_prices(live: Live, must: Mask, corner: Index) -> Floats:
+def cell_prices(candidates: Candidates, required: Mask, corner: Index) -> Floats:
     """Price cells so that no placement is worth more than one brick.
 
     Parameters
     ----------
-    live : Live
+    candidates : Candidates
         Placements that are not dominated.
-    must : (n_cells,) bool array
+    required : (n_cells,) bool array
         Cells that have to be covered.
     corner : (n_cells, 3) intp array
         Where the cells are: x and y in studs, number of the sheet.
@@ -114,25 +114,25 @@ def cell_prices(live: Live, must: Mask, corner: Index) -> Floats:
         Prices in bricks, not above 0 where a cell need not be covered.
     """
     # to begin with, a brick is worth one brick if all of its must cells have no better one
-    needed = np.repeat(live.totals(must[live.cells]), live.size)
-    most = np.ones(len(must), dtype=np.int64)
-    np.maximum.at(most, live.cells, needed)
-    price = np.where(must, 1 / most, 0.0)
-    for part in _parts(live, corner):
-        inside = live.within(part)
-        touching = np.isin(live.rows, inside.rows, assume_unique=True)
-        room = 1 - _worth(live, np.where(part, 0.0, price))[touching]
-        cell, better = prices(inside, must, room)
+    needed = np.repeat(candidates.totals(required[candidates.cells]), candidates.size)
+    most = np.ones(len(required), dtype=np.int64)
+    np.maximum.at(most, candidates.cells, needed)
+    price = np.where(required, 1 / most, 0.0)
+    for part in _parts(candidates, corner):
+        inside = candidates.within(part)
+        touching = np.isin(candidates.rows, inside.rows, assume_unique=True)
+        room = 1 - _worth(candidates, np.where(part, 0.0, price))[touching]
+        cell, better = prices(inside, required, room)
         price[cell] = better
-    return price / max(1.0, _worth(live, price).max(initial=0.0))
+    return price / max(1.0, _worth(candidates, price).max(initial=0.0))
 
 
-def _parts(live: Live, corner: Index) -> Iterator[Mask]:
+def _parts(candidates: Candidates, corner: Index) -> Iterator[Mask]:
     """Yield the cells that are priced together, again and again where they are not all of them."""
-    choice = np.bincount(live.cells, minlength=len(corner))
+    choice = np.bincount(candidates.cells, minlength=len(corner))
     # the middle of a wide area can hardly be worth more
-    part = choice < (choice.max() if len(live.rows) > _LARGE else np.inf)
-    if len(live.within(part).rows) <= _WIDE:
+    part = choice < (choice.max() if len(candidates.rows) > _LARGE else np.inf)
+    if len(candidates.within(part).rows) <= _WIDE:
         # on a checkerboard all cells are alike, and well priced to begin with
         yield from [part] if part.any() else []
         return
@@ -140,6 +140,6 @@ def _parts(live: Live, corner: Index) -> Iterator[Mask]:
         yield from (core & part for _, core in blocks(corner, shift, _SIDE) if (core & part).any())
 
 
-def _worth(live: Live, price: Floats) -> Floats:
+def _worth(candidates: Candidates, price: Floats) -> Floats:
     """Sum the prices of the cells of each placement."""
-    return np.bincount(np.repeat(np.arange(len(live.rows)), live.size), weights=price[live.cells])
+    return np.bincount(np.repeat(np.arange(len(candidates.rows)), candidates.size), weights=price[candidates.cells])

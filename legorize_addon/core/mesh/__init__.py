@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from .rays import vertical_hits
 from .size import check_any, model_scale, scale_of_extent
-from .triangle_mesh import Repairs, TriangleMesh, checked_vertices, repair, scaled
-from .upright import TURNS, stands_better, turned, turned_upright
+from .triangle_mesh import Repairs, TriangleMesh, checked_vertices, repair, scale_mesh
+from .upright import TURNS, stands_better, turn_mesh, turn_upright
 
 __all__ = [
     "TURNS",
@@ -15,10 +15,10 @@ __all__ = [
     "checked_vertices",
     "model_scale",
     "repair",
+    "scale_mesh",
     "scale_of_extent",
-    "scaled",
     "stands_better",
-    "turned",
-    "turned_upright",
+    "turn_mesh",
+    "turn_upright",
     "vertical_hits",
 ]

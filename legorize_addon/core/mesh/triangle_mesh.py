@@ -217,7 +217,7 @@ def checked_vertices(mesh: TriangleMesh) -> Floats:
     return vertices
 
 
-def scaled(mesh: TriangleMesh, factor: float) -> TriangleMesh:
+def scale_mesh(mesh: TriangleMesh, factor: float) -> TriangleMesh:
     """Return the mesh scaled about the origin by a positive factor."""
     return replace(mesh, vertices=mesh.vertices * factor)
 

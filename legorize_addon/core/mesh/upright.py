@@ -51,7 +51,7 @@ _SAMPLES: Final = 1_000_000
 """Triangles that are enough to find the middle of a surface."""
 
 
-def turned_upright(mesh: TriangleMesh, up: str) -> tuple[TriangleMesh, Floats]:
+def turn_upright(mesh: TriangleMesh, up: str) -> tuple[TriangleMesh, Floats]:
     """Turn a mesh so that one of its axes points up.
 
     Parameters
@@ -69,7 +69,7 @@ def turned_upright(mesh: TriangleMesh, up: str) -> tuple[TriangleMesh, Floats]:
         From the old to the new coordinates, for column vectors (x, y, z, 1).
     """
     turn = np.eye(4)
-    standing = turned(mesh, up)
+    standing = turn_mesh(mesh, up)
     if standing is mesh:
         return mesh, turn
     turn[:3, :3] = TURNS[up]
@@ -77,8 +77,8 @@ def turned_upright(mesh: TriangleMesh, up: str) -> tuple[TriangleMesh, Floats]:
     return replace(mesh, vertices=standing.vertices + turn[:3, 3]), turn
 
 
-def turned(mesh: TriangleMesh, up: str) -> TriangleMesh:
-    """Return a mesh turned as by :func:`turned_upright`, but about the origin, whatever its coordinates are."""
+def turn_mesh(mesh: TriangleMesh, up: str) -> TriangleMesh:
+    """Return a mesh turned as by :func:`turn_upright`, but about the origin, whatever its coordinates are."""
     if up in ("auto", "z"):
         return mesh
     return replace(mesh, vertices=mesh.vertices @ np.array(TURNS[up], dtype=np.float64).T)

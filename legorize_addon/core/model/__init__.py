@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING
 
 from ..on_demand import on_demand
 from .brick_columns import Touching, agree, brick_columns, every_plate
-from .bricks import NOBODY, SUPPORTS, Bricks, Role, joined
+from .bricks import NOBODY, SUPPORTS, Bricks, Role, concatenate
 from .catalogue import ASSETS, MISSING_CELL, Catalogue, Colour, Part, footprint, load_catalogue
-from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid, ground_of
+from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
 from .verdict import UNSUPPORTED, Verdict
 
 if TYPE_CHECKING:
-    from .contact_graph import Connection, Rows, components, connect, middles, stacked, stud_columns
+    from .contacts import ContactGraph, Rows, components, contact_graph, middles, stacked, stud_columns
 else:
     # the graphs of scipy
     __getattr__ = on_demand(
         __name__,
-        contact_graph=("Connection", "Rows", "components", "connect", "middles", "stacked", "stud_columns"),
+        contacts=("ContactGraph", "Rows", "components", "contact_graph", "middles", "stacked", "stud_columns"),
     )
 
 __all__ = [
@@ -32,8 +32,8 @@ __all__ = [
     "Bricks",
     "Catalogue",
     "Colour",
-    "Connection",
-    "Cover",
+    "ContactGraph",
+    "Fill",
     "Part",
     "Role",
     "Rows",
@@ -43,11 +43,11 @@ __all__ = [
     "agree",
     "brick_columns",
     "components",
-    "connect",
+    "concatenate",
+    "contact_graph",
     "every_plate",
     "footprint",
     "ground_of",
-    "joined",
     "load_catalogue",
     "middles",
     "stacked",

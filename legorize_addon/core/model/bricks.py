@@ -77,6 +77,6 @@ class Bricks:
         return Bricks(*(getattr(self, name)[rows] for name in self.__slots__))
 
 
-def joined(tables: Sequence[Bricks]) -> Bricks:
+def concatenate(tables: Sequence[Bricks]) -> Bricks:
     """Put tables one behind the other; there must be one at least."""
     return Bricks(*(np.concatenate([getattr(each, name) for each in tables]) for name in Bricks.__slots__))

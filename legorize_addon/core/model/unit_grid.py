@@ -19,12 +19,12 @@ COLOUR_EMPTY: Final = -2
 """Colour of a cell where nothing may be built."""
 
 
-class Cover(IntEnum):
+class Fill(IntEnum):
     """Whether the layout has to fill a cell (visible or carrying), may, or must not."""
 
     EMPTY = 0
-    MAY = 1
-    MUST = 2
+    OPTIONAL = 1
+    REQUIRED = 2
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,7 +36,7 @@ class UnitGrid:
     colour : (n_layers, 3, n_y, n_x) int16 array
         LDraw colour code, ``COLOUR_ANY`` or ``COLOUR_EMPTY``.
     cover : (n_layers, 3, n_y, n_x) uint8 array
-        ``Cover`` of each cell; ``EMPTY`` exactly where the colour is ``COLOUR_EMPTY``.
+        ``Fill`` of each cell; ``EMPTY`` exactly where the colour is ``COLOUR_EMPTY``.
     role : (n_layers, 3, n_y, n_x) uint8 array
         ``Role`` of each cell (of no meaning where it is empty).
     origin : (3,) float64 array
@@ -51,7 +51,7 @@ class UnitGrid:
     @property
     def solid(self) -> Mask:
         """Cells that must or may be built, shape (n_layers, 3, n_y, n_x)."""
-        solid: Mask = self.cover != Cover.EMPTY
+        solid: Mask = self.cover != Fill.EMPTY
         return solid
 
 

@@ -9,19 +9,19 @@ import numpy as np
 
 from ..building import Proof
 from ..model import Catalogue, Role
-from ..supports import SAVING, Supports
-from .remarks import brick_name, counted, layer_of
+from ..supports import SAVING, AssemblyPlan
+from .remarks import brick_name, count_of, layer_of
 
 SHOWN: Final = 5
 """Steps that a sentence names."""
 
 
-def remarks_on_building(supports: Supports, catalogue: Catalogue) -> tuple[str, ...]:
+def remarks_on_building(supports: AssemblyPlan, catalogue: Catalogue) -> tuple[str, ...]:
     """Name what a builder has to know of the supports, and what cannot be built.
 
     Parameters
     ----------
-    supports : Supports
+    supports : AssemblyPlan
         The model with its supports and its order.
     catalogue : Catalogue
         Whose parts and colours the bricks are.
@@ -35,12 +35,12 @@ def remarks_on_building(supports: Supports, catalogue: Catalogue) -> tuple[str, 
     return (*_staying(supports), *_by_hand(supports), *_faults(supports, catalogue))
 
 
-def remarks_on_split(supports: Supports, *, most: int) -> tuple[str, ...]:
+def remarks_on_split(supports: AssemblyPlan, *, most: int) -> tuple[str, ...]:
     """Say why a model that might be built in pieces is in one.
 
     Parameters
     ----------
-    supports : Supports
+    supports : AssemblyPlan
         The model with its supports and its order.
     most : int
         Pieces at most that were asked for.
@@ -81,36 +81,36 @@ def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
         if len(steps):
             which = ", ".join(str(step + 1) for step in steps[:SHOWN].tolist())
             more = f" and {len(steps) - SHOWN} more" if len(steps) > SHOWN else ""
-            sentences.append(f"Bricks in place after {counted(len(steps), 'step', 'steps')} ({which}{more}) {what}.")
+            sentences.append(f"Bricks in place after {count_of(len(steps), 'step', 'steps')} ({which}{more}) {what}.")
     return tuple(sentences)
 
 
-def _staying(supports: Supports) -> Iterator[str]:
+def _staying(supports: AssemblyPlan) -> Iterator[str]:
     """Count the supports that are never taken out."""
     outside = int(np.count_nonzero(supports.stays.role == Role.SUPPORT_KEPT))
-    inside = sum(len(piece.posts) for piece in supports.pieces)
+    inside = sum(len(piece.pillars) for piece in supports.pieces)
     for number, where in (
         (outside, "in the model, under parts of it that would fall without them"),
         (inside, "inside, under closed ceilings"),
     ):
         if number:
-            yield f"{counted(number, 'support brick stays', 'support bricks stay')} {where}."
+            yield f"{count_of(number, 'support brick stays', 'support bricks stay')} {where}."
 
 
-def _by_hand(supports: Supports) -> Iterator[str]:
+def _by_hand(supports: AssemblyPlan) -> Iterator[str]:
     """Count what supports cannot hold on the way."""
     deep = sum(len(piece.need.left) for piece in supports.pieces)
     if deep and any(piece.plan.way != "none" for piece in supports.pieces):
         yield (
-            f"{counted(deep, 'brick hangs', 'bricks hang')} deeper than the limit while building, over parts of the "
+            f"{count_of(deep, 'brick hangs', 'bricks hang')} deeper than the limit while building, over parts of the "
             "model from which no support could be taken out: press them under those above."
         )
     if supports.unsteady:
-        towers = counted(len(supports.unsteady), "tower has", "towers have")
+        towers = count_of(len(supports.unsteady), "tower has", "towers have")
         yield f"{towers} to be held by hand on the way, the first in step {supports.unsteady[0].step + 1}."
 
 
-def _faults(supports: Supports, catalogue: Catalogue) -> Iterator[str]:
+def _faults(supports: AssemblyPlan, catalogue: Catalogue) -> Iterator[str]:
     """Name what the check of the order found."""
     found = supports.walk
     for rows, what in (
@@ -121,9 +121,9 @@ def _faults(supports: Supports, catalogue: Catalogue) -> Iterator[str]:
         if len(rows):
             first = int(rows[0])
             yield (
-                f"The building order has {counted(len(rows), 'brick', 'bricks')} {what}; the first is the "
+                f"The building order has {count_of(len(rows), 'brick', 'bricks')} {what}; the first is the "
                 f"{brick_name(supports.bricks, first, catalogue)} in layer {layer_of(supports.bricks, first)}."
             )
     if loose := len(found.loose_pieces):
-        pieces = counted(loose, "piece that finds", "pieces that find")
+        pieces = count_of(loose, "piece that finds", "pieces that find")
         yield f"The building order has {pieces} no hold or no way when joined: build the model in fewer pieces."

@@ -7,11 +7,11 @@ from typing import Any
 
 def failed_checks(facts: dict[str, Any]) -> list[str]:
     """Return a line for each check that a finished model failed."""
-    connection, colours = facts["connection"], facts["unavailable_part_colours"]
+    graph, colours = facts["connection"], facts["unavailable_part_colours"]
     counts = (
-        (connection["components"], 1, "Components that no brick joins to one model: {}."),
-        (connection["floating"], 0, "Bricks that float, held by nothing below or above: {}."),
-        (connection["collisions"], 0, "Cells that more than one brick claims: {}."),
+        (graph["components"], 1, "Components that no brick joins to one model: {}."),
+        (graph["floating"], 0, "Bricks that float, held by nothing below or above: {}."),
+        (graph["collisions"], 0, "Cells that more than one brick claims: {}."),
         (facts["building"]["steps"] - facts["buildable_steps"], 0, "Steps that cannot be built: {}."),
         (colours["bricks"], 0, "Bricks in a colour in which their part was never made: {}."),
     )

@@ -23,7 +23,7 @@ from .paper_tables import paper_tables
 
 
 @enough_memory()
-def texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:
+def output_texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:
     """Return the contents of the text files by name.
 
     Lists of supports are there only if there are supports to buy, and a list

@@ -16,7 +16,7 @@ import numpy as np
 from ..arrays import Floats
 from ..build import Build
 from ..files import count_parts
-from ..model import SUPPORTS, Bricks, Catalogue, footprint, joined
+from ..model import SUPPORTS, Bricks, Catalogue, concatenate, footprint
 from ..safe_text import csv_text, one_line
 from .report import hollow_ratio
 
@@ -43,7 +43,7 @@ def paper_tables(build: Build, catalogue: Catalogue, *, name: str) -> dict[str, 
         Seconds are those of the layout and of its verification.
     """
     support = np.isin(build.bricks.role, SUPPORTS)
-    supports = joined([build.bricks.take(support), build.supports.removed])
+    supports = concatenate([build.bricks.take(support), build.supports.removed])
     seconds = sum(build.timings.get(stage, 0.0) for stage in ("layout", "stability"))
     ways = " ".join(dict.fromkeys(piece.plan.way for piece in build.supports.pieces))
     return {

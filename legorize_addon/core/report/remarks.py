@@ -82,9 +82,9 @@ def _reasons(bricks: Bricks, found: Stability, catalogue: Catalogue) -> list[str
 def _why(bricks: Bricks, catalogue: Catalogue) -> str:
     """Return why the components are not one."""
     # what this imports takes long to load, and the names above are asked for without it
-    from ..model import connect
+    from ..model import contact_graph
 
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     return reasons(links.owner, links.component)
 
 
@@ -96,7 +96,7 @@ def _hanging(bricks: Bricks, found: Stability, why: str) -> Iterator[str]:
     bodies = len(np.unique(found.component[rows]))
     low, high = (layer_of(bricks, int(row)) for row in rows[_ends(bricks.corner[rows, 2])])
     where = f"layer {low}" if low == high else f"layers {low} to {high}"
-    hang, among = counted(len(rows), "brick hangs", "bricks hang"), counted(bodies, "body", "bodies")
+    hang, among = count_of(len(rows), "brick hangs", "bricks hang"), count_of(bodies, "body", "bodies")
     yield f"{hang} in the air in {among} ({where}): no stud joins them to what stands on the ground; {why}."
 
 
@@ -106,7 +106,7 @@ def _apart(found: Stability, why: str) -> Iterator[str]:
     if len(pieces) > 1:
         yield (
             f"The model stands in {len(pieces)} pieces that no brick joins, the smallest of "
-            f"{counted(int(pieces.min()), 'brick', 'bricks')}: {why}."
+            f"{count_of(int(pieces.min()), 'brick', 'bricks')}: {why}."
         )
 
 
@@ -116,7 +116,7 @@ def _tipping(bricks: Bricks, found: Stability, catalogue: Catalogue) -> Iterator
     for body in np.flatnonzero(found.tipping < 0):
         rows = np.flatnonzero(found.component == body)
         feet = rows[bricks.corner[rows, 2] == bricks.corner[rows, 2].min()]
-        what = f"The piece of {counted(len(rows), 'brick', 'bricks')}" if several else "The model"
+        what = f"The piece of {count_of(len(rows), 'brick', 'bricks')}" if several else "The model"
         on = f"{len(feet)} bricks" if len(feet) > 1 else f"one {brick_name(bricks, int(feet[0]), catalogue)}"
         yield (
             f"{what} tips over: it stands on {on}, and its centre of mass lies {-found.tipping[body]:.1f} mm outside "
@@ -150,6 +150,6 @@ def _ends(levels: Rows) -> list[int]:
     return [int(levels.argmin()), int(levels.argmax())]
 
 
-def counted(n: int, one: str, more: str) -> str:
+def count_of(n: int, one: str, more: str) -> str:
     """Return a number with the words that go with it."""
     return f"{n} {one if n == 1 else more}"

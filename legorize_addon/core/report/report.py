@@ -11,17 +11,17 @@ from ..arrays import Floats, Mask
 from ..build import Build, Cut
 from ..errors import enough_memory
 from ..files import PartsList, count_parts, ldraw_matrix, masses, not_made, pick_a_brick_csv
-from ..measures import bound, corner_windings, pass_through_types
-from ..model import NOBODY, SUPPORTS, Catalogue, Connection, Cover, Role, UnitGrid, brick_columns
+from ..measures import corner_windings, lower_bound, pass_through_types
+from ..model import NOBODY, SUPPORTS, Catalogue, ContactGraph, Fill, Role, UnitGrid, brick_columns
 from ..progress import Progress, silent
 from ..shell import free_bodies, tally_cases
 from ..slicing import cut_at_grid
-from ..supports import Supports
+from ..supports import AssemblyPlan
 from ..unit_bricks import Offsets, OverhangKind, overhang_kinds
 from ..units import PLATES_PER_BRICK
 from .remarks import remarks
 
-SCHEMA: Final = 1
+SCHEMA: Final = 2
 """Version of the keys; raised when one of them changes its meaning."""
 
 
@@ -93,7 +93,7 @@ def report(
         "hollow_ratio": round(hollow_ratio(build), 4),
         "layout": _layout(build, catalogue, progress if with_bound else None),
         "bodies": free_bodies(build.hollow),
-        "connection": _connection(build.connection),
+        "connection": _connection(build.graph),
         "stability": _stability(build, catalogue),
         "buildable_steps": supports.walk.n_steps - len(supports.walk.bad_steps),
         "building": _building(build),
@@ -187,8 +187,8 @@ def _hollowing(build: Build, levels: Mask) -> dict[str, Any]:
     """Return the cells that must and may be built, those of the solid model, and the cases of the paper's regions."""
     cover = build.hollow.cover
     return {
-        "must": int((cover == Cover.MUST).sum()),
-        "may": int((cover == Cover.MAY).sum()),
+        "must": int((cover == Fill.REQUIRED).sum()),
+        "may": int((cover == Fill.OPTIONAL).sum()),
         "solid": int(build.grid.solid.sum()),
         "cases": asdict(tally_cases(levels, upper_only=build.settings.hollow_rule == "upper")),
     }
@@ -212,7 +212,7 @@ def _counts(build: Build, catalogue: Catalogue, parts: PartsList) -> dict[str, A
 
 def _filled(build: Build) -> int:
     """Return the number of the model's cells that bricks fill, other than supports; some bricks fill further cells."""
-    owner, low = build.connection.owner, build.connection.low
+    owner, low = build.graph.owner, build.graph.low
     support = np.isin(build.bricks.role, SUPPORTS)
     cell = np.argwhere(owner != NOBODY)
     cell = cell[~support[owner[tuple(cell.T)]]] + low[::-1]
@@ -221,11 +221,11 @@ def _filled(build: Build) -> int:
     return int(solid[tuple(cell[within].T)].sum())
 
 
-def _connection(connection: Connection) -> dict[str, int]:
+def _connection(graph: ContactGraph) -> dict[str, int]:
     return {
-        "components": connection.n_components,
-        "floating": connection.n_floating,
-        "collisions": connection.collisions,
+        "components": graph.n_components,
+        "floating": graph.n_floating,
+        "collisions": graph.collisions,
     }
 
 
@@ -235,7 +235,7 @@ def _layout(build: Build, catalogue: Catalogue, proving: Progress | None) -> dic
     The bound holds for every layout of the same cells and colours, with the same
     columns laid in bricks and in plates.
     """
-    fewest = None if proving is None else bound(build.hollow, catalogue, progress=proving)
+    fewest = None if proving is None else lower_bound(build.hollow, catalogue, progress=proving)
     return {
         "tier": build.settings.layout,
         "fewest_possible": fewest,
@@ -246,17 +246,17 @@ def _layout(build: Build, catalogue: Catalogue, proving: Progress | None) -> dic
 def _stability(build: Build, catalogue: Catalogue) -> dict[str, Any]:
     """Return the verdict with its reasons, and whether its proof was confirmed by a check apart from the search."""
     found = build.stability
-    enough = found.enough_hold
+    enough = found.enough_clutch
     return {
         "verdict": found.verdict.value,
         "stable": found.stable,
         "reasons": list(remarks(build.bricks, found, catalogue)),
-        "components": build.connection.n_components,
+        "components": build.graph.n_components,
         "worst_margin": round(float(found.margin.min(initial=1.0)), 4),
         "failing": int((found.margin < 0).sum()),
         "weakest": [int(row) for row in found.weakest(5)],
-        "hold_n": build.settings.hold,
-        "enough_hold_n": round(enough, 4) if np.isfinite(enough) else None,
+        "clutch_n": build.settings.clutch,
+        "enough_clutch_n": round(enough, 4) if np.isfinite(enough) else None,
         "residual_n": float(f"{found.residual:.3g}"),
         "proof_confirmed": found.check(),
     }
@@ -287,7 +287,7 @@ def _building(build: Build) -> dict[str, Any]:
     }
 
 
-def _supports(supports: Supports, catalogue: Catalogue) -> dict[str, Any]:
+def _supports(supports: AssemblyPlan, catalogue: Catalogue) -> dict[str, Any]:
     """Return the figures of the supports: those that are taken out, and those that stay."""
     removed, stays = supports.removed, supports.stays
     return {

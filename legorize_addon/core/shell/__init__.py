@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from .cohesion import held_together
+from .cohesion import make_cohesive
 from .hollowing import hollow
 from .near_bodies import free_bodies
 from .regions import tally_cases
 
 __all__ = [
     "free_bodies",
-    "held_together",
     "hollow",
+    "make_cohesive",
     "tally_cases",
 ]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from ..model import UnitGrid
-from .near_bodies import with_bodies_joined
-from .plate_seams import with_joints
-from .roofs import reinforced
+from .near_bodies import join_near_bodies
+from .plate_seams import add_plate_seams
+from .roofs import reinforce_roofs
 
 
-def held_together(grid: UnitGrid, *, plates: bool) -> UnitGrid:
+def make_cohesive(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     """Join bodies that nearly touch, reinforce thin roofs, open walls for what sticks out.
 
     Parameters
@@ -22,5 +22,5 @@ def held_together(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     -------
     UnitGrid
     """
-    grid = reinforced(with_bodies_joined(grid, plates=plates), plates=plates)
-    return with_joints(grid) if plates else grid
+    grid = reinforce_roofs(join_near_bodies(grid, plates=plates), plates=plates)
+    return add_plate_seams(grid) if plates else grid

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Mask
-from ..model import COLOUR_ANY, COLOUR_EMPTY, Cover, Role, UnitGrid
+from ..model import COLOUR_ANY, COLOUR_EMPTY, Fill, Role, UnitGrid
 from ..progress import Progress, part, silent
 from ..units import PLATES_PER_BRICK
 from .ceilings import Columns, Way, carriers
@@ -62,31 +62,31 @@ def hollow(
     Returns
     -------
     UnitGrid
-        ``MUST`` in the shell and in what carries ceilings, ``MAY`` one cell
-        around these, ``EMPTY`` elsewhere; everything ``MUST`` when `shell` is
+        ``REQUIRED`` in the shell and in what carries ceilings, ``OPTIONAL`` one cell
+        around these, ``EMPTY`` elsewhere; everything ``REQUIRED`` when `shell` is
         None. Full columns of three plates have one cover. Colours stay as they
         are in the cells that remain, but ceilings are carried in any colour.
         Shell cells without a colour of their own, which nobody sees, and corbels
         get the role ``INSIDE``, pillars ``SUPPORT_INSIDE``.
     """
     cover, colour, role = grid.cover.copy(), grid.colour.copy(), grid.role.copy()
-    cover[grid.solid] = Cover.MUST
+    cover[grid.solid] = Fill.REQUIRED
     if shell is not None:
-        deep = peeled(grid.solid, shell) if rule == "upper" else eroded(grid.solid, shell, open_bottom=open_bottom)
-        must = grid.solid & ~deep[:, None]
+        deep = peel(grid.solid, shell) if rule == "upper" else erode(grid.solid, shell, open_bottom=open_bottom)
+        required = grid.solid & ~deep[:, None]
         progress("hollowing", 0.2)
         corbels, pillars = carriers(
-            Columns(must[:, 0], must[:, -1], must.all(axis=1), deep), ceilings, part(progress, 0.2, 0.8)
+            Columns(required[:, 0], required[:, -1], required.all(axis=1), deep), ceilings, part(progress, 0.2, 0.8)
         )
         progress("hollowing", 0.8)
         inner = deep & ~(corbels | pillars)
-        may = inner & _grown(~inner & grid.solid.any(axis=1))
-        _fill(cover, inner, Cover.EMPTY)
-        _fill(cover, may, Cover.MAY)
+        optional = inner & _grown(~inner & grid.solid.any(axis=1))
+        _fill(cover, inner, Fill.EMPTY)
+        _fill(cover, optional, Fill.OPTIONAL)
         _fill(colour, corbels | pillars, COLOUR_ANY)
         _fill(role, corbels, Role.INSIDE)
         _fill(role, pillars, Role.SUPPORT_INSIDE)
-    colour[cover == Cover.EMPTY] = COLOUR_EMPTY
+    colour[cover == Fill.EMPTY] = COLOUR_EMPTY
     role[(colour == COLOUR_ANY) & (role == Role.SHELL)] = Role.INSIDE
     return UnitGrid(colour=colour, cover=cover, role=role, origin=grid.origin)
 
@@ -96,7 +96,7 @@ def _fill(cells: NDArray[np.integer], columns: Mask, value: int) -> None:
     np.copyto(cells, cells.dtype.type(value), where=columns[:, None])
 
 
-def eroded(solid: Mask, thickness: int, *, open_bottom: bool = False) -> Mask:
+def erode(solid: Mask, thickness: int, *, open_bottom: bool = False) -> Mask:
     """Return the columns that lie deeper than a shell of the given thickness.
 
     Parameters
@@ -123,7 +123,7 @@ def eroded(solid: Mask, thickness: int, *, open_bottom: bool = False) -> Mask:
     return deep
 
 
-def peeled(solid: Mask, thickness: int) -> Mask:
+def peel(solid: Mask, thickness: int) -> Mask:
     """Return the columns that remain when the paper's rule is applied to the layers above, time after time.
 
     Parameters

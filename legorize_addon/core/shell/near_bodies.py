@@ -14,7 +14,7 @@ from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from ..arrays import Ints
-from ..model import Cover, Role, UnitGrid
+from ..model import Fill, Role, UnitGrid
 from ..units import PLATES_PER_BRICK
 
 _NEAR: Final = np.array([4.0, 2.0, 2.0])
@@ -24,7 +24,7 @@ _ASIDE: Final = 1.5
 """How much farther a step aside counts than one upwards: what is stacked holds by itself."""
 
 
-def with_bodies_joined(grid: UnitGrid, *, plates: bool) -> UnitGrid:
+def join_near_bodies(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     """Fill the gap between bodies that pass within a stud of each other, where it is narrowest.
 
     Parameters
@@ -56,10 +56,10 @@ def with_bodies_joined(grid: UnitGrid, *, plates: bool) -> UnitGrid:
         level, y, x = cells.T
         plate: Ints | slice = level % PLATES_PER_BRICK if plates else slice(None)
         at = level // PLATES_PER_BRICK, plate, y, x
-        empty = cover[at] == Cover.EMPTY
+        empty = cover[at] == Fill.EMPTY
         colour[at] = np.where(empty, colour.reshape(shape)[tuple(start)], colour[at])
         role[at] = np.where(empty, np.uint8(Role.SHELL), role[at])
-        cover[at] = Cover.MUST
+        cover[at] = Fill.REQUIRED
     return replace(grid, colour=colour, cover=cover, role=role)
 
 

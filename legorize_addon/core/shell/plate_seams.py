@@ -23,7 +23,7 @@ _ROUNDS: Final = 8
 """Most rounds: each joins what touches what the rounds before have joined."""
 
 
-def with_joints(grid: UnitGrid) -> UnitGrid:
+def add_plate_seams(grid: UnitGrid) -> UnitGrid:
     """Lay brick columns in plates where nothing else can hold what touches them.
 
     Parameters

@@ -14,7 +14,7 @@ import numpy as np
 from scipy import ndimage
 
 from ..arrays import Mask
-from ..model import COLOUR_ANY, Cover, Role, UnitGrid, agree, brick_columns, every_plate, ground_of
+from ..model import COLOUR_ANY, Fill, Role, UnitGrid, agree, brick_columns, every_plate, ground_of
 from ..units import PLATES_PER_BRICK
 
 _REACH: Final = 2
@@ -24,7 +24,7 @@ _OVERLAP: Final = 2
 """Studs by which the plates under a roof reach below the bricks around."""
 
 
-def reinforced(grid: UnitGrid, *, plates: bool) -> UnitGrid:
+def reinforce_roofs(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     """Put plates, or bricks, of any colour under what nothing else holds.
 
     Parameters
@@ -59,7 +59,7 @@ def reinforced(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     return replace(
         grid,
         colour=np.where(cells, np.int16(COLOUR_ANY), grid.colour),
-        cover=np.where(cells, np.uint8(Cover.MUST), grid.cover),
+        cover=np.where(cells, np.uint8(Fill.REQUIRED), grid.cover),
         role=np.where(cells, np.uint8(Role.PLATE if plates else Role.INSIDE), grid.role),
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .coverage import Pieces, covered, cut_at_grid
+from .coverage import Pieces, covered_area_shares, cut_at_grid
 from .lattice import ALPHA, Grid, fit_grid
 from .layer_differences import Marks, differing_layers
 from .levels import Levels, levels_of
@@ -18,7 +18,7 @@ __all__ = [
     "Slices",
     "Trajectories",
     "adaptive_heights",
-    "covered",
+    "covered_area_shares",
     "cut_at_grid",
     "differing_layers",
     "fit_grid",

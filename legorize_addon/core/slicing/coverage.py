@@ -76,7 +76,7 @@ def cut_at_grid(start: Floats, end: Floats, corner: Floats) -> Pieces:
     return Pieces(edge, np.floor(middle + left.take(edge, axis=0)).astype(np.int64), middle, along)
 
 
-def covered(pieces: Pieces, level: Ints, n_levels: int, n_y: int, n_x: int) -> Floats:
+def covered_area_shares(pieces: Pieces, level: Ints, n_levels: int, n_y: int, n_x: int) -> Floats:
     """Return the area of every cell that the loops of each level enclose.
 
     Parameters
@@ -123,5 +123,5 @@ def covered_area(outline: Outline, n_levels: int, corner: Floats, n_y: int, n_x:
     (n_levels, n_y, n_x) float64 array
     """
     pieces = cut_at_grid(outline.start, outline.ends, corner)
-    area = covered(pieces, outline.slice[pieces.edge].astype(np.int64), n_levels, n_y, n_x)
+    area = covered_area_shares(pieces, outline.slice[pieces.edge].astype(np.int64), n_levels, n_y, n_x)
     return np.clip(area, 0, CELL_AREA)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Ints, Mask
 
 
-def simplified(points: Floats, colour: NDArray[np.int16], loop_start: Ints, deviation: float) -> Mask:
+def simplify(points: Floats, colour: NDArray[np.int16], loop_start: Ints, deviation: float) -> Mask:
     """Choose the points that keep every run of one colour within a distance of its polygon.
 
     The ends of the runs stay; a loop of one colour keeps its first point and the

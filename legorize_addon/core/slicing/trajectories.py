@@ -25,7 +25,7 @@ from ..model import COLOUR_ANY
 from .linking import matched_ends, successors
 from .loops import loop_areas, loop_ends, ordered_loops
 from .nesting import loop_parents
-from .simplify import simplified
+from .simplify import simplify
 from .slices import Slices
 
 Codes = NDArray[np.int16]
@@ -169,7 +169,7 @@ def link_loops(
     loop_start = np.searchsorted(segment, outline.loop_start)
     face = outline.face.take(segment)
     if chord_deviation > 0:
-        keep = simplified(points, colour, loop_start, chord_deviation)
+        keep = simplify(points, colour, loop_start, chord_deviation)
         points, colour, face = points[keep], colour[keep], face[keep]
         loop_start = np.concatenate([[0], np.cumsum(keep)])[loop_start]
     loop_slice = outline.slice[outline.loop_start[:-1]]

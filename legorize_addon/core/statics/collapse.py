@@ -47,7 +47,7 @@ def is_collapse(statics: Statics, motion: Floats) -> bool:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Programme:
+class CollapseProgram:
     """What a linear programme came to.
 
     Attributes
@@ -63,7 +63,7 @@ class Programme:
     motion: Floats
 
 
-def least_imbalance(statics: Statics, bodies: Ints, *, reserve: float = 0.0) -> Programme | None:
+def least_imbalance(statics: Statics, bodies: Ints, *, reserve: float = 0.0) -> CollapseProgram | None:
     """Minimise what is out of balance on some of the bodies, by HiGHS.
 
     The others may exert any force that the contacts bear: what proves that the
@@ -80,7 +80,7 @@ def least_imbalance(statics: Statics, bodies: Ints, *, reserve: float = 0.0) -> 
 
     Returns
     -------
-    Programme or None
+    CollapseProgram or None
         Forces and motion, or ``None`` if HiGHS gave up.
     """
     rows = (bodies[:, None] * EQUATIONS + np.arange(EQUATIONS)).reshape(-1)
@@ -100,10 +100,10 @@ def least_imbalance(statics: Statics, bodies: Ints, *, reserve: float = 0.0) -> 
     forces, motion = np.zeros(len(statics.contacts.least)), np.zeros(len(statics.loads))
     forces[taking_part] = solved.x[: len(taking_part)]
     motion[rows] = -solved.eqlin.marginals
-    return Programme(forces, motion)
+    return CollapseProgram(forces, motion)
 
 
-def least_hold(statics: Statics) -> float:
+def least_clutch(statics: Statics) -> float:
     """Return the least hold of a contact point with which the model would stand, by HiGHS.
 
     Parameters
@@ -120,12 +120,12 @@ def least_hold(statics: Statics) -> float:
     least = statics.contacts.least
     gripping = np.isfinite(least) & (least < 0)
     # every grip is a push less the hold, which is one more unknown
-    hold = csc_array(-(statics.matrix @ gripping.astype(np.float64))[:, None])
+    clutch = csc_array(-(statics.matrix @ gripping.astype(np.float64))[:, None])
     bounds = np.full((len(least) + 1, 2), (0.0, np.inf))
     bounds[:-1][np.isinf(least), 0] = -np.inf
     solved = linprog(
         np.repeat([0.0, 1.0], [len(least), 1]),
-        A_eq=hstack([statics.matrix, hold], format="csc"),
+        A_eq=hstack([statics.matrix, clutch], format="csc"),
         b_eq=-statics.loads,
         bounds=bounds,
         method="highs",

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from ..arrays import Floats, Ints, Mask
-from ..model import NOBODY, Bricks, Catalogue, Connection, Rows, middles, stud_columns
+from ..model import NOBODY, Bricks, Catalogue, ContactGraph, Rows, middles, stud_columns
 from ..units import PLATE, STUD
 
 GRAVITY: Final = 9.81
@@ -57,7 +57,7 @@ class Ground(Enum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Contacts:
+class ContactForces:
     """Forces that bodies exert on each other, one row each: a line of action and the least that it may be.
 
     Attributes
@@ -93,30 +93,30 @@ class Statics:
         (8 mm).
     loads : (5 n,) float64 array
         The same of weights and loads, in N and N times 8 mm.
-    contacts : Contacts
+    contacts : NearContacts
         The forces; their bodies count the rows of ``rows``.
     rows : (n,) int64 array
         Row of each body in the table of bricks.
     middle : (n, 3) float64 array
         Centre of mass of each body in studs.
-    hold : float
+    clutch : float
         Pull in N that one contact point bears.
     """
 
     matrix: csc_array
     loads: Floats
-    contacts: Contacts
+    contacts: ContactForces
     rows: Ints
     middle: Floats
-    hold: float
+    clutch: float
 
 
 def statics(
     bricks: Bricks,
     catalogue: Catalogue,
-    connection: Connection,
+    graph: ContactGraph,
     *,
-    hold: float = HOLD,
+    clutch: float = HOLD,
     ground: Ground = Ground.TABLE,
     loads: Floats | None = None,
 ) -> Statics:
@@ -128,9 +128,9 @@ def statics(
         The model. Its lowest plate is the ground.
     catalogue : Catalogue
         Whose parts the bricks are.
-    connection : Connection
+    graph : ContactGraph
         Cells and components of the bricks.
-    hold : float
+    clutch : float
         Pull in N that one contact point bears.
     ground : Ground
         What the lowest bricks stand on.
@@ -143,21 +143,21 @@ def statics(
         The equations. Bricks that float are not in them.
     """
     squares = stud_columns(bricks, catalogue)
-    middle, rows = _centres(bricks, catalogue), np.flatnonzero(connection.grounded)
+    middle, rows = _centres(bricks, catalogue), np.flatnonzero(graph.grounded)
     narrow = np.array([part.width < 2 for part in catalogue.parts])[bricks.part]
     standing = squares[1][:, 2] == squares[1][:, 2].min(initial=np.iinfo(np.int32).max)
     feet = squares[0][standing], squares[1][standing]
     contacts = _joined(
-        *_studs(bricks, connection, *squares, narrow, hold),
-        *_sides(connection),
-        *(_table(*feet) if ground is Ground.TABLE else _baseplate(*feet, narrow, hold)),
+        *_studs(bricks, graph, *squares, narrow, clutch),
+        *_sides(graph),
+        *(_table(*feet) if ground is Ground.TABLE else _baseplate(*feet, narrow, clutch)),
     )
     contacts = _among(contacts, rows, len(bricks))
     weight = np.zeros((len(bricks), EQUATIONS))
     weight[:, 2] = -GRAVITY * catalogue.mass[bricks.part] / 1000
     if loads is not None:
         weight[:, :3] += loads
-    return Statics(_matrix(contacts, middle[rows]), weight[rows].reshape(-1), contacts, rows, middle[rows], hold)
+    return Statics(_matrix(contacts, middle[rows]), weight[rows].reshape(-1), contacts, rows, middle[rows], clutch)
 
 
 def _centres(bricks: Bricks, catalogue: Catalogue) -> Floats:
@@ -178,28 +178,28 @@ def _grips(columns: Rows, narrow: Mask) -> tuple[Ints, Floats]:
 
 
 def _studs(
-    bricks: Bricks, connection: Connection, brick: Rows, columns: Rows, narrow: Mask, hold: float
-) -> tuple[Contacts, ...]:
+    bricks: Bricks, graph: ContactGraph, brick: Rows, columns: Rows, narrow: Mask, clutch: float
+) -> tuple[ContactForces, ...]:
     """Return the contact points round all studs, and the horizontal forces of each pair of bricks."""
-    x, y, z = (columns - connection.low).T
+    x, y, z = (columns - graph.low).T
     # below the lowest plate the look-up would start again at the top
-    lower = np.where(z > 0, connection.owner[z - 1, y, x], NOBODY)
+    lower = np.where(z > 0, graph.owner[z - 1, y, x], NOBODY)
     held = (lower != NOBODY) & (lower != brick)
     brick, columns, lower = brick[held], columns[held], lower[held]
     of, points = _grips(columns, narrow[brick])
-    below, above = connection.pairs.T
+    below, above = graph.pairs.T
     plane = np.zeros((len(below), 3))
     plane[:, 2] = bricks.corner[above, 2] * (PLATE / STUD)
     return (
-        _along((0, 0, 1), brick[of], lower[of], points, -hold),
+        _along((0, 0, 1), brick[of], lower[of], points, -clutch),
         _along((1, 0, 0), above, below, plane, -np.inf),
         _along((0, 1, 0), above, below, plane, -np.inf),
     )
 
 
-def _sides(connection: Connection) -> tuple[Contacts, ...]:
+def _sides(graph: ContactGraph) -> tuple[ContactForces, ...]:
     """Return a push for each pair of bricks side by side, at the bottom of where they touch as in StableLego."""
-    owner, (low_x, low_y, low_z) = connection.owner, connection.low
+    owner, (low_x, low_y, low_z) = graph.owner, graph.low
     made = []
     for axis, direction in ((2, (1, 0, 0)), (1, (0, 1, 0))):
         stride = owner.strides[axis] // owner.itemsize
@@ -219,7 +219,7 @@ def _sides(connection: Connection) -> tuple[Contacts, ...]:
     return tuple(made)
 
 
-def _table(brick: Rows, columns: Rows) -> tuple[Contacts, ...]:
+def _table(brick: Rows, columns: Rows) -> tuple[ContactForces, ...]:
     """Return the pushes at the corners of the lowest bricks, each leaning four ways as far as friction goes."""
     around = np.array([(0, 0), (0, 1), (1, 0), (1, 1)])
     corners = np.column_stack([np.repeat(brick, 4), (columns[:, None, :2] + around).reshape(-1, 2)])
@@ -232,13 +232,13 @@ def _table(brick: Rows, columns: Rows) -> tuple[Contacts, ...]:
     return tuple(_along(way, corners[:, 0], nobody, points, 0.0) for way in leaning)
 
 
-def _baseplate(brick: Rows, columns: Rows, narrow: Mask, hold: float) -> tuple[Contacts, ...]:
+def _baseplate(brick: Rows, columns: Rows, narrow: Mask, clutch: float) -> tuple[ContactForces, ...]:
     """Return the forces between the lowest bricks and the studs of a plate that never moves."""
     of, points = _grips(columns, narrow[brick])
     standing, first = np.unique(brick, return_index=True)
     nobody, plane = np.full(len(brick), NOBODY), columns[first] * np.array([1, 1, PLATE / STUD])
     return (
-        _along((0, 0, 1), brick[of], nobody[of], points, -hold),
+        _along((0, 0, 1), brick[of], nobody[of], points, -clutch),
         _along((1, 0, 0), standing, nobody[first], plane, -np.inf),
         _along((0, 1, 0), standing, nobody[first], plane, -np.inf),
     )
@@ -250,8 +250,8 @@ def _along(
     by: NDArray[np.integer],
     point: Floats,
     least: float,
-) -> Contacts:
-    return Contacts(
+) -> ContactForces:
+    return ContactForces(
         on.astype(np.int64),
         by.astype(np.int64),
         point.astype(np.float64),
@@ -260,21 +260,21 @@ def _along(
     )
 
 
-def _joined(*parts: Contacts) -> Contacts:
-    return Contacts(*(np.concatenate([getattr(part, name) for part in parts]) for name in Contacts.__slots__))
+def _joined(*parts: ContactForces) -> ContactForces:
+    return ContactForces(*(np.concatenate([getattr(part, name) for part in parts]) for name in ContactForces.__slots__))
 
 
-def _among(contacts: Contacts, rows: Ints, n_bricks: int) -> Contacts:
+def _among(contacts: ContactForces, rows: Ints, n_bricks: int) -> ContactForces:
     """Keep the forces between bricks of which the rows are given, and count bodies by them."""
     # one more place, which NOBODY points at
     body = np.full(n_bricks + 1, NOBODY)
     body[rows] = np.arange(len(rows))
     on, by = body[contacts.on], body[contacts.by]
     kept = (on != NOBODY) & ((by != NOBODY) | (contacts.by == NOBODY))
-    return Contacts(on[kept], by[kept], contacts.point[kept], contacts.direction[kept], contacts.least[kept])
+    return ContactForces(on[kept], by[kept], contacts.point[kept], contacts.direction[kept], contacts.least[kept])
 
 
-def _matrix(contacts: Contacts, middle: Floats) -> csc_array:
+def _matrix(contacts: ContactForces, middle: Floats) -> csc_array:
     """Return the equations: each force adds to one body and takes from another."""
     n, shape = len(contacts.on), (EQUATIONS * len(middle), len(contacts.on))
     bodies = np.stack([contacts.on, contacts.by], axis=1)

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..model import NOBODY, Bricks, Catalogue, Connection
+from ..model import NOBODY, Bricks, Catalogue, ContactGraph
 from ..model import UNSUPPORTED as UNSUPPORTED
 from ..model import Verdict as Verdict
 from ..progress import Progress, silent
@@ -103,11 +103,11 @@ class Stability:
         return self.yielding if self.standing is Verdict.COLLAPSES else np.zeros_like(self.yielding)
 
     @property
-    def enough_hold(self) -> float:
+    def enough_clutch(self) -> float:
         """Hold in N with which the proof still stands, without end if there is none."""
         if not self.stable:
             return float(np.inf)
-        return (1.0 - float(self.margin.min(initial=1.0))) * self.statics.hold
+        return (1.0 - float(self.margin.min(initial=1.0))) * self.statics.clutch
 
     def weakest(self, count: int) -> Ints:
         """Return the rows of the bricks with the least margin, the weakest first."""
@@ -125,9 +125,9 @@ class Stability:
 def stability(
     bricks: Bricks,
     catalogue: Catalogue,
-    connection: Connection,
+    graph: ContactGraph,
     *,
-    hold: float = HOLD,
+    clutch: float = HOLD,
     ground: Ground = Ground.TABLE,
     loads: Floats | None = None,
     aims: tuple[Aim, ...] = AIMS,
@@ -143,9 +143,9 @@ def stability(
         The model.
     catalogue : Catalogue
         Whose parts the bricks are.
-    connection : Connection
+    graph : ContactGraph
         Cells and components of the bricks.
-    hold : float
+    clutch : float
         Pull in N that the friction of one contact point bears, above 0.
     ground : Ground
         What the lowest bricks stand on.
@@ -168,10 +168,10 @@ def stability(
         Verdict, proof and margins.
     """
     progress("stability", 0.0)
-    equations = statics(bricks, catalogue, connection, hold=hold, ground=ground, loads=loads)
+    equations = statics(bricks, catalogue, graph, clutch=clutch, ground=ground, loads=loads)
     found = balance(equations, aims=aims, start=start, progress=progress)
     if not found.found and not found.collapse:
-        found = _toppled(equations, found, connection)
+        found = _toppled(equations, found, graph)
     if programme and not found.found and not found.collapse:
         progress("stability", 1.0)
         found = _programmed(equations, found, programme)
@@ -179,16 +179,16 @@ def stability(
     if found.motion.any():
         yielding[equations.rows] = found.motion.reshape(-1, EQUATIONS) / np.abs(found.motion).max()
     return Stability(
-        component=connection.component.astype(np.int64),
+        component=graph.component.astype(np.int64),
         margin=_margins(equations, found.forces, len(bricks)),
         standing=_verdict(equations, found),
-        unsupported=np.flatnonzero(~connection.grounded),
+        unsupported=np.flatnonzero(~graph.grounded),
         forces=found.forces,
         yielding=yielding,
         torn=torn_by(equations, yielding if found.collapse else np.zeros_like(yielding)),
         residual=float(np.abs(residual(equations, found.forces)).max(initial=0)),
         iterations=found.turns,
-        tipping=tipping(equations, connection),
+        tipping=tipping(equations, graph),
         statics=equations,
     )
 
@@ -202,9 +202,9 @@ def _verdict(equations: Statics, found: Balance) -> Verdict:
     return Verdict.UNDECIDED
 
 
-def _toppled(equations: Statics, found: Balance, connection: Connection) -> Balance:
+def _toppled(equations: Statics, found: Balance, graph: ContactGraph) -> Balance:
     """See whether it tips over as a whole: the slowest motion to find by search, and the quickest to write down."""
-    motion = toppling(equations, connection)
+    motion = toppling(equations, graph)
     if not is_collapse(equations, motion):
         return found
     return Balance(found.forces, False, motion, True, found.turns)
@@ -234,7 +234,7 @@ def _margins(equations: Statics, forces: Floats, n_bricks: int) -> Floats:
     contacts = equations.contacts
     bounded = np.isfinite(contacts.least)
     # a force that only pushes uses no friction, but is missing as soon as it would have to pull
-    left = np.minimum(forces, 0.0) / equations.hold + (contacts.least < 0)
+    left = np.minimum(forces, 0.0) / equations.clutch + (contacts.least < 0)
     margin = np.ones(len(equations.rows))
     for bodies in (contacts.on, contacts.by):
         counted = bounded & (bodies != NOBODY) & ((contacts.least < 0) | (forces < 0))

@@ -13,19 +13,19 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..geometry import beyond, hull, inside
-from ..model import NOBODY, Connection
+from ..model import NOBODY, ContactGraph
 from ..units import STUD
 from .forces import EQUATIONS, Statics
 
 
-def tipping(equations: Statics, connection: Connection) -> Floats:
+def tipping(equations: Statics, graph: ContactGraph) -> Floats:
     """Return how far inside the feet of each component its weight and loads meet the ground.
 
     Parameters
     ----------
     equations : Statics
         The balance of the bricks that stand.
-    connection : Connection
+    graph : ContactGraph
         Their components.
 
     Returns
@@ -34,21 +34,21 @@ def tipping(equations: Statics, connection: Connection) -> Floats:
         Distance to the outline of the feet in mm, less than 0 outside of it; not
         a number for what hangs in the air, minus infinity for what is lifted.
     """
-    found = np.full(connection.n_components, np.nan)
-    for number, members, feet in _bodies(equations, connection):
+    found = np.full(graph.n_components, np.nan)
+    for number, members, feet in _bodies(equations, graph):
         place = _resultant(equations, members, feet[0, 2])
         found[number] = -np.inf if place is None else inside(feet[:, :2], place) * STUD
     return found
 
 
-def toppling(equations: Statics, connection: Connection) -> Floats:
+def toppling(equations: Statics, graph: ContactGraph) -> Floats:
     """Return the motion of all bodies that tip over.
 
     Parameters
     ----------
     equations : Statics
         The balance of the bricks that stand.
-    connection : Connection
+    graph : ContactGraph
         Their components.
 
     Returns
@@ -59,7 +59,7 @@ def toppling(equations: Statics, connection: Connection) -> Floats:
         0 for those that do not.
     """
     motion = np.zeros((len(equations.rows), EQUATIONS))
-    for _, members, feet in _bodies(equations, connection):
+    for _, members, feet in _bodies(equations, graph):
         place = _resultant(equations, members, feet[0, 2])
         if place is None:
             continue
@@ -70,11 +70,11 @@ def toppling(equations: Statics, connection: Connection) -> Floats:
     return motion.reshape(-1)
 
 
-def _bodies(equations: Statics, connection: Connection) -> Iterator[tuple[int, Ints, Floats]]:
+def _bodies(equations: Statics, graph: ContactGraph) -> Iterator[tuple[int, Ints, Floats]]:
     """Yield each component that stands: its number, its bodies, and where its feet touch the ground, (k, 3)."""
     contacts = equations.contacts
     feet = np.flatnonzero(contacts.by == NOBODY)
-    component = connection.component[equations.rows]
+    component = graph.component[equations.rows]
     for number in np.unique(component):
         below = contacts.point[feet[component[contacts.on[feet]] == number]]
         yield int(number), np.flatnonzero(component == number), below

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from .assembly_plan import Supports, supported
-from .bracing import with_falling_propped
-from .pillars import with_floating_carried
-from .segmentation import SAVING, Joint, segmented
+from .assembly_plan import AssemblyPlan, plan_assembly
+from .bracing import add_bracing
+from .pillars import add_pillars
+from .segmentation import SAVING, Joint, segment
 
 __all__ = [
     "SAVING",
+    "AssemblyPlan",
     "Joint",
-    "Supports",
-    "segmented",
-    "supported",
-    "with_falling_propped",
-    "with_floating_carried",
+    "add_bracing",
+    "add_pillars",
+    "plan_assembly",
+    "segment",
 ]

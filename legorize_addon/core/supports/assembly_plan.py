@@ -9,14 +9,14 @@ from typing import Final, Literal
 import numpy as np
 
 from ..arrays import Ints, Mask
-from ..building import Links, Moves, Tipping, Walk, links, ordered, walk
-from ..model import Bricks, Catalogue, Role, connect, joined
+from ..building import BuildingContacts, Moves, Tipping, Walk, building_contacts, order_moves, walk
+from ..model import Bricks, Catalogue, Role, concatenate, contact_graph
 from ..progress import Progress, part, silent
 from ..statics import HOLD
-from .clearance import Room, room_around
-from .demand import Need, needed
-from .pillars import with_inside_carried
-from .plan import Plan, Way, planned
+from .clearance import Clearance, clearance_around
+from .demand import Demand, support_demand
+from .pillars import add_inner_pillars
+from .plan import Plan, Way, plan_supports
 
 Wish = Literal["best", Way]
 
@@ -35,28 +35,28 @@ class Piece:
     ----------
     rows : (k,) int64 array
         Rows of its bricks in the model as it came in.
-    posts : Bricks
+    pillars : Bricks
         What was put into it to stay.
-    need : Need
-        Of the bricks and then the posts.
+    need : Demand
+        Of the bricks and then the pillars.
     plan : Plan
     """
 
     rows: Ints
-    posts: Bricks
-    need: Need
+    pillars: Bricks
+    need: Demand
     plan: Plan
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Supports:
+class AssemblyPlan:
     """A model with its supports, and how it is built.
 
     Attributes
     ----------
     bricks : Bricks
         The model with all that stays in it, then the supports that are taken out.
-    contacts : Links
+    contacts : BuildingContacts
         What touches what while it is built.
     pieces : tuple of Piece
         By ascending number.
@@ -67,7 +67,7 @@ class Supports:
     """
 
     bricks: Bricks
-    contacts: Links
+    contacts: BuildingContacts
     pieces: tuple[Piece, ...]
     moves: Moves
     walk: Walk
@@ -108,15 +108,15 @@ class Supports:
         return tuple(tower for piece in self.pieces for tower in piece.plan.unsteady)
 
 
-def supported(
+def plan_assembly(
     bricks: Bricks,
     catalogue: Catalogue,
     *,
     wish: Wish = "best",
     deepest: int,
-    hold: float = HOLD,
+    clutch: float = HOLD,
     progress: Progress = silent,
-) -> Supports:
+) -> AssemblyPlan:
     """Put supports under a model, piece by piece, and find the order in which it is built.
 
     Parameters
@@ -130,13 +130,13 @@ def supported(
         "none" adds nothing at all.
     deepest : int
         Plates that bricks may hang one under another while building.
-    hold : float
+    clutch : float
         Pull in N that one contact point bears.
     progress : Progress
 
     Returns
     -------
-    Supports
+    AssemblyPlan
     """
     numbers = np.unique(bricks.piece).tolist()
     pieces = []
@@ -144,22 +144,22 @@ def supported(
         here = part(progress, 0.8 * turn / len(numbers), 0.8 * (turn + 1) / len(numbers))
         here("supports", 0.0)
         # supports of the first piece are still there when the others are joined to it
-        room = room_around(connect(bricks, catalogue)) if number == 0 and len(numbers) > 1 else None
+        room = clearance_around(contact_graph(bricks, catalogue)) if number == 0 and len(numbers) > 1 else None
         pieces.append(
-            _piece(bricks, np.flatnonzero(bricks.piece == number), catalogue, room, wish, deepest, hold, here)
+            _piece(bricks, np.flatnonzero(bricks.piece == number), catalogue, room, wish, deepest, clutch, here)
         )
-    posts = [_numbered(piece.posts, number) for piece, number in zip(pieces, numbers, strict=True)]
+    pillars = [_numbered(piece.pillars, number) for piece, number in zip(pieces, numbers, strict=True)]
     added = [_numbered(piece.plan.supports, number) for piece, number in zip(pieces, numbers, strict=True)]
-    everything = joined([bricks, *posts, *added])
+    everything = concatenate([bricks, *pillars, *added])
     temporary = everything.role == Role.SUPPORT_OUTSIDE
-    contacts = links(everything, catalogue, temporary=temporary)
-    moves = ordered(everything, contacts.pairs, temporary=temporary, progress=part(progress, 0.8, 0.9))
+    contacts = building_contacts(everything, catalogue, temporary=temporary)
+    moves = order_moves(everything, contacts.pairs, temporary=temporary, progress=part(progress, 0.8, 0.9))
     everything = replace(everything, step=moves.step_of(len(everything)))
     found = walk(moves, everything, catalogue, contacts, temporary=temporary, progress=part(progress, 0.9, 1.0))
-    return Supports(everything, contacts, tuple(pieces), moves, found)
+    return AssemblyPlan(everything, contacts, tuple(pieces), moves, found)
 
 
-def _worth_trying(need: Need) -> tuple[Way, ...]:
+def _worth_trying(need: Demand) -> tuple[Way, ...]:
     """Return the kinds of supports that can be the lightest: beams only where they are low, as in the paper."""
     low = len(need.cells) > 0 and float(np.median(need.cells[:, 2])) <= LOW
     return WAYS if low else WAYS[:2]
@@ -173,21 +173,21 @@ def _piece(
     model: Bricks,
     rows: Ints,
     catalogue: Catalogue,
-    room: Room | None,
+    room: Clearance | None,
     wish: Wish,
     deepest: int,
-    hold: float,
+    clutch: float,
     progress: Progress,
 ) -> Piece:
     """Support one piece."""
     bricks = _numbered(model.take(rows), 0)
-    connection = connect(bricks, catalogue)
-    need = needed(bricks, catalogue, connection, deepest=deepest, room=room)
-    plan = partial(planned, hold=hold, progress=progress)
+    graph = contact_graph(bricks, catalogue)
+    need = support_demand(bricks, catalogue, graph, deepest=deepest, room=room)
+    plan = partial(plan_supports, clutch=clutch, progress=progress)
     if wish == "none":
         return Piece(rows, bricks.take(rows[:0]), need, plan(bricks, catalogue, need, ways=()))
     if len(need.enclosed):
-        bricks, connection = with_inside_carried(bricks, catalogue, connection, need.enclosed)
-        need = needed(bricks, catalogue, connection, deepest=deepest, room=room)
+        bricks, graph = add_inner_pillars(bricks, catalogue, graph, need.enclosed)
+        need = support_demand(bricks, catalogue, graph, deepest=deepest, room=room)
     found = plan(bricks, catalogue, need, ways=_worth_trying(need) if wish == "best" else (wish,))
     return Piece(rows, bricks.take(np.arange(len(rows), len(bricks))), need, found)

@@ -26,7 +26,7 @@ _NARROW: Final = ((2, 1), (4, 1))
 _WIDE: Final = ((2, 2), (4, 2))
 
 
-def links(beams: Sequence[Area], pillars: Sequence[Area]) -> list[Area]:
+def beam_links(beams: Sequence[Area], pillars: Sequence[Area]) -> list[Area]:
     """Link the beams of one layer, each to what it is not linked to already.
 
     Parameters

@@ -20,10 +20,10 @@ import numpy as np
 
 from ..arrays import Ints
 from ..units import PLATES_PER_BRICK
-from .beam_links import links
+from .beam_links import beam_links
 from .boxes import TALL, Area, Boxes, boxes_of, cells_of
-from .clearance import Room
-from .columns import Cells, covered, with_room
+from .clearance import Clearance
+from .columns import Cells, covered, within_clearance
 
 LONGEST: Final = 6
 """Studs of the longest beam."""
@@ -62,7 +62,7 @@ def distribution(length: int) -> list[int]:
     return [LONGEST] * longest + list(_REST[rest])
 
 
-def beams(cells: Cells, room: Room) -> Boxes:
+def beams(cells: Cells, room: Clearance) -> Boxes:
     """Build beams on pillars under cells.
 
     Parameters
@@ -70,7 +70,7 @@ def beams(cells: Cells, room: Room) -> Boxes:
     cells : (n, 3) integer array
         Cells (x, y, z) in the room, z the plate on which the carried brick lies.
         Beams end at those without room down to the ground.
-    room : Room
+    room : Clearance
 
     Returns
     -------
@@ -80,7 +80,7 @@ def beams(cells: Cells, room: Room) -> Boxes:
     """
     rows: list[tuple[int, int, int, int, int, int]] = []
     by_layer: dict[int, list[Area]] = {}
-    for x, y, z, a, b in areas(with_room(cells, room)).tolist():
+    for x, y, z, a, b in areas(within_clearance(cells, room)).tolist():
         layer, plates = divmod(z, PLATES_PER_BRICK)
         rows += [(x, y, z - plate - 1, a, b, 1) for plate in range(plates)]
         if layer:
@@ -153,7 +153,7 @@ def _standing(laid: list[Area], layer: int) -> Iterator[tuple[int, int, int, int
     if layer == 0:
         return
     pillars = [pillar for beam in laid for pillar in pillars_of(beam)]
-    tied = links(laid, pillars)
+    tied = beam_links(laid, pillars)
     top = (layer - 1) * PLATES_PER_BRICK
     taken = {cell for link in tied for cell in cells_of(link)}
     yield from ((x, y, top, a, b, PLATES_PER_BRICK) for x, y, a, b in tied)

@@ -51,7 +51,7 @@ def sizes_in(catalogue: Catalogue, colour: int) -> dict[tuple[int, int, int], in
     }
 
 
-def joined_upwards(boxes: Boxes, catalogue: Catalogue, colour: int) -> Boxes:
+def merge_upwards(boxes: Boxes, catalogue: Catalogue, colour: int) -> Boxes:
     """Put one tall brick in place of three that stand on each other.
 
     Parameters

@@ -13,7 +13,7 @@ import numpy as np
 from scipy import ndimage
 
 from ..arrays import Mask
-from ..model import NOBODY, Connection
+from ..model import NOBODY, ContactGraph
 from ..units import PLATES_PER_BRICK
 
 MARGIN: Final = 3
@@ -21,7 +21,7 @@ MARGIN: Final = 3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Room:
+class Clearance:
     """The free cells around a model, from the plate that it stands on.
 
     Attributes
@@ -48,24 +48,24 @@ class Room:
         return columns
 
 
-def room_around(connection: Connection) -> Room:
+def clearance_around(graph: ContactGraph) -> Clearance:
     """Find the cells in which supports may stand.
 
     Parameters
     ----------
-    connection : Connection
+    graph : ContactGraph
         Cells of the model, whose lowest plate is the ground.
 
     Returns
     -------
-    Room
+    Clearance
     """
-    occupied = connection.owner != NOBODY
+    occupied = graph.owner != NOBODY
     ground = int(np.flatnonzero(occupied.any(axis=(1, 2)))[0])
     wide = ((0, 0), (MARGIN, MARGIN), (MARGIN, MARGIN))
     occupied = np.pad(occupied[ground:], wide)
     above = np.logical_or.accumulate(occupied, axis=0)
     # one more plate on top lets the air pass over the model
     outside, _ = ndimage.label(~np.pad(occupied, ((0, 1), (0, 0), (0, 0))))
-    low = connection.low + np.array([-MARGIN, -MARGIN, ground], dtype=np.int32)
-    return Room(~above, (outside == outside[-1, 0, 0])[:-1], occupied, low)
+    low = graph.low + np.array([-MARGIN, -MARGIN, ground], dtype=np.int32)
+    return Clearance(~above, (outside == outside[-1, 0, 0])[:-1], occupied, low)

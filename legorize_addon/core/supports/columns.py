@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..arrays import Mask
 from ..units import PLATES_PER_BRICK
 from .boxes import Area, Boxes, boxes_of, cells_of
-from .clearance import Room
+from .clearance import Clearance
 
 Cells = NDArray[np.integer]
 
@@ -20,7 +20,7 @@ _FOOT: Final = 2
 """Studs along each side of a foot."""
 
 
-def columns(contacts: Sequence[tuple[int, int, int]], room: Room) -> Boxes:
+def columns(contacts: Sequence[tuple[int, int, int]], room: Clearance) -> Boxes:
     """Put a straight column under each contact, with a wide foot where there is room.
 
     Parameters
@@ -28,7 +28,7 @@ def columns(contacts: Sequence[tuple[int, int, int]], room: Room) -> Boxes:
     contacts : sequence of (x, y, z)
         Cells in the room, z the plate on which the carried brick lies, more than
         0. Each has room from there down to the ground.
-    room : Room
+    room : Clearance
 
     Returns
     -------
@@ -65,7 +65,7 @@ def pillars(contacts: Sequence[tuple[int, int, int]]) -> Boxes:
     )
 
 
-def with_room(cells: Cells, room: Room) -> Cells:
+def within_clearance(cells: Cells, room: Clearance) -> Cells:
     """Return the cells, once each, below which there is room down to the ground."""
     x, y, z = cells.T
     raised = cells[z > 0]

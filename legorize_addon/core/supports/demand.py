@@ -14,22 +14,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints
-from ..model import Bricks, Catalogue, Connection, Rows, middles, stud_columns
+from ..model import Bricks, Catalogue, ContactGraph, Rows, middles, stud_columns
 from ..statics import GRAVITY
-from .clearance import Room, room_around
-from .hanging import NOT_HELD, Carrying
+from .clearance import Clearance, clearance_around
+from .hanging import NOT_HELD, Hanging
 
 INSIDE: Final = 6
 """Plates by which bricks in closed hollows may hang deeper than others."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Need:
+class Demand:
     """What has to be supported, and where.
 
     Attributes
     ----------
-    room : Room
+    room : Clearance
         Where supports may stand.
     bricks : (n_need,) int64 array
         Rows of the bricks that nothing of the model carries within the limit.
@@ -51,7 +51,7 @@ class Need:
         Plates by which each brick hangs then, ``NOT_HELD`` where nothing holds it.
     """
 
-    room: Room
+    room: Clearance
     bricks: Ints
     undersides: Rows
     over: Ints
@@ -72,9 +72,9 @@ class Need:
         return np.flatnonzero(self.depth == NOT_HELD)
 
 
-def needed(
-    bricks: Bricks, catalogue: Catalogue, connection: Connection, *, deepest: int, room: Room | None = None
-) -> Need:
+def support_demand(
+    bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, *, deepest: int, room: Clearance | None = None
+) -> Demand:
     """Find the bricks that need a support, and contacts that carry them.
 
     Parameters
@@ -82,36 +82,36 @@ def needed(
     bricks : Bricks
         One piece, n rows, which stands on its lowest plate.
     catalogue : Catalogue
-    connection : Connection
+    graph : ContactGraph
         Of these bricks.
     deepest : int
         Plates that bricks may hang one under another while building; 0 if each
         brick must lie on another one.
-    room : Room, optional
+    room : Clearance, optional
         Where supports may stand, of cells that include this piece; by default
         that around the piece alone.
 
     Returns
     -------
-    Need
+    Demand
     """
     height = np.array([part.height for part in catalogue.parts])[bricks.part]
-    carrying = Carrying(connection, height, deepest=deepest)
+    carrying = Hanging(graph, height, deepest=deepest)
     level = bricks.corner[:, 2]
-    carrying.hold(np.flatnonzero(level == level.min()).tolist())
+    carrying.clutch(np.flatnonzero(level == level.min()).tolist())
     wanting = np.flatnonzero(carrying.depth == NOT_HELD)
-    room = room_around(connection) if room is None else room
+    room = clearance_around(graph) if room is None else room
     brick, cells, enclosed = _undersides(bricks, catalogue, room)
-    chosen, load = _chosen(carrying, bricks, catalogue, connection, np.intersect1d(wanting, brick))
+    chosen, load = _chosen(carrying, bricks, catalogue, graph, np.intersect1d(wanting, brick))
     # a stud in the middle tips a brick least
     middle = middles(bricks, catalogue) - room.low[:2]
     off = np.abs(cells[:, :2] + 0.5 - middle[brick]).sum(axis=1)
     order = np.lexsort((off, brick))
     first = order[np.searchsorted(brick[order], chosen)]
     depth = carrying.depth
-    # inside, a post would stay for good: bricks may hang deeper before one is worth it
+    # inside, a pillar would stay for good: bricks may hang deeper before one is worth it
     carrying.deepen(deepest + INSIDE)
-    return Need(
+    return Demand(
         room=room,
         bricks=wanting,
         undersides=cells,
@@ -125,10 +125,10 @@ def needed(
 
 
 def _chosen(
-    carrying: Carrying, bricks: Bricks, catalogue: Catalogue, connection: Connection, candidates: Ints
+    carrying: Hanging, bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, candidates: Ints
 ) -> tuple[Ints, Floats]:
     """Choose bricks to carry, from the lowest; of one level, those held best from above, which part cleanly."""
-    studs_above = np.bincount(connection.pairs[:, 0], connection.studs, len(bricks))
+    studs_above = np.bincount(graph.pairs[:, 0], graph.studs, len(bricks))
     mass = catalogue.mass[bricks.part]
     order = candidates[
         np.lexsort((candidates, -mass[candidates], -studs_above[candidates], bricks.corner[candidates, 2]))
@@ -137,11 +137,11 @@ def _chosen(
     for brick in order.tolist():
         if not carrying.held(brick):
             chosen.append(brick)
-            load.append(GRAVITY * float(mass[carrying.hold([brick])].sum()) / 1000)
+            load.append(GRAVITY * float(mass[carrying.clutch([brick])].sum()) / 1000)
     return np.array(chosen, dtype=np.int64), np.array(load, dtype=np.float64)
 
 
-def _undersides(bricks: Bricks, catalogue: Catalogue, room: Room) -> tuple[Ints, Rows, Ints]:
+def _undersides(bricks: Bricks, catalogue: Catalogue, room: Clearance) -> tuple[Ints, Rows, Ints]:
     """List the cells over open room, with the rows of their bricks, and the bricks that look into closed hollows."""
     brick, columns = stud_columns(bricks, catalogue)
     cells = columns - room.low

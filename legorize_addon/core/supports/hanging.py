@@ -16,13 +16,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import Connection, stacked
+from ..model import ContactGraph, stacked
 
 NOT_HELD: Final = np.iinfo(np.int32).max
 """Depth of a brick that nothing holds."""
 
 
-class Carrying:
+class Hanging:
     """How deep each brick hangs, as more and more of them are held.
 
     Attributes
@@ -32,19 +32,19 @@ class Carrying:
         of what stands on standing bricks alone, ``NOT_HELD`` of the rest.
     """
 
-    def __init__(self, connection: Connection, height: NDArray[np.integer], *, deepest: int) -> None:
+    def __init__(self, graph: ContactGraph, height: NDArray[np.integer], *, deepest: int) -> None:
         """Begin with no brick held.
 
         Parameters
         ----------
-        connection : Connection
+        graph : ContactGraph
             Of n bricks.
         height : (n,) integer array
             Of each brick in plates.
         deepest : int
             Greatest depth in plates at which bricks hold.
         """
-        self._below, self._above = stacked(connection.pairs, len(height))
+        self._below, self._above = stacked(graph.pairs, len(height))
         self._height = height.tolist()
         self._deepest = deepest
         self._depth = [int(NOT_HELD)] * len(height)
@@ -58,7 +58,7 @@ class Carrying:
         """Whether something holds a brick."""
         return self._depth[brick] != NOT_HELD
 
-    def hold(self, bricks: Iterable[int]) -> list[int]:
+    def clutch(self, bricks: Iterable[int]) -> list[int]:
         """Let bricks stand, and all that they hold; return those that are held from now on."""
         reached: list[int] = []
         self._spread([entry for brick in bricks for entry in self._lift(brick, 0, reached)], reached)

@@ -13,15 +13,15 @@ from typing import Final, Literal
 import numpy as np
 
 from ..arrays import Floats, Ints, Mask
-from ..building import STEADY, Tipping, no_prop, ordered, tipping
+from ..building import STEADY, Tipping, no_prop, order_moves, tipping
 from ..geometry import corners, inside
-from ..model import Bricks, Catalogue, Connection, Role, Rows, Verdict, connect, joined
+from ..model import Bricks, Catalogue, ContactGraph, Role, Rows, Verdict, concatenate, contact_graph
 from ..progress import Progress, part, silent
 from ..statics import stability
 from .beams import beams
-from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, joined_upwards
+from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, merge_upwards
 from .columns import columns
-from .demand import Need
+from .demand import Demand
 from .tree import tree
 
 Way = Literal["tree", "columns", "beams", "none"]
@@ -40,7 +40,7 @@ MOVING: Final = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Contacts:
+class SupportContacts:
     """Where supports touch a piece.
 
     Attributes
@@ -70,7 +70,7 @@ class Plan:
     way : {"tree", "columns", "beams", "none"}
     supports : Bricks
         What is taken out again.
-    contacts : Contacts
+    contacts : NearContacts
     unsteady : tuple of Tipping
         Towers that fall over on the way, as no contact can hold them; their rows
         count the bricks of the piece and then the supports.
@@ -80,18 +80,18 @@ class Plan:
 
     way: Way
     supports: Bricks
-    contacts: Contacts
+    contacts: SupportContacts
     unsteady: tuple[Tipping, ...]
     bears: bool
 
 
-def planned(
+def plan_supports(
     bricks: Bricks,
     catalogue: Catalogue,
-    need: Need,
+    need: Demand,
     *,
     ways: Sequence[Way],
-    hold: float,
+    clutch: float,
     progress: Progress = silent,
 ) -> Plan:
     """Put supports under a piece.
@@ -99,14 +99,14 @@ def planned(
     Parameters
     ----------
     bricks : Bricks
-        The piece, with the posts that stay in it.
+        The piece, with the pillars that stay in it.
     catalogue : Catalogue
-    need : Need
+    need : Demand
         Of these bricks.
     ways : sequence of {"tree", "columns", "beams"}
         Kinds to choose from, the most promising first; none of them if nothing
         shall be put under the piece.
-    hold : float
+    clutch : float
         Pull in N that one contact point bears.
     progress : Progress, optional
         Told how far the search is.
@@ -116,7 +116,7 @@ def planned(
     Plan
         The lightest of those with the fewest faults.
     """
-    contacts = Contacts(need.contacts, need.carried, need.load, np.zeros(len(need.contacts), dtype=bool))
+    contacts = SupportContacts(need.contacts, need.carried, need.load, np.zeros(len(need.contacts), dtype=bool))
     best: Plan | None = None
     for turn, way in enumerate(ways):
         trying = part(progress, turn / len(ways), (turn + 1) / len(ways))
@@ -127,7 +127,7 @@ def planned(
             not len(contacts.cells) or _worth(best, catalogue) <= (False, _mass(first, catalogue))
         ):
             continue
-        found = _settled(bricks, catalogue, need, contacts, way, hold, trying)
+        found = _settled(bricks, catalogue, need, contacts, way, clutch, trying)
         if best is None or _worth(found, catalogue) < _worth(best, catalogue):
             best = found
     return _bare(bricks, need, contacts, catalogue, progress) if best is None else best
@@ -143,35 +143,41 @@ def _mass(bricks: Bricks, catalogue: Catalogue) -> float:
 
 
 def _settled(
-    bricks: Bricks, catalogue: Catalogue, need: Need, contacts: Contacts, way: Way, hold: float, progress: Progress
+    bricks: Bricks,
+    catalogue: Catalogue,
+    need: Demand,
+    contacts: SupportContacts,
+    way: Way,
+    clutch: float,
+    progress: Progress,
 ) -> Plan:
     """Add contacts and straighten branches until all stands and bears, or nothing more helps."""
     for left in reversed(range(ROUNDS)):
         trying = part(progress, 1 - (left + 1) / ROUNDS, 1 - left / ROUNDS)
         supports = _laid(contacts, need, catalogue, way)
         # what the last round finds is not laid any more
-        falling, props = _falling(bricks, supports, contacts, need, catalogue, add=left > 0, progress=trying)
+        falling, braces = _falling(bricks, supports, contacts, need, catalogue, add=left > 0, progress=trying)
         giving, bears = np.zeros(len(contacts.cells), dtype=bool), True
         if way != "columns" and len(contacts.cells):
-            giving, bears = _giving(contacts, supports, need, catalogue, hold, trying)
+            giving, bears = _giving(contacts, supports, need, catalogue, clutch, trying)
         better = contacts
         if way == "tree":
             leaning = [tower.bricks - len(bricks) for tower in falling if tower.bricks[0] >= len(bricks)]
             crooked = giving | _resting_on(contacts, supports, need, catalogue, leaning)
             if (crooked & ~contacts.straight).any():
                 better = replace(contacts, straight=contacts.straight | crooked)
-        if props:
-            better = _with(better, need, props)
+        if braces:
+            better = _with(better, need, braces)
         if better is contacts or not left:
             break
         contacts = better
     return Plan(way, supports, contacts, tuple(falling), bears)
 
 
-def _bare(bricks: Bricks, need: Need, contacts: Contacts, catalogue: Catalogue, progress: Progress) -> Plan:
+def _bare(bricks: Bricks, need: Demand, contacts: SupportContacts, catalogue: Catalogue, progress: Progress) -> Plan:
     """Return the plan that puts nothing under a piece."""
     nothing = bricks.take(np.zeros(0, dtype=np.int64))
-    none = Contacts(contacts.cells[:0], contacts.carried[:0], contacts.load[:0], contacts.straight[:0])
+    none = SupportContacts(contacts.cells[:0], contacts.carried[:0], contacts.load[:0], contacts.straight[:0])
     falling, _ = _falling(bricks, nothing, none, need, catalogue, add=False, progress=progress)
     return Plan("none", nothing, none, tuple(falling), True)
 
@@ -179,34 +185,34 @@ def _bare(bricks: Bricks, need: Need, contacts: Contacts, catalogue: Catalogue, 
 def _falling(
     bricks: Bricks,
     supports: Bricks,
-    contacts: Contacts,
-    need: Need,
+    contacts: SupportContacts,
+    need: Demand,
     catalogue: Catalogue,
     *,
     add: bool,
     progress: Progress,
 ) -> tuple[list[Tipping], list[int]]:
     """Return the towers that fall over while a piece is built, and undersides, if some may be added, that save more."""
-    everything = joined([bricks, supports])
-    pairs = connect(everything, catalogue).pairs
+    everything = concatenate([bricks, supports])
+    pairs = contact_graph(everything, catalogue).pairs
     temporary = np.arange(len(everything)) >= len(bricks)
-    moves = ordered(everything, pairs, temporary=temporary, progress=part(progress, 0.0, 0.5))
-    props: list[int] = []
+    moves = order_moves(everything, pairs, temporary=temporary, progress=part(progress, 0.0, 0.5))
+    braces: list[int] = []
 
     def prop(tower: Tipping) -> tuple[int, int] | None:
         """Note the underside that saves a tower."""
-        best = _steadying(tower, contacts, need, props)
+        best = _steadying(tower, contacts, need, braces)
         if best is None:
             return None
-        props.append(best)
+        braces.append(best)
         x, y = (need.undersides[best] + need.room.low)[:2].tolist()
         return x, y
 
     watched = part(progress, 0.5, 1.0)
-    return tipping(moves, everything, catalogue, pairs, prop=prop if add else no_prop, progress=watched), props
+    return tipping(moves, everything, catalogue, pairs, prop=prop if add else no_prop, progress=watched), braces
 
 
-def _laid(contacts: Contacts, need: Need, catalogue: Catalogue, way: Way) -> Bricks:
+def _laid(contacts: SupportContacts, need: Demand, catalogue: Catalogue, way: Way) -> Bricks:
     """Return the bricks of all supports, in the cells of the model's grid."""
     if way == "tree":
         boxes = tree(contacts.cells, contacts.load, need.room, straight=contacts.straight)
@@ -214,38 +220,38 @@ def _laid(contacts: Contacts, need: Need, catalogue: Catalogue, way: Way) -> Bri
         boxes = columns(contacts.cells.tolist(), need.room)
     else:
         boxes = beams(np.unique(np.concatenate([need.cells, contacts.cells]), axis=0), need.room)
-    boxes = joined_upwards(boxes, catalogue, OUTSIDE_COLOUR)
+    boxes = merge_upwards(boxes, catalogue, OUTSIDE_COLOUR)
     boxes[:, :3] += need.room.low
     return bricks_of_boxes(boxes, catalogue, colour=OUTSIDE_COLOUR, role=Role.SUPPORT_OUTSIDE)
 
 
-def _tops(contacts: Contacts, need: Need, connection: Connection) -> Ints:
+def _tops(contacts: SupportContacts, need: Demand, graph: ContactGraph) -> Ints:
     """Return the row of the support brick under each contact."""
-    x, y, z = (contacts.cells + need.room.low - connection.low).T
-    tops: Ints = connection.owner[z - 1, y, x].astype(np.int64)
+    x, y, z = (contacts.cells + need.room.low - graph.low).T
+    tops: Ints = graph.owner[z - 1, y, x].astype(np.int64)
     return tops
 
 
 def _giving(
-    contacts: Contacts, supports: Bricks, need: Need, catalogue: Catalogue, hold: float, progress: Progress
+    contacts: SupportContacts, supports: Bricks, need: Demand, catalogue: Catalogue, clutch: float, progress: Progress
 ) -> tuple[Mask, bool]:
     """Load the supports by themselves; tell which contacts rest on some that give way, and whether none does.
 
     A straight column stands right under its load, on a foot around it, and needs no proof.
     """
-    whole = connect(supports, catalogue)
+    whole = contact_graph(supports, catalogue)
     under = whole.component[_tops(contacts, need, whole)]
     bent = np.isin(whole.component, under[~contacts.straight])
     if not bent.any():
         return np.zeros(len(under), dtype=bool), True
     loaded = np.isin(under, whole.component[bent])
     crooked = supports.take(bent)
-    connection = connect(crooked, catalogue)
-    tops = _tops(replace(contacts, cells=contacts.cells[loaded]), need, connection)
+    graph = contact_graph(crooked, catalogue)
+    tops = _tops(replace(contacts, cells=contacts.cells[loaded]), need, graph)
     loads = np.zeros((len(crooked), 3))
     np.add.at(loads[:, 2], tops, -contacts.load[loaded])
     # a branch that is not soon proven to bear is straightened as well, which is cheaper than a linear programme
-    found = stability(crooked, catalogue, connection, hold=hold, loads=loads, programme=0, progress=progress)
+    found = stability(crooked, catalogue, graph, clutch=clutch, loads=loads, programme=0, progress=progress)
     moving = (np.abs(found.motion) > MOVING).any(axis=1)
     if found.verdict is Verdict.UNDECIDED:
         moving |= found.margin < 0
@@ -256,19 +262,21 @@ def _giving(
     return weak, found.verdict is Verdict.STABLE
 
 
-def _resting_on(contacts: Contacts, supports: Bricks, need: Need, catalogue: Catalogue, towers: Sequence[Ints]) -> Mask:
+def _resting_on(
+    contacts: SupportContacts, supports: Bricks, need: Demand, catalogue: Catalogue, towers: Sequence[Ints]
+) -> Mask:
     """Tell which contacts rest on trees of which some bricks are given."""
     if not towers:
         return np.zeros(len(contacts.cells), dtype=bool)
-    connection = connect(supports, catalogue)
-    tops = _tops(contacts, need, connection)
-    return np.isin(connection.component[tops], connection.component[np.concatenate(towers)])
+    graph = contact_graph(supports, catalogue)
+    tops = _tops(contacts, need, graph)
+    return np.isin(graph.component[tops], graph.component[np.concatenate(towers)])
 
 
-def _steadying(tower: Tipping, contacts: Contacts, need: Need, props: Sequence[int]) -> int | None:
+def _steadying(tower: Tipping, contacts: SupportContacts, need: Demand, braces: Sequence[int]) -> int | None:
     """Return the underside at which a support keeps a tower upright best, if one helps."""
     under = np.flatnonzero(np.isin(need.over, tower.bricks))
-    taken = np.concatenate([contacts.cells, need.undersides[list(props)]])[:, :2]
+    taken = np.concatenate([contacts.cells, need.undersides[list(braces)]])[:, :2]
     under = under[~(need.undersides[under, None, :2] == taken[None]).all(axis=2).any(axis=1)]
     cells = need.undersides[under] + need.room.low
     before = inside(tower.feet, tower.middle)
@@ -278,10 +286,10 @@ def _steadying(tower: Tipping, contacts: Contacts, need: Need, props: Sequence[i
     return int(under[np.lexsort((cells[:, 2], -np.minimum(after, ENOUGH)))[0]])
 
 
-def _with(contacts: Contacts, need: Need, undersides: Sequence[int]) -> Contacts:
+def _with(contacts: SupportContacts, need: Demand, undersides: Sequence[int]) -> SupportContacts:
     """Return contacts with others at undersides."""
     more = list(undersides)
-    return Contacts(
+    return SupportContacts(
         cells=np.concatenate([contacts.cells, need.undersides[more]]),
         carried=np.concatenate([contacts.carried, need.over[more]]),
         load=np.concatenate([contacts.load, np.zeros(len(more))]),

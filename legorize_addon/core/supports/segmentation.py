@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Ints, Mask
-from ..model import Bricks, Catalogue, Connection, Rows, components, connect
-from .demand import needed
+from ..model import Bricks, Catalogue, ContactGraph, Rows, components, contact_graph
+from .demand import support_demand
 from .tree import tree
 
 SAVING: Final = 0.2
@@ -60,8 +60,8 @@ class Joint:
     after: int
 
 
-def segmented(
-    bricks: Bricks, catalogue: Catalogue, connection: Connection, *, most: int, deepest: int
+def segment(
+    bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, *, most: int, deepest: int
 ) -> tuple[Bricks, tuple[Joint, ...]]:
     """Cut a model into pieces where that saves supports.
 
@@ -70,7 +70,7 @@ def segmented(
     bricks : Bricks
         The model, which hangs together.
     catalogue : Catalogue
-    connection : Connection
+    graph : ContactGraph
         Of these bricks.
     most : int
         Pieces at most.
@@ -92,7 +92,7 @@ def segmented(
         options = [
             option
             for number in price
-            for option in _options(bricks, catalogue, connection, piece, number, price[number], deepest)
+            for option in _options(bricks, catalogue, graph, piece, number, price[number], deepest)
         ]
         if not options:
             break
@@ -103,7 +103,7 @@ def segmented(
         price[best.of], price[number] = best.below, best.above
         joints.append(Joint(best.level, number, best.studs, before, sum(each.bricks for each in price.values())))
     # a piece that is cut again leaves some of the studs below it to its upper part
-    final = (replace(joint, studs=_joint(connection, piece == joint.piece, piece != joint.piece)) for joint in joints)
+    final = (replace(joint, studs=_joint(graph, piece == joint.piece, piece != joint.piece)) for joint in joints)
     return replace(bricks, piece=piece), tuple(final)
 
 
@@ -138,8 +138,8 @@ class _Option:
 
 
 def _price(bricks: Bricks, catalogue: Catalogue, deepest: int) -> _Price:
-    connection = connect(bricks, catalogue)
-    need = needed(bricks, catalogue, connection, deepest=deepest)
+    graph = contact_graph(bricks, catalogue)
+    need = support_demand(bricks, catalogue, graph, deepest=deepest)
     boxes = tree(need.contacts, need.load, need.room, straight=np.zeros(len(need.contacts), dtype=bool))
     floor = int(bricks.corner[:, 2].min())
     return _Price(len(boxes) + len(need.left), need.contacts[:, 2].astype(np.int64), floor, need.depth == 0)
@@ -148,7 +148,7 @@ def _price(bricks: Bricks, catalogue: Catalogue, deepest: int) -> _Price:
 def _options(
     bricks: Bricks,
     catalogue: Catalogue,
-    connection: Connection,
+    graph: ContactGraph,
     piece: NDArray[np.int16],
     number: int,
     price: _Price,
@@ -159,20 +159,20 @@ def _options(
     levels = np.unique(bricks.corner[mine, 2])[1:]
     tried = 0
     for level in levels[np.argsort(_promise(price, levels), kind="stable")].tolist():
-        upper = _upper(bricks, connection, mine, level)
+        upper = _upper(bricks, graph, mine, level)
         lower = mine & ~upper
-        studs = _joint(connection, upper, lower)
+        studs = _joint(graph, upper, lower)
         if min(upper.sum(), lower.sum()) < LEAST * len(bricks) or studs < INTERFACE:
             continue
         # the first piece goes on growing when others are joined to it; each of those is joined as a whole, by what
         # is left of its own joint
-        if number and (_n_components(connection, lower) > 1 or _joint(connection, lower, ~mine) < INTERFACE):
+        if number and (_n_components(graph, lower) > 1 or _joint(graph, lower, ~mine) < INTERFACE):
             continue
         below = _price(bricks.take(lower), catalogue, deepest)
         above = _price(bricks.take(upper), catalogue, deepest)
         option = _Option(number, level, upper, studs, below, above)
         # what hangs from bricks above the cut is not in place yet when the upper part is joined
-        firm = _joint(connection, upper, np.isin(np.arange(len(bricks)), np.flatnonzero(lower)[below.stands]))
+        firm = _joint(graph, upper, np.isin(np.arange(len(bricks)), np.flatnonzero(lower)[below.stands]))
         if firm >= INTERFACE and option.price < price.bricks and option.price <= (1 - SAVING) * price.bricks:
             yield option
         tried += 1
@@ -187,24 +187,24 @@ def _promise(price: _Price, levels: Ints) -> Ints:
     return left
 
 
-def _upper(bricks: Bricks, connection: Connection, mine: Mask, level: int) -> Mask:
+def _upper(bricks: Bricks, graph: ContactGraph, mine: Mask, level: int) -> Mask:
     """Return the greatest part of a piece that hangs together above a level."""
     above = mine & (bricks.corner[:, 2] >= level)
-    component = _components(connection, above)
+    component = _components(graph, above)
     upper: Mask = above & (component == np.bincount(component[above]).argmax())
     return upper
 
 
-def _components(connection: Connection, members: Mask) -> Rows:
+def _components(graph: ContactGraph, members: Mask) -> Rows:
     """Label what hangs together among some bricks, (n,)."""
-    return components(connection.pairs[members[connection.pairs].all(axis=1)], len(members))
+    return components(graph.pairs[members[graph.pairs].all(axis=1)], len(members))
 
 
-def _n_components(connection: Connection, members: Mask) -> int:
-    return len(np.unique(_components(connection, members)[members]))
+def _n_components(graph: ContactGraph, members: Mask) -> int:
+    return len(np.unique(_components(graph, members)[members]))
 
 
-def _joint(connection: Connection, upper: Mask, lower: Mask) -> int:
+def _joint(graph: ContactGraph, upper: Mask, lower: Mask) -> int:
     """Count the studs between two parts."""
-    first, second = connection.pairs.T
-    return int(connection.studs[(lower[first] & upper[second])].sum())
+    first, second = graph.pairs.T
+    return int(graph.studs[(lower[first] & upper[second])].sum())

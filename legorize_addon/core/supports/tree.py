@@ -25,7 +25,7 @@ from ..arrays import Floats, Ints, Mask
 from ..model import Rows
 from ..units import PLATES_PER_BRICK
 from .boxes import Area, Boxes, boxes_of, cells_of
-from .clearance import Room
+from .clearance import Clearance
 
 LONGEST_NODE: Final = 4
 """Studs that the brick of a node spans at most."""
@@ -64,7 +64,7 @@ class _Tip:
     straight: bool
 
 
-def tree(contacts: Rows, load: Floats, room: Room, *, straight: Mask) -> Boxes:
+def tree(contacts: Rows, load: Floats, room: Clearance, *, straight: Mask) -> Boxes:
     """Grow trees under contacts.
 
     Parameters
@@ -74,7 +74,7 @@ def tree(contacts: Rows, load: Floats, room: Room, *, straight: Mask) -> Boxes:
         more than 0. Each has room from there down to the ground.
     load : (n,) float64 array
         Weight in N that lies on each.
-    room : Room
+    room : Clearance
     straight : (n,) bool array
         Contacts that get a trunk of their own.
 
@@ -101,7 +101,7 @@ def tree(contacts: Rows, load: Floats, room: Room, *, straight: Mask) -> Boxes:
 class _Layer:
     """One layer of all trees: which brick each tip gets, and where it goes on below."""
 
-    def __init__(self, room: Room, number: int, tips: list[_Tip]) -> None:
+    def __init__(self, room: Clearance, number: int, tips: list[_Tip]) -> None:
         self.open = room.layer(number)
         self.number = number
         self.tips = tips

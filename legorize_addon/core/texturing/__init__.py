@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from .cutouts import remarks_on_unseen, seen_part
-from .reduced_images import with_reduced_images
+from .reduced_images import reduce_images
 
 __all__ = [
+    "reduce_images",
     "remarks_on_unseen",
     "seen_part",
-    "with_reduced_images",
 ]

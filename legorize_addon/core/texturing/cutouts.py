@@ -90,7 +90,7 @@ class _Texels:
         return share
 
 
-def without_unseen(mesh: TriangleMesh, *, least: float, finest: float) -> tuple[TriangleMesh, float]:
+def cut_unseen(mesh: TriangleMesh, *, least: float, finest: float) -> tuple[TriangleMesh, float]:
     """Leave out the surface whose alpha is too low.
 
     Parameters
@@ -160,7 +160,7 @@ def seen_part(
     # what is seen may be smaller than the whole, so that each part of it becomes larger
     while finest > _FINER * (finer := STUD * _FINEST_CUT / scale(mesh)):
         finest = finer
-        mesh, share = without_unseen(whole, least=least, finest=finest)
+        mesh, share = cut_unseen(whole, least=least, finest=finest)
     if mesh is whole:
         return mesh, repairs, share
     mesh, again = repair(mesh, fill=False)

@@ -32,7 +32,7 @@ a quarter of a stud 0.35, on checkers of half a stud 0.
 Bytes = NDArray[np.uint8]
 
 
-def with_means(image: Bytes, window: tuple[int, int], *, clamp: bool) -> Bytes:
+def average_windows(image: Bytes, window: tuple[int, int], *, clamp: bool) -> Bytes:
     """Replace texture that is finer than a stud by its mean.
 
     Parameters

@@ -27,7 +27,7 @@ from ..colours import linear_from_srgb, srgb_from_linear
 from ..mesh import TriangleMesh
 from ..units import STUD
 from .box_means import box_means
-from .fine_textures import with_means
+from .fine_textures import average_windows
 
 TEXELS_PER_STUD: Final = 16
 """Most texels that a stud's length crosses along one side of an image."""
@@ -44,7 +44,7 @@ _GREAT: Final = 1000
 Bytes = NDArray[np.uint8]
 
 
-def with_reduced_images(mesh: TriangleMesh, *, least: float, mean: bool = True) -> TriangleMesh:
+def reduce_images(mesh: TriangleMesh, *, least: float, mean: bool = True) -> TriangleMesh:
     """Give each face an image that is no finer than matters.
 
     Parameters
@@ -93,7 +93,7 @@ class _Images:
         if key not in self._reduced:
             opacity = self._mesh.opacities[image] if self._mesh.opacities else None
             self._reduced[key] = _reduced(self._mesh.images[image], opacity, (y, x), self._least)
-        made = with_means(self._reduced[key], (1 << high, 1 << wide), clamp=clamp)
+        made = average_windows(self._reduced[key], (1 << high, 1 << wide), clamp=clamp)
         known = [row for row, each in enumerate(self.images) if each is made and self.clamp[row] == clamp]
         if known:
             return known[0]

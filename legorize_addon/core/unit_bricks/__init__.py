@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from .backing import with_backing
+from .backing import add_backing
 from .dithering import dithering_of, remarks_on_dithering
 from .facing import facing_of
 from .generation import unit_bricks
-from .offset_bricks import with_offset_bricks
+from .offset_bricks import add_offset_bricks
 from .offset_rings import Offsets, OverhangKind, overhang_kinds
 from .plates import Detail
 
@@ -14,11 +14,11 @@ __all__ = [
     "Detail",
     "Offsets",
     "OverhangKind",
+    "add_backing",
+    "add_offset_bricks",
     "dithering_of",
     "facing_of",
     "overhang_kinds",
     "remarks_on_dithering",
     "unit_bricks",
-    "with_backing",
-    "with_offset_bricks",
 ]

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Ints, Mask
 from ..geometry import outer_air, visible
-from ..model import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Cover, Role, UnitGrid
+from ..model import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, Role, UnitGrid
 from ..units import PLATES_PER_BRICK
 from .facing import Facing
 
@@ -28,7 +28,7 @@ _MARGIN: Final = 1
 """Free cells around the model along x and y."""
 
 
-def with_backing(grid: UnitGrid, facing: Facing, *, depth: int) -> UnitGrid:
+def add_backing(grid: UnitGrid, facing: Facing, *, depth: int) -> UnitGrid:
     """Put layers or rows behind a flat model, down to a level back.
 
     Parameters
@@ -99,7 +99,7 @@ def _extended(grid: UnitGrid, facing: Facing, cells: int) -> UnitGrid:
     origin[facing.axis] -= cells * CELL_SIZE[facing.axis] * before
     return UnitGrid(
         np.pad(grid.colour, width, constant_values=COLOUR_EMPTY),
-        np.pad(grid.cover, width, constant_values=Cover.EMPTY),
+        np.pad(grid.cover, width, constant_values=Fill.EMPTY),
         np.pad(grid.role, width),
         origin,
     )
@@ -113,7 +113,7 @@ def _painted(grid: UnitGrid, behind: Mask) -> UnitGrid:
     # what is a brick stays one: all three plates are free or none is
     brick = grid.solid.all(axis=1, keepdims=True)
     free = behind | (grid.solid & ~np.where(brick, seen.any(axis=1, keepdims=True), seen))
-    cover: NDArray[np.uint8] = np.where(behind, np.uint8(Cover.MUST), grid.cover)
+    cover: NDArray[np.uint8] = np.where(behind, np.uint8(Fill.REQUIRED), grid.cover)
     colour: NDArray[np.int16] = np.where(free, np.int16(COLOUR_ANY), grid.colour)
     role: NDArray[np.uint8] = np.where(free, np.uint8(Role.INSIDE), grid.role)
     return UnitGrid(colour, cover, role, grid.origin)

@@ -20,7 +20,7 @@ from ..arrays import Floats, Ints, Mask
 from ..colours import SurfaceColours, ciede2000, lab_from_srgb
 from ..model import COLOUR_ANY, Catalogue
 from ..units import BRICK, STUD
-from .occlusion import under_a_skin
+from .occlusion import occluded
 from .surface_samples import SurfaceSamples
 from .visibility import nearest_faces, reached_by_air
 
@@ -60,7 +60,7 @@ class Ballot:
 
     def winners(self, seen: Mask, height: float = BRICK) -> Codes:
         """Return the colour of each cell, given which they are and how high in mm, (n_seen,)."""
-        return chosen(self.codes, self.votes, self.score, seen, height)
+        return winning_colours(self.codes, self.votes, self.score, seen, height)
 
 
 def cost_in(cost: Floats, shown: Mask, codes: Codes, wanted: Codes) -> Floats:
@@ -116,9 +116,9 @@ def likeliest_colours(
     -------
     Ballot
     """
-    shown = samples.at(reached_by_air(samples, seen.shape) & ~under_a_skin(samples))
+    shown = samples.at(reached_by_air(samples, seen.shape) & ~occluded(samples))
     cell = nearest_faces(shown.place, shown.sides, seen, air)
-    codes, votes = counted(cell, shown.colour, shown.area, seen)
+    codes, votes = count_votes(cell, shown.colour, shown.area, seen)
     difference = colour_differences(codes, catalogue, surface)
     # a colour that the cell does not have at all is never chosen
     return Ballot(codes, votes, np.where(votes > 0, -votes @ difference, -np.inf), difference)
@@ -150,7 +150,7 @@ def colour_differences(codes: Codes, catalogue: Catalogue, surface: SurfaceColou
     return np.stack([centres[surface.codes == code].mean(axis=0) for code in codes])
 
 
-def counted(cell: Ints, colour: Codes, weight: Floats, seen: Mask) -> tuple[Codes, Floats]:
+def count_votes(cell: Ints, colour: Codes, weight: Floats, seen: Mask) -> tuple[Codes, Floats]:
     """Sum up weights by visible cell and colour.
 
     Parameters
@@ -178,7 +178,7 @@ def counted(cell: Ints, colour: Codes, weight: Floats, seen: Mask) -> tuple[Code
     return codes, votes.reshape(int(seen.sum()), len(codes))
 
 
-def chosen(codes: Codes, votes: Floats, score: Floats, seen: Mask, height: float = BRICK) -> Codes:
+def winning_colours(codes: Codes, votes: Floats, score: Floats, seen: Mask, height: float = BRICK) -> Codes:
     """Return the colour with the best score of each cell, or that of the nearest cell with votes.
 
     Parameters

@@ -23,7 +23,7 @@ from ..slicing import Grid
 from ..units import BRICK, STUD
 from .colour_votes import Codes
 from .facing import Facing, facing_of, is_flat
-from .occlusion import under_a_skin
+from .occlusion import occluded
 from .surface_samples import SurfaceSamples, light_samples
 from .visibility import air_around, nearest_faces
 
@@ -132,7 +132,7 @@ def remarks_on_dithering(mesh: TriangleMesh, kind: str) -> tuple[str, ...]:
     )
 
 
-def dithered(
+def dither(
     colour: Codes,
     seen: Mask,
     air: Mask,
@@ -164,7 +164,7 @@ def dithered(
     """
     units = _Units.of(colour, seen, round(BRICK / grid.height))
     light = light_samples(mesh, grid)
-    light = light.at(air_around(samples, seen.shape, on_ground=False).reaches(light) & ~under_a_skin(light))
+    light = light.at(air_around(samples, seen.shape, on_ground=False).reaches(light) & ~occluded(light))
     goal, faces = _goals(units, light, seen, air)
     if not faces.any():
         return colour

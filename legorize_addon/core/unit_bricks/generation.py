@@ -21,16 +21,16 @@ from ..arrays import Floats, Mask
 from ..colours import SurfaceColours
 from ..geometry import outer_air, visible
 from ..mesh import TriangleMesh
-from ..model import COLOUR_ANY, COLOUR_EMPTY, Catalogue, Cover, Role, UnitGrid, ground_of
+from ..model import COLOUR_ANY, COLOUR_EMPTY, Catalogue, Fill, Role, UnitGrid, ground_of
 from ..progress import Progress, part, silent
-from ..slicing import Grid, Levels, Pieces, Trajectories, covered, cut_at_grid
+from ..slicing import Grid, Levels, Pieces, Trajectories, covered_area_shares, cut_at_grid
 from ..units import BRICK, CELL_AREA, PLATE, PLATES_PER_BRICK
 from .bridges import bridging_cells, under_steps
 from .colour_votes import likeliest_colours
-from .dithering import Dithering, dithered
+from .dithering import Dithering, dither
 from .facing import Facing
 from .longest_trajectory import longest_colours
-from .plates import Detail, settled, settled_colours
+from .plates import Detail, settle_colours, settle_plates
 from .surface_samples import SurfaceSamples, horizontal_samples, standing_pieces, surface_area, trajectory_samples
 from .thin_features import thin_cells
 from .visibility import air_around
@@ -120,9 +120,9 @@ def unit_bricks(
     colour[solid] = COLOUR_ANY
     colour[seen] = ballot.winners(seen, grid.height)
     if detail is not None:
-        colour = settled_colours(colour, seen, ballot, detail)
+        colour = settle_colours(colour, seen, ballot, detail)
     if dithering is not None:
-        colour = dithered(colour, seen, air, mesh, samples, grid, dithering, catalogue)
+        colour = dither(colour, seen, air, mesh, samples, grid, dithering, catalogue)
     return _unit_grid(colour, grid)
 
 
@@ -138,7 +138,7 @@ def _solid(
         solid |= under_steps(solid)
     progress("unit bricks", 0.5)
     if detail is not None:
-        solid = settled(solid, share, detail)
+        solid = settle_plates(solid, share, detail)
     progress("unit bricks", 0.7)
     if keep_thin:
         solid |= bridging_cells(solid, surface_area(samples, share.shape))
@@ -149,7 +149,7 @@ def _shares(trajectories: Trajectories, pieces: Pieces, levels: Levels, grid: Gr
     """Return the share of every cell that lies inside, averaged over the slices of its level, 0 to 1."""
     n_slices = int(levels.slice.max(initial=-1)) + 1
     slice_of_edge = trajectories.loop_slice[trajectories.edge_loop].astype(np.int64)
-    area = np.clip(covered(pieces, slice_of_edge[pieces.edge], n_slices, grid.n_y, grid.n_x), 0, CELL_AREA)
+    area = np.clip(covered_area_shares(pieces, slice_of_edge[pieces.edge], n_slices, grid.n_y, grid.n_x), 0, CELL_AREA)
     return mean_areas(area, levels, grid.n_layers) / CELL_AREA
 
 
@@ -194,6 +194,6 @@ def _unit_grid(colour: NDArray[np.int16], grid: Grid) -> UnitGrid:
     planes = np.repeat(colour, times, axis=0)
     empty = ground_of(planes != COLOUR_EMPTY) // PLATES_PER_BRICK
     plates = planes.reshape(-1, PLATES_PER_BRICK, *colour.shape[1:])[empty:]
-    cover = np.where(plates == COLOUR_EMPTY, Cover.EMPTY, Cover.MUST).astype(np.uint8)
+    cover = np.where(plates == COLOUR_EMPTY, Fill.EMPTY, Fill.REQUIRED).astype(np.uint8)
     role = np.where(plates == COLOUR_ANY, Role.INSIDE, Role.SHELL).astype(np.uint8)
     return UnitGrid(plates, cover, role, grid.origin + np.array([0.0, 0.0, empty * BRICK]))

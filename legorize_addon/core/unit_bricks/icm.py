@@ -102,7 +102,7 @@ class Columns:
         return turn
 
 
-def relaxed(codes: Codes, columns: Columns, active: Ints, offers: Offers, worth: float) -> Codes:
+def relax(codes: Codes, columns: Columns, active: Ints, offers: Offers, worth: float) -> Codes:
     """Let columns change until none gains by it, or a few times each.
 
     Parameters

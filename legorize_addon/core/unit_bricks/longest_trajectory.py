@@ -16,7 +16,7 @@ from ..arrays import Ints, Mask
 from ..colours import SurfaceColours
 from ..model import Catalogue
 from ..slicing import Pieces, Trajectories
-from .colour_votes import Ballot, colour_differences, counted
+from .colour_votes import Ballot, colour_differences, count_votes
 from .surface_samples import SurfaceSamples, inner_cells
 
 _STEPS = np.array([(0, y, x) for y in (-1, 0, 1) for x in (-1, 0, 1)])
@@ -64,7 +64,7 @@ def longest_colours(
     excluded = excluded_neighbours(trajectories, pieces.edge[standing], brick[:n], solid.shape)
     cell, entry = participants(samples.cell[:n], brick[:n], excluded, solid)
     length = pieces.length[standing]
-    codes, votes = counted(
+    codes, votes = count_votes(
         np.concatenate([cell, brick[n:]]),
         np.concatenate([samples.colour[:n][entry], samples.colour[n:]]),
         # level surface decides only where no trajectory does

@@ -32,7 +32,7 @@ _SAME_WAY: Final = 0.3
 """Least cosine between two skins that face the same way."""
 
 
-def under_a_skin(samples: SurfaceSamples) -> Mask:
+def occluded(samples: SurfaceSamples) -> Mask:
     """Return the samples right behind another surface that faces the same way.
 
     Parameters

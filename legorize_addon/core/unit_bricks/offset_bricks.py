@@ -15,10 +15,10 @@ import numpy as np
 from ..geometry import outer_air
 from ..model import COLOUR_ANY, Role, UnitGrid
 from ..units import BRICK, PLATE, PLATES_PER_BRICK
-from .offset_rings import Offsets, offset_rings, recoloured
+from .offset_rings import Offsets, offset_rings, recolour_rings
 
 
-def with_offset_bricks(
+def add_offset_bricks(
     grid: UnitGrid, *, plates: bool, critical_angle: float, literal: bool
 ) -> tuple[UnitGrid, Offsets]:
     """Give offset bricks their role.
@@ -48,7 +48,7 @@ def with_offset_bricks(
     offsets = offset_rings(filled, height=PLATE if plates else BRICK, critical_angle=critical_angle)
     if literal:
         own = (colour > COLOUR_ANY) & ~offsets.left_alone
-        colour = recoloured(colour, offsets.left_alone & (colour > COLOUR_ANY), own)
+        colour = recolour_rings(colour, offsets.left_alone & (colour > COLOUR_ANY), own)
     offset = (offsets.ring > 0) & (colour > COLOUR_ANY)
     if not plates:
         colour, offset = (np.repeat(each[:, None], PLATES_PER_BRICK, axis=1) for each in (colour, offset))

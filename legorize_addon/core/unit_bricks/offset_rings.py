@@ -230,7 +230,7 @@ def _rings_a_level(ring: Numbers) -> Ints:
     return np.bincount(pairs // numbers, minlength=len(ring))
 
 
-def recoloured(colour: NDArray[np.int16], left_alone: Mask, source: Mask) -> NDArray[np.int16]:
+def recolour_rings(colour: NDArray[np.int16], left_alone: Mask, source: Mask) -> NDArray[np.int16]:
     """Give visible bricks without a trajectory the colour of the nearest one with.
 
     Parameters

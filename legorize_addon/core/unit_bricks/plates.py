@@ -25,7 +25,7 @@ from ..arrays import Floats, Mask
 from ..model import COLOUR_ANY, COLOUR_EMPTY
 from ..units import PLATES_PER_BRICK
 from .colour_votes import CLEAR, Ballot, Codes, cost_in
-from .smoothing import agreed_colours, agreed_shapes
+from .smoothing import smooth_colours, smooth_shapes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,7 +50,7 @@ class Detail:
     worth: float = 0.0
 
 
-def settled(solid: Mask, share: Floats, detail: Detail) -> Mask:
+def settle_plates(solid: Mask, share: Floats, detail: Detail) -> Mask:
     """Make bricks of cell columns in which plates do not pay.
 
     Three rules of superposition: three plates are a brick anyway. A column of
@@ -75,7 +75,7 @@ def settled(solid: Mask, share: Floats, detail: Detail) -> Mask:
     if detail.worth == 0:
         return _settled_alone(solid, share, detail)
     every = _settled_alone(solid, share, replace(detail, least_gain=0.0))
-    return agreed_shapes(every, share, least_gain=detail.least_gain, worth=detail.worth)
+    return smooth_shapes(every, share, least_gain=detail.least_gain, worth=detail.worth)
 
 
 def _settled_alone(solid: Mask, share: Floats, detail: Detail) -> Mask:
@@ -104,7 +104,7 @@ def _resting(plates: Mask) -> Mask:
     return resting
 
 
-def settled_colours(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -> Codes:
+def settle_colours(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -> Codes:
     """Give cell columns of three plates one colour where several do not pay.
 
     Where one part less is worth something, neighbours are taken into account.
@@ -126,7 +126,7 @@ def settled_colours(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -
     if detail.worth == 0:
         return _coloured_alone(colour, seen, ballot, detail)
     whole = _coloured_alone(colour, seen, ballot, replace(detail, least_gain=0.0))
-    return agreed_colours(whole, seen, ballot, detail.marked, least_gain=detail.least_gain, worth=detail.worth)
+    return smooth_colours(whole, seen, ballot, detail.marked, least_gain=detail.least_gain, worth=detail.worth)
 
 
 def _coloured_alone(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -> Codes:

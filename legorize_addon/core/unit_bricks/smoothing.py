@@ -17,7 +17,7 @@ from ..arrays import Floats, Ints, Mask
 from ..model import COLOUR_ANY, COLOUR_EMPTY
 from ..units import PLATES_PER_BRICK
 from .colour_votes import CLEAR, Ballot, Codes, cost_in
-from .icm import Columns, is_brick, relaxed
+from .icm import Columns, is_brick, relax
 
 _SHAPES: Final = np.array(list(product((False, True), repeat=PLATES_PER_BRICK)))
 _LIKELIEST: Final = 4
@@ -27,7 +27,7 @@ _CONTRAST: Final = 1.5
 """Power of differences in colour: shades may give way, what is clear at a glance shall stay."""
 
 
-def agreed_shapes(solid: Mask, share: Floats, *, least_gain: float, worth: float) -> Mask:
+def smooth_shapes(solid: Mask, share: Floats, *, least_gain: float, worth: float) -> Mask:
     """Fill up cell columns of one or two plates where that saves parts.
 
     Nothing is taken away, so that nothing thin is lost, and no hole or gap opens.
@@ -61,7 +61,7 @@ def agreed_shapes(solid: Mask, share: Floats, *, least_gain: float, worth: float
     start = there.copy()
     closed = (there | columns.plates(_slits(solid).reshape(plates.shape)))[active].all(axis=1)
     start[active[closed & (offers.error.argmin(axis=1) == len(_SHAPES) - 1)]] = True
-    found = relaxed(_codes(start), columns, active, offers, worth) != COLOUR_EMPTY
+    found = relax(_codes(start), columns, active, offers, worth) != COLOUR_EMPTY
     return columns.put(plates, found).reshape(solid.shape)
 
 
@@ -93,7 +93,7 @@ def _codes(solid: Mask) -> Codes:
     return np.where(solid, COLOUR_ANY, COLOUR_EMPTY).astype(np.int16)
 
 
-def agreed_colours(
+def smooth_colours(
     colour: Codes, seen: Mask, ballot: Ballot, marked: Mask, *, least_gain: float, worth: float
 ) -> Codes:
     """Give visible cell columns colours of their neighbours, or one of their own for all plates, to save parts.
@@ -130,7 +130,7 @@ def agreed_colours(
     voted = ((ballot.votes[number] > 0) & shown[:, :, None]).any(axis=1)
     price = np.where(marked[columns.layer[active]], least_gain, np.inf)
     offers = _Colours(ballot.codes, cost, shown, _likeliest(cost, voted, ballot.codes), price)
-    return columns.put(cells, relaxed(codes, columns, active, offers, worth)).reshape(colour.shape)
+    return columns.put(cells, relax(codes, columns, active, offers, worth)).reshape(colour.shape)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -126,7 +126,7 @@ def test_what_is_shown_stays(table) -> None:
     view.heat_map = True
     view.top_layer = 5
     view.section_axis, view.section_at, view.section_flip = "x", 0.25, True
-    again = build_again(hold=0.9)
+    again = build_again(clutch=0.9)
     assert (view.roles.support_outside, view.roles.shell, view.heat_map) == (True, False, True)
     assert view.top_layer == 5
     assert section_of(again) == Section("x", view.section_at, flip=True)
@@ -141,7 +141,7 @@ def test_steps_stay(table) -> None:
     view = bpy.context.scene.legorize
     view.by_steps = True
     view.step = 3
-    build_again(hold=0.9)
+    build_again(clutch=0.9)
     assert (view.by_steps, view.step) == (True, 3)
     view.by_steps = False
     assert not view.roles.support_outside

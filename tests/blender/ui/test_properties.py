@@ -17,7 +17,7 @@ from legorize_addon.scene.builds import layers_of
 from legorize_addon.scene.collections import clear_build
 from legorize_addon.scene.state import BUILD_KEY
 from legorize_addon.ui import panels
-from legorize_addon.ui.properties import current_build, settings_of
+from legorize_addon.ui.properties import current_build, settings_of, take_renamed
 from tests.blender.bricks import content, instances, show, table
 
 BY_NAME = {entry.name: entry for entry in fields(Settings)}
@@ -49,7 +49,8 @@ def test_defaults_are_the_cores(view) -> None:
 
 def test_properties_are_those_of_the_core(view) -> None:
     """Blender has the core's settings in their order, with their limits, words and texts."""
-    found = [entry for entry in view.settings.bl_rna.properties if entry.identifier not in ("rna_type", "name")]
+    others = {"rna_type", "name", *(entry.metadata["was"] for entry in BY_NAME.values())}
+    found = [entry for entry in view.settings.bl_rna.properties if entry.identifier not in others]
     assert [entry.identifier for entry in found] == list(BY_NAME)
     for entry in found:
         setting = BY_NAME[entry.identifier]
@@ -67,6 +68,16 @@ def test_floats_come_back_as_they_were_typed(view) -> None:
     for value in np.random.default_rng(0).uniform(0.1, 9.6, 20).round(4).tolist():
         view.settings.cusp = value
         assert settings_of(view.settings).cusp == value
+
+
+def test_settings_of_an_earlier_version_are_taken(view) -> None:
+    """A value under an earlier name counts under today's name, is told once, and is gone from where it was."""
+    view.settings.hold = 0.5
+    assert take_renamed(view.settings) == ("The setting hold is called clutch now: its value was taken.",)
+    assert settings_of(view.settings).clutch == 0.5
+    assert take_renamed(view.settings) == ()
+    view.settings.property_unset("clutch")
+    assert settings_of(view.settings) == Settings()
 
 
 def test_limits_are_kept(view) -> None:

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 import legorize_addon
-from legorize_addon.core.building.contacts import links
+from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action, Moves
-from legorize_addon.core.building.order import ordered
+from legorize_addon.core.building.order import order_moves
 from legorize_addon.core.errors import BuildError
 from legorize_addon.core.model.bricks import NOBODY, Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import CELL_SIZE
 from legorize_addon.core.statics.stability import stability
 from legorize_addon.core.units import BRICK, STUD
@@ -73,7 +73,7 @@ def with_moves(rows: list[tuple[int, ...]]) -> tuple[Bricks, Moves]:
     """Return bricks and the order in which they are built."""
     bricks = table(rows)
     outside = bricks.role == Role.SUPPORT_OUTSIDE
-    moves = ordered(bricks, links(bricks, CATALOGUE, temporary=outside).pairs, temporary=outside)
+    moves = order_moves(bricks, building_contacts(bricks, CATALOGUE, temporary=outside).pairs, temporary=outside)
     return replace(bricks, step=moves.step_of(len(bricks))), moves
 
 
@@ -289,7 +289,7 @@ def test_margins_are_those_of_the_model() -> None:
     """A proof of the model alone goes with its rows: supports are grey on the heat map, and no one's weakest brick."""
     bricks, moves = with_moves(storeys(0))
     model = bricks.take(bricks.role != Role.SUPPORT_OUTSIDE)
-    found = stability(model, CATALOGUE, connect(model, CATALOGUE))
+    found = stability(model, CATALOGUE, contact_graph(model, CATALOGUE))
     build = show(bricks, moves=moves, stability=found)
     alone = show(model, stability=found, name="alone")
     assert check_lines(build[BUILD_KEY]["check"]) == check_lines(alone[BUILD_KEY]["check"])

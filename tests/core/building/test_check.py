@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.building.check import walk
-from legorize_addon.core.building.contacts import links
+from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action, Moves
 from legorize_addon.core.model.bricks import NOBODY
 from tests.core.standing import CATALOGUE, table
@@ -32,7 +32,7 @@ def moves_of(*rows, pieces=None):
 def walked(bricks, moves, temporary=()):
     """Return what the check finds."""
     gone = np.isin(np.arange(len(bricks)), temporary)
-    return walk(moves, bricks, CATALOGUE, links(bricks, CATALOGUE, temporary=gone), temporary=gone)
+    return walk(moves, bricks, CATALOGUE, building_contacts(bricks, CATALOGUE, temporary=gone), temporary=gone)
 
 
 def test_tower_can_be_built():
@@ -59,20 +59,20 @@ def test_missing_brick_is_found():
 
 
 def test_support_that_comes_out():
-    """A post under a gate can be pulled down; the gate stays."""
+    """A pillar under a gate can be pulled down; the gate stays."""
     gate = moves_of(("place", 0), ("place", 1), ("place", 3), ("place", 2), ("remove", 3))
     assert walked(table(*GATE), gate, temporary=[3]).buildable
 
 
 def test_support_on_the_model_is_stuck():
-    """A post between two bricks of the model cannot be pulled down."""
+    """A pillar between two bricks of the model cannot be pulled down."""
     bricks = table(("3003", 0, 0, 0), ("3005", 0, 0, 3), ("3005", 1, 1, 3), ("3003", 0, 0, 6))
     order = moves_of(("place", 0), ("place", 1), ("place", 2), ("place", 3), ("remove", 2))
     assert walked(bricks, order, temporary=[2]).stuck.tolist() == [2]
 
 
 def test_supports_come_out_from_below():
-    """The upper half of a post cannot go before the lower one."""
+    """The upper half of a pillar cannot go before the lower one."""
     bricks = table(("3004", 0, 0, 0), ("3004", 0, 0, 3), ("3009", 0, 0, 6), ("3005", 5, 0, 0), ("3005", 5, 0, 3))
     build = [("place", row) for row in (0, 1, 3, 4, 2)]
     assert walked(bricks, moves_of(*build, ("remove", 3), ("remove", 4)), temporary=[3, 4]).buildable
@@ -81,7 +81,7 @@ def test_supports_come_out_from_below():
 
 
 def test_model_that_falls_without_its_support_is_found():
-    """Taking away the only post leaves the brick on it in the air."""
+    """Taking away the only pillar leaves the brick on it in the air."""
     bricks = table(("3005", 0, 0, 0), ("3003", 5, 5, 0), ("3005", 0, 0, 3))
     order = moves_of(("place", 0), ("place", 1), ("place", 2), ("remove", 0))
     assert walked(bricks, order, temporary=[0]).in_air.tolist() == [2]

@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.building.check import walk
-from legorize_addon.core.building.contacts import links
+from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action
-from legorize_addon.core.building.order import ordered
+from legorize_addon.core.building.order import order_moves
 from legorize_addon.core.model.bricks import NOBODY
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from tests.core.standing import CATALOGUE, table
 
 FOOT_BEAM_HANGER = (("3004", 0, 0, 0), ("3009", 0, 0, 3), ("3024", 5, 0, 2))
@@ -23,8 +23,8 @@ FOOT_BEAM_HANGER = (("3004", 0, 0, 0), ("3009", 0, 0, 3), ("3024", 5, 0, 2))
 def order(bricks, temporary=None):
     """Return the moves of bricks, and which are taken out."""
     gone = np.zeros(len(bricks), bool) if temporary is None else np.asarray(temporary, bool)
-    found = links(bricks, CATALOGUE, temporary=gone)
-    return ordered(bricks, found.pairs, temporary=gone), found, gone
+    found = building_contacts(bricks, CATALOGUE, temporary=gone)
+    return order_moves(bricks, found.pairs, temporary=gone), found, gone
 
 
 def sequence(moves):
@@ -50,7 +50,7 @@ def test_what_hangs_is_pressed_from_below():
 
 
 def test_nothing_is_squeezed_in():
-    """Of a post under a beam that is wide open below, the lower plate goes onto the upper one, never between two."""
+    """Of a pillar under a beam that is wide open below, the lower plate goes onto the upper one, never between two."""
     bricks = table(("3009", 0, 0, 3), ("3004", 0, 0, 0), ("3024", 5, 0, 2), ("3024", 5, 0, 1), ("3005", 5, 0, 6))
     moves, found, gone = order(bricks)
     assert walk(moves, bricks, CATALOGUE, found, temporary=gone).buildable
@@ -58,9 +58,9 @@ def test_nothing_is_squeezed_in():
 
 def test_a_gap_of_several_bricks_is_closed_from_one_end():
     """A plate under a tall brick would close the column beside it from below: it comes after all of the column."""
-    post = [("3005", 0, 0, 3 * k) for k in range(4)]
+    pillar = [("3005", 0, 0, 3 * k) for k in range(4)]
     column = [("3024", 3, 0, 11), ("3024", 3, 0, 10), ("3005", 3, 0, 7), ("3005", 3, 0, 4), ("3024", 3, 0, 3)]
-    bricks = table(*post, ("3010", 0, 0, 12), ("14716", 2, 0, 3), *column, ("3023", 2, 0, 2))
+    bricks = table(*pillar, ("3010", 0, 0, 12), ("14716", 2, 0, 3), *column, ("3023", 2, 0, 2))
     moves, found, gone = order(bricks)
     assert moves.brick.tolist()[-5:] == [7, 8, 9, 10, 11]
     assert walk(moves, bricks, CATALOGUE, found, temporary=gone).buildable
@@ -125,6 +125,6 @@ def test_every_brick_once_and_only_loose_ones_in_the_air(bricks):
     assert sorted(moves.brick.tolist()) == list(range(len(bricks)))
     assert (np.diff(moves.step) >= 0).all()
     told = walk(moves, bricks, CATALOGUE, found, temporary=gone)
-    floating = np.flatnonzero(~connect(bricks, CATALOGUE).grounded)
+    floating = np.flatnonzero(~contact_graph(bricks, CATALOGUE).grounded)
     assert np.isin(told.in_air, floating).all()
     assert len(told.squeezed) == len(told.wrong_end) == 0

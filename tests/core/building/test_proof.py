@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from legorize_addon.core.building.contacts import links
-from legorize_addon.core.building.order import ordered
+from legorize_addon.core.building.contacts import building_contacts
+from legorize_addon.core.building.order import order_moves
 from legorize_addon.core.building.proof import prove_steps
 from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.report.building_remarks import remarks_on_proof
-from legorize_addon.core.supports.assembly_plan import supported
+from legorize_addon.core.supports.assembly_plan import plan_assembly
 from tests.core.standing import CATALOGUE, table
 
 BRIDGE = (("3005", 0, 0, 0), ("3010", 0, 0, 3), ("3005", 7, 0, 0), ("3010", 4, 0, 3), ("3008", 0, 0, 6))
@@ -22,8 +22,8 @@ BRIDGE = (("3005", 0, 0, 0), ("3010", 0, 0, 3), ("3005", 7, 0, 0), ("3010", 4, 0
 def proof(bricks, temporary=None, **options):
     """Return the proof of bricks in their order."""
     gone = np.zeros(len(bricks), bool) if temporary is None else temporary
-    moves = ordered(bricks, links(bricks, CATALOGUE, temporary=gone).pairs, temporary=gone)
-    return prove_steps(moves, bricks, CATALOGUE, hold=0.98, **options)
+    moves = order_moves(bricks, building_contacts(bricks, CATALOGUE, temporary=gone).pairs, temporary=gone)
+    return prove_steps(moves, bricks, CATALOGUE, clutch=0.98, **options)
 
 
 def test_tower_stands_at_every_step():
@@ -45,8 +45,8 @@ def test_step_that_falls_is_named():
 
 def test_supports_make_all_steps_stand():
     """With what the supports add, the same bridge is proven at every step, and when they are gone."""
-    built = supported(table(*BRIDGE), CATALOGUE, deepest=3)
-    assert prove_steps(built.moves, built.bricks, CATALOGUE, hold=0.98).stands
+    built = plan_assembly(table(*BRIDGE), CATALOGUE, deepest=3)
+    assert prove_steps(built.moves, built.bricks, CATALOGUE, clutch=0.98).stands
 
 
 def test_pieces_are_tested_on_their_own_tables():

@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.building.order import ordered
+from legorize_addon.core.building.order import order_moves
 from legorize_addon.core.building.towers import STEADY, tipping
-from legorize_addon.core.model.contact_graph import connect, middles
+from legorize_addon.core.model.contacts import contact_graph, middles
 from legorize_addon.core.statics.stability import stability
 from tests.core.standing import CATALOGUE, table
 
 
 def falling(bricks, **options):
     """Return the towers that fall as bricks are built in their order."""
-    pairs = connect(bricks, CATALOGUE).pairs
-    moves = ordered(bricks, pairs, temporary=np.zeros(len(bricks), bool))
+    pairs = contact_graph(bricks, CATALOGUE).pairs
+    moves = order_moves(bricks, pairs, temporary=np.zeros(len(bricks), bool))
     return tipping(moves, bricks, CATALOGUE, pairs, **options)
 
 
@@ -41,7 +41,7 @@ def test_tower_that_is_caught_later_falls_before():
     bridge = (("3005", 0, 0, 0), ("3010", 0, 0, 3), ("3005", 7, 0, 0), ("3010", 4, 0, 3), ("3008", 0, 0, 6))
     found = falling(table(*bridge))
     assert {tower.step for tower in found} == {1}
-    assert stability(table(*bridge), CATALOGUE, connect(table(*bridge), CATALOGUE)).stable
+    assert stability(table(*bridge), CATALOGUE, contact_graph(table(*bridge), CATALOGUE)).stable
 
 
 def test_prop_keeps_a_tower_upright():
@@ -67,5 +67,5 @@ def test_verdict_agrees_with_the_force_test():
     for length, number in ((2, "3004"), (3, "3622"), (4, "3010"), (6, "3009"), (8, "3008")):
         bricks = table(("3003", 0, 0, 0), (number, 0, 0, 3))
         fell = bool(falling(bricks))
-        tip = stability(bricks, CATALOGUE, connect(bricks, CATALOGUE)).tipping.min() < 0.8
+        tip = stability(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE)).tipping.min() < 0.8
         assert fell == tip, length

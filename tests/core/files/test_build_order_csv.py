@@ -12,7 +12,7 @@ import numpy as np
 from legorize_addon.core.files.build_order_csv import COLUMNS, build_order_csv
 from legorize_addon.core.files.ldraw import write_ldr
 from legorize_addon.core.model.bricks import Role
-from legorize_addon.core.supports.assembly_plan import supported
+from legorize_addon.core.supports.assembly_plan import plan_assembly
 from tests.core.standing import CATALOGUE, table
 
 
@@ -35,7 +35,7 @@ def followed(text):
 def test_end_of_the_table_is_the_model():
     """Placed less removed is exactly the file of the model, supports named by their role."""
     bricks = table(("3004", 0, 0, 0), ("3004", 0, 0, 3), ("3004", 0, 0, 6), ("3008", 4, 0, 6), ("3008", 0, 0, 9))
-    found = supported(bricks, CATALOGUE, wish="tree", deepest=3)
+    found = plan_assembly(bricks, CATALOGUE, wish="tree", deepest=3)
     rows, left = followed(build_order_csv(found.moves, found.bricks, CATALOGUE))
     model = write_ldr(found.stays, CATALOGUE, name="m.ldr", title="m")
     assert left == Counter(line for line in model.splitlines() if line.startswith("1 "))
@@ -49,7 +49,7 @@ def test_end_of_the_table_is_the_model():
 def test_joins_name_the_piece():
     """A piece that is joined has a row of its own after all its bricks."""
     bricks = table(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 6))
-    found = supported(replace(bricks, piece=np.array([0, 1, 1], np.int16)), CATALOGUE, deepest=3)
+    found = plan_assembly(replace(bricks, piece=np.array([0, 1, 1], np.int16)), CATALOGUE, deepest=3)
     rows, _ = followed(build_order_csv(found.moves, found.bricks, CATALOGUE))
     assert [(row["action"], row["piece"]) for row in rows] == [
         ("place", "1"),

@@ -12,8 +12,8 @@ from legorize_addon.core.layout.problem.shapes import shapes
 from legorize_addon.core.layout.problem.sheets import split
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contact_graph import connect
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid
 
 CATALOGUE = load_catalogue()
 
@@ -37,7 +37,7 @@ def grid_of(colour, cover=None, role=None):
     """Return a grid, given (n_layers, 3, n_y, n_x) arrays; everything filled is must unless said otherwise."""
     colour = np.asarray(colour, np.int16)
     if cover is None:
-        cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, Cover.MUST)
+        cover = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, Fill.REQUIRED)
     role = np.zeros(colour.shape) if role is None else role
     return UnitGrid(colour, np.asarray(cover, np.uint8), np.asarray(role, np.uint8), np.zeros(3))
 
@@ -54,10 +54,10 @@ def problem_of(colour, cover=None, owner=None):
     grid = brick_grid(np.asarray(colour)[None], None if cover is None else np.asarray(cover)[None])
     (sheets,) = split(grid)
     among = shapes(CATALOGUE, 3, np.unique(grid.colour[grid.colour >= 0]), 71)
-    must = with_margins(grid.cover == Cover.MUST, False)
-    owners = np.full(must.shape, NOBODY, np.int32)
+    required = with_margins(grid.cover == Fill.REQUIRED, False)
+    owners = np.full(required.shape, NOBODY, np.int32)
     owners[0] = GROUND if owner is None else owner
-    return pose(sheets, among, placements(sheets, among), owners, must)
+    return pose(sheets, among, placements(sheets, among), owners, required)
 
 
 def planes(cells):
@@ -67,15 +67,15 @@ def planes(cells):
 
 def assert_covers(bricks, grid, catalogue=CATALOGUE):
     """Assert that bricks cover a grid: must cells once, may cells at most once, colours kept, parts exist."""
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     assert links.collisions == 0
     owner = np.full(planes(grid.cover).shape, NOBODY)
     n_z, n_y, n_x = links.owner.shape
     owner[:n_z, :n_y, :n_x] = links.owner
     built = owner != NOBODY
     cover, colour = planes(grid.cover), planes(grid.colour)
-    assert built[cover == Cover.MUST].all()
-    assert not built[cover == Cover.EMPTY].any()
+    assert built[cover == Fill.REQUIRED].all()
+    assert not built[cover == Fill.EMPTY].any()
     fixed = built & (colour >= 0)
     np.testing.assert_array_equal(bricks.colour[owner[fixed]], colour[fixed])
     assert catalogue.exists_in(bricks.part, bricks.colour).all()
@@ -86,8 +86,8 @@ def random_sheet(seed, shape=(8, 9)):
     """Return colours and cover of a sheet at random, in two colours and any, some cells optional."""
     rng = np.random.default_rng(seed)
     colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, COLOUR_ANY, RED, RED, WHITE], shape)
-    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST], shape))
-    cover[0, 0], colour[0, 0] = Cover.MUST, RED
+    cover = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, rng.choice([Fill.OPTIONAL, Fill.REQUIRED], shape))
+    cover[0, 0], colour[0, 0] = Fill.REQUIRED, RED
     return colour, cover
 
 
@@ -107,6 +107,6 @@ def ring(side):
 
 def assert_covered_once(problem, rows):
     """Assert that placements cover the must cells of a problem once, the others at most once."""
-    times = np.bincount(problem.placements.cells[problem.placements.entries(rows)], minlength=len(problem.must))
+    times = np.bincount(problem.placements.cells[problem.placements.entries(rows)], minlength=len(problem.required))
     assert times.max() == 1
-    assert (times[problem.must] == 1).all()
+    assert (times[problem.required] == 1).all()

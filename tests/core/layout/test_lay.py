@@ -13,7 +13,7 @@ from legorize_addon.core.errors import BuildError, Cancelled
 from legorize_addon.core.layout.lay import Tier, lay
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import Catalogue
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from legorize_addon.core.shell.hollowing import hollow
 from tests.core.layout.cells import CATALOGUE, assert_covers, brick_grid, grid_of, with_part
 
@@ -36,8 +36,10 @@ def random_grid(seed, plates):
     rng = np.random.default_rng(seed)
     shape = (3, 3 if plates else 1, 7, 8)
     colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, COLOUR_ANY, RED, WHITE, BLUE, SAND_GREEN], shape)
-    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST, Cover.MUST], shape))
-    colour[0, :, 0, 0], cover[0, :, 0, 0] = RED, Cover.MUST
+    cover = np.where(
+        colour == COLOUR_EMPTY, Fill.EMPTY, rng.choice([Fill.OPTIONAL, Fill.REQUIRED, Fill.REQUIRED], shape)
+    )
+    colour[0, :, 0, 0], cover[0, :, 0, 0] = RED, Fill.REQUIRED
     return grid_of(*(np.broadcast_to(each, (3, 3, 7, 8)) for each in (colour, cover)))
 
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from legorize_addon.core.layout.recolour import with_seen_coloured
+from legorize_addon.core.layout.recolour import recolour_visible
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contact_graph import connect
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid
 from tests.core.standing import table
 
 CATALOGUE = load_catalogue()
@@ -21,14 +21,14 @@ def coloured(rows, colours, free):
     """Return the colours of bricks afterwards, of which some are free and laid in the filler's colour."""
     bricks = table(*rows)
     bricks = replace(bricks, colour=np.where(free, FILLER, colours).astype(np.int16))
-    connection = connect(bricks, CATALOGUE)
+    graph = contact_graph(bricks, CATALOGUE)
     # the grid has a margin of a cell, as models have
-    cells = np.pad(connection.owner, ((0, -len(connection.owner) % 3), (0, 1), (0, 1)), constant_values=-1)
+    cells = np.pad(graph.owner, ((0, -len(graph.owner) % 3), (0, 1), (0, 1)), constant_values=-1)
     colour = np.where(cells < 0, COLOUR_EMPTY, np.where(np.append(free, False)[cells], COLOUR_ANY, RED))
     colour = colour.reshape(-1, 3, *cells.shape[1:]).astype(np.int16)
-    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, Cover.MUST).astype(np.uint8)
+    cover = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, Fill.REQUIRED).astype(np.uint8)
     grid = UnitGrid(colour, cover, np.zeros_like(cover), np.zeros(3))
-    found = with_seen_coloured(bricks, grid, connection, CATALOGUE)
+    found = recolour_visible(bricks, grid, graph, CATALOGUE)
     assert np.array_equal(found.corner, bricks.corner)
     return found.colour.tolist()
 

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.layout.lay import Tier, lay
-from legorize_addon.core.layout.problem.candidates import Live
+from legorize_addon.core.layout.problem.candidates import Candidates
 from legorize_addon.core.layout.solvers import covering_lp as programme
-from legorize_addon.core.measures.lower_bound import bound, cell_prices
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.measures.lower_bound import cell_prices, lower_bound
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from tests.core.layout.cells import CATALOGUE, RED, WHITE, brick_grid, disc, grid_of, problem_of, random_sheet
 
 
@@ -27,7 +27,7 @@ def test_no_layout_has_fewer_bricks(seed, tier):
     colour, cover = (np.stack(each) for each in zip(*sheets, strict=True))
     grid = brick_grid(colour, cover)
     bricks = lay(grid, CATALOGUE, rng=np.random.default_rng(0), tier=tier)
-    assert 1 <= bound(grid, CATALOGUE) <= len(bricks)
+    assert 1 <= lower_bound(grid, CATALOGUE) <= len(bricks)
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -35,11 +35,11 @@ def test_no_layout_has_fewer_bricks(seed, tier):
 def test_no_placement_is_worth_more_than_a_brick(seed):
     """The prices prove the bound: they are feasible for every placement, and optional cells are worth nothing more."""
     problem = problem_of(*random_sheet(seed))
-    live = Live.of(problem.placements)
-    price = cell_prices(live, problem.must, problem.corner)
-    worth = np.bincount(np.repeat(live.rows, live.size), weights=price[live.cells])
+    candidates = Candidates.of(problem.placements)
+    price = cell_prices(candidates, problem.required, problem.corner)
+    worth = np.bincount(np.repeat(candidates.rows, candidates.size), weights=price[candidates.cells])
     assert worth.max() <= 1 + 1e-9
-    assert price[~problem.must].max(initial=0) <= 0
+    assert price[~problem.required].max(initial=0) <= 0
 
 
 @pytest.mark.parametrize("many", [0, 10**6])
@@ -48,12 +48,12 @@ def test_no_placement_is_worth_more_than_a_brick(seed):
 def test_the_prices_are_worth_the_linear_programme(many, seed):
     """Either method finds prices that are worth as much as the least shares, and the best layout is not worth less."""
     problem = problem_of(*random_sheet(seed))
-    live, cost = Live.of(problem.placements), np.ones(len(problem.placements))
+    candidates, cost = Candidates.of(problem.placements), np.ones(len(problem.placements))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(programme, "_MANY", many)
-        worth = cell_prices(live, problem.must, problem.corner).sum()
-    whole = programme.whole_shares(live, problem.must, cost, 10_000)
-    assert worth == pytest.approx(programme.shares(live, problem.must, cost).sum(), abs=1e-6)
+        worth = cell_prices(candidates, problem.required, problem.corner).sum()
+    whole = programme.whole_shares(candidates, problem.required, cost, 10_000)
+    assert worth == pytest.approx(programme.shares(candidates, problem.required, cost).sum(), abs=1e-6)
     assert worth <= whole.sum() + 1e-6
 
 
@@ -70,42 +70,42 @@ def test_the_prices_are_worth_the_linear_programme(many, seed):
 )
 def test_known_sheets(colour, least):
     """Where the fewest bricks are known, the bound is this number."""
-    assert bound(brick_grid(np.asarray(colour)[None]), CATALOGUE) == least
+    assert lower_bound(brick_grid(np.asarray(colour)[None]), CATALOGUE) == least
 
 
 def test_bricks_and_plates_are_added():
     """A brick and two plates on it need three parts."""
     colour = np.full((2, 3, 1, 1), RED)
     colour[1, 2] = COLOUR_EMPTY
-    assert bound(grid_of(colour), CATALOGUE) == 3
+    assert lower_bound(grid_of(colour), CATALOGUE) == 3
 
 
 def test_optional_cells_count_only_where_they_help():
     """Two cells that touch at a corner need one brick with a cell between that may be covered, two without."""
     colour = [[RED, COLOUR_ANY], [COLOUR_EMPTY, RED]]
-    grid = brick_grid([colour], [[[Cover.MUST, Cover.MAY], [Cover.EMPTY, Cover.MUST]]])
+    grid = brick_grid([colour], [[[Fill.REQUIRED, Fill.OPTIONAL], [Fill.EMPTY, Fill.REQUIRED]]])
     without = brick_grid([[[RED, COLOUR_EMPTY], [COLOUR_EMPTY, RED]]])
-    assert (bound(grid, CATALOGUE), bound(without, CATALOGUE)) == (1, 2)
+    assert (lower_bound(grid, CATALOGUE), lower_bound(without, CATALOGUE)) == (1, 2)
 
 
 def test_wide_slabs():
     """A slab of 64 x 64 needs 256 bricks; a wide disc needs more than its cells ask for."""
-    assert bound(brick_grid(np.full((1, 64, 64), RED)), CATALOGUE) == 256
+    assert lower_bound(brick_grid(np.full((1, 64, 64), RED)), CATALOGUE) == 256
     wide = disc(20)
-    assert bound(brick_grid(wide[None]), CATALOGUE) > 1.3 * np.count_nonzero(wide == RED) / 16
+    assert lower_bound(brick_grid(wide[None]), CATALOGUE) > 1.3 * np.count_nonzero(wide == RED) / 16
 
 
 @pytest.mark.parametrize(("large", "wide"), [(0, 10**6), (0, 0)])
 def test_prices_around_the_middle_lose_little(large, wide):
     """At once or in blocks, prices are feasible, and worth nearly as much as those of the whole disc."""
     problem = problem_of(disc(14))
-    live = Live.of(problem.placements)
-    whole = cell_prices(live, problem.must, problem.corner).sum()
+    candidates = Candidates.of(problem.placements)
+    whole = cell_prices(candidates, problem.required, problem.corner).sum()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys.modules[cell_prices.__module__], "_LARGE", large)
         patch.setattr(sys.modules[cell_prices.__module__], "_WIDE", wide)
-        price = cell_prices(live, problem.must, problem.corner)
-    worth = np.bincount(np.repeat(live.rows, live.size), weights=price[live.cells])
+        price = cell_prices(candidates, problem.required, problem.corner)
+    worth = np.bincount(np.repeat(candidates.rows, candidates.size), weights=price[candidates.cells])
     assert worth.max() <= 1 + 1e-9
     assert 0.9 * whole <= price.sum() <= whole + 1e-6
 
@@ -115,7 +115,7 @@ def test_a_checkerboard_needs_a_brick_a_cell():
     colour = np.where(np.indices((20, 20)).sum(axis=0) % 2, RED, WHITE)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys.modules[cell_prices.__module__], "_LARGE", 0)
-        assert bound(brick_grid(colour[None]), CATALOGUE) == 400
+        assert lower_bound(brick_grid(colour[None]), CATALOGUE) == 400
 
 
 def test_progress_may_cancel():
@@ -125,4 +125,4 @@ def test_progress_may_cancel():
         raise Cancelled
 
     with pytest.raises(Cancelled):
-        bound(brick_grid([[[RED]]]), CATALOGUE, progress=stop)
+        lower_bound(brick_grid([[[RED]]]), CATALOGUE, progress=stop)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.measures.pass_through import corner_windings, pass_through_types
 from legorize_addon.core.mesh.triangle_mesh import repair
-from legorize_addon.core.slicing.coverage import covered, cut_at_grid
+from legorize_addon.core.slicing.coverage import covered_area_shares, cut_at_grid
 from legorize_addon.core.slicing.slices import slice_mesh
 from legorize_addon.core.slicing.trajectories import linked
 from tests.core.solids import joined, sphere, tube
@@ -100,7 +100,7 @@ def test_types_agree_with_the_coverage(radii):
     level = np.zeros(len(loop), dtype=np.int64)
     windings = corner_windings(start, end, level, corner=np.zeros(2), n_levels=1, n_y=12, n_x=12)[0]
     pieces = cut_at_grid(start, end, np.zeros(2))
-    area = covered(pieces, level[pieces.edge], 1, 12, 12)[0]
+    area = covered_area_shares(pieces, level[pieces.edge], 1, 12, 12)[0]
     passed = np.zeros((12, 12), dtype=bool)
     passed[pieces.cell[:, 1], pieces.cell[:, 0]] = True
     full = area > 32

@@ -8,7 +8,7 @@ import pytest
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.mesh.size import check_any
 from legorize_addon.core.model.bricks import Role
-from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill, UnitGrid
 from tests.core.solids import box
 
 
@@ -16,12 +16,12 @@ def test_nothing_to_build():
     """A grid without a solid cell is refused with the size of the model, one with a cell is not."""
     nothing = np.zeros((1, 3, 2, 2), np.uint8)
     empty = UnitGrid(
-        np.full((1, 3, 2, 2), COLOUR_EMPTY, np.int16), nothing + Cover.EMPTY, nothing + Role.SHELL, np.zeros(3)
+        np.full((1, 3, 2, 2), COLOUR_EMPTY, np.int16), nothing + Fill.EMPTY, nothing + Role.SHELL, np.zeros(3)
     )
     with pytest.raises(SettingsError, match=r"1 x 2 x 3 mm, too small for one brick .*\.$"):
         check_any(empty, box((0, 0, 0), (1, 2, 3)), keep_thin=False)
     cover = nothing.copy()
-    cover[0, 0, 0, 0] = Cover.MUST
+    cover[0, 0, 0, 0] = Fill.REQUIRED
     check_any(UnitGrid(empty.colour, cover, empty.role, empty.origin), box((0, 0, 0), (1, 2, 3)), keep_thin=True)
 
 
@@ -29,7 +29,7 @@ def test_nothing_to_build():
 def test_thin_walls_are_told_apart_from_a_small_model(size):
     """A model of many studs without a cell that is half full asks for thin parts to be kept, unless they are."""
     cells = np.zeros((1, 3, 2, 2), np.uint8)
-    nothing = UnitGrid(np.full(cells.shape, COLOUR_EMPTY, np.int16), cells + Cover.EMPTY, cells, np.zeros(3))
+    nothing = UnitGrid(np.full(cells.shape, COLOUR_EMPTY, np.int16), cells + Fill.EMPTY, cells, np.zeros(3))
     with pytest.raises(SettingsError, match=r" mm, but nowhere fills half of a cell .*keep_thin"):
         check_any(nothing, box((0, 0, 0), size), keep_thin=False)
     with pytest.raises(SettingsError, match=r" mm, too thin for one brick .*: choose a larger size\.$"):

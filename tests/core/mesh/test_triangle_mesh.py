@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from legorize_addon.core.errors import MeshError
-from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh, repair, scaled
+from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh, repair, scale_mesh
 from tests.core.solids import (
     BOX_FACES,
     area,
@@ -441,7 +441,7 @@ def test_a_cloud_of_boxes_has_its_bodies_and_volume(seed, n):
 def test_scaled_multiplies_coordinates_and_nothing_else():
     """Scaling is about the origin; faces and images are shared."""
     mesh = box((1, 2, 3), (4, 5, 6))
-    double = scaled(mesh, 2)
+    double = scale_mesh(mesh, 2)
     np.testing.assert_array_equal(double.vertices, 2 * mesh.vertices)
     assert double.faces is mesh.faces
     assert double.images is mesh.images

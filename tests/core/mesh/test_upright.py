@@ -10,7 +10,7 @@ import trimesh
 from trimesh.creation import box, capsule, cone, cylinder, icosphere
 
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
-from legorize_addon.core.mesh.upright import FALLEN, TURNS, stands_better, steadiness, turned_upright
+from legorize_addon.core.mesh.upright import FALLEN, TURNS, stands_better, steadiness, turn_upright
 
 
 def at(part: trimesh.Trimesh, *place: float) -> trimesh.Trimesh:
@@ -171,7 +171,7 @@ def mesh(vertices: np.ndarray) -> TriangleMesh:
 def test_turned_where_it_lay(axis: str) -> None:
     """The axis points up afterwards, on the same ground and about the same middle; the matrix says how."""
     lying = mesh(np.random.default_rng(0).normal(size=(9, 3)) * (1, 5, 3) + (100, -20, 7))
-    standing, turn = turned_upright(lying, axis)
+    standing, turn = turn_upright(lying, axis)
     np.testing.assert_allclose(lying.vertices @ turn[:3, :3].T + turn[:3, 3], standing.vertices)
     np.testing.assert_array_equal(turn[:3, :3], TURNS[axis])
     low, high = lying.vertices.min(axis=0), lying.vertices.max(axis=0)
@@ -185,6 +185,6 @@ def test_turned_where_it_lay(axis: str) -> None:
 def test_left_as_it_stands(up: str) -> None:
     """The same mesh comes back if z points up."""
     standing = mesh(np.random.default_rng(0).normal(size=(9, 3)))
-    found, turn = turned_upright(standing, up)
+    found, turn = turn_upright(standing, up)
     assert found is standing
     np.testing.assert_array_equal(turn, np.eye(4))

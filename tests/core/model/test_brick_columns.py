@@ -6,7 +6,7 @@ import numpy as np
 
 from legorize_addon.core.model.brick_columns import brick_columns
 from legorize_addon.core.model.bricks import Role
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid
 
 RED, BLUE = 4, 1
 
@@ -14,7 +14,7 @@ RED, BLUE = 4, 1
 def grid_of(colour) -> UnitGrid:
     """Make a grid of shell cells, all of which must be built."""
     colour = np.asarray(colour, np.int16)
-    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, Cover.MUST).astype(np.uint8)
+    cover = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, Fill.REQUIRED).astype(np.uint8)
     return UnitGrid(colour, cover, np.zeros(colour.shape, np.uint8), np.zeros(3))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from legorize_addon.core.model.bricks import Bricks, Role
-from legorize_addon.core.model.unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid, ground_of
+from legorize_addon.core.model.unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
 from legorize_addon.core.units import BRICK, LDU_PER_MM, PLATE, PLATE_LDU, PLATES_PER_BRICK, STUD, STUD_LDU
 
 
@@ -21,8 +21,8 @@ def bricks(n: int) -> Bricks:
 
 def test_solid_is_what_must_or_may_be_built():
     """Only empty cells are not solid."""
-    cover = np.array(list(Cover), np.uint8).reshape(1, 3, 1, 1)
-    colour = np.where(cover == Cover.EMPTY, COLOUR_EMPTY, COLOUR_ANY).astype(np.int16)
+    cover = np.array(list(Fill), np.uint8).reshape(1, 3, 1, 1)
+    colour = np.where(cover == Fill.EMPTY, COLOUR_EMPTY, COLOUR_ANY).astype(np.int16)
     grid = UnitGrid(colour, cover, np.full_like(cover, Role.INSIDE), np.zeros(3))
     assert grid.solid.ravel().tolist() == [False, True, True]
 

@@ -13,7 +13,7 @@ import pytest
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
-from legorize_addon.core.report.outputs import texts
+from legorize_addon.core.report.outputs import output_texts
 from legorize_addon.core.settings import Settings
 from tests.core.solids import box
 from tests.core.textured import painted
@@ -22,7 +22,7 @@ from tests.core.textured import painted
 def test_every_file_has_its_contents() -> None:
     """The model in LDraw, its order, its parts for the shops, its tables; the report as it was given."""
     build = legorize(painted(box([0.0, 0.0, 0.0], [4.0, 3.0, 2.0]), 4), Settings(width=4))
-    files = texts(build, load_catalogue(), {"some": "facts"}, "box")
+    files = output_texts(build, load_catalogue(), {"some": "facts"}, "box")
     assert json.loads(files["report.json"]) == {"some": "facts"}
     bricks = [line for line in files["model.ldr"].splitlines() if line.startswith("1 ")]
     assert len(bricks) == len(build.bricks)
@@ -34,19 +34,19 @@ def test_shops_get_no_empty_list() -> None:
     catalogue = load_catalogue()
     plain = legorize(painted(box([0.0, 0.0, 0.0], [4.0, 3.0, 2.0]), 4), Settings(width=4))
     lists = {"parts.csv", "bricklink.xml", "rebrickable.csv", "pick-a-brick.csv"}
-    names = set(texts(plain, catalogue, {}, "box"))
+    names = set(output_texts(plain, catalogue, {}, "box"))
     assert lists < names
     assert not [name for name in names if name.startswith("support")]
     role = plain.supports.bricks.role.copy()
     role[:2] = Role.SUPPORT_OUTSIDE
     hanging = replace(plain, supports=replace(plain.supports, bricks=replace(plain.supports.bricks, role=role)))
-    files = texts(hanging, catalogue, {}, "box")
+    files = output_texts(hanging, catalogue, {}, "box")
     assert set(files) - names == {f"support-{name}" for name in lists}
     for kind in ("rebrickable", "pick-a-brick"):
         rows = [line.split(",") for line in files[f"support-{kind}.csv"].splitlines()[1:]]
         assert sum(int(row[-1]) for row in rows) == 2
     bare = replace(catalogue, element=np.zeros_like(catalogue.element))
-    assert set(texts(hanging, bare, {}, "box")) == (names | {f"support-{name}" for name in lists}) - {
+    assert set(output_texts(hanging, bare, {}, "box")) == (names | {f"support-{name}" for name in lists}) - {
         "pick-a-brick.csv", "support-pick-a-brick.csv"
     }  # fmt: skip
 
@@ -58,7 +58,7 @@ def test_titles_change_nothing(title: str) -> None:
     """Whatever the model is called, the files are read as those of a box."""
     catalogue = load_catalogue()
     build = legorize(painted(box([0.0, 0.0, 0.0], [4.0, 3.0, 2.0]), 4), Settings(width=4))
-    plain, named = (texts(build, catalogue, {}, name) for name in ("box", title))
+    plain, named = (output_texts(build, catalogue, {}, name) for name in ("box", title))
     for name in ("model.ldr", "model.mpd"):
         lines = [files[name].split("\r\n") for files in (plain, named)]
         assert [line for line in lines[0] if "box" not in line] == [

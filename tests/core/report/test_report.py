@@ -13,14 +13,14 @@ from legorize_addon.core.build import Cut
 from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contact_graph import connect
-from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill, UnitGrid
 from legorize_addon.core.report.report import report
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shell.hollowing import hollow
 from legorize_addon.core.slicing.layer_differences import Marks
 from legorize_addon.core.statics.stability import stability
-from legorize_addon.core.supports.assembly_plan import supported
+from legorize_addon.core.supports.assembly_plan import plan_assembly
 from legorize_addon.core.unit_bricks.offset_rings import Offsets, offset_rings
 from tests.core.solids import box
 from tests.core.textured import painted, stages
@@ -33,7 +33,7 @@ def grid_of(solid):
     cells = np.repeat(solid[:, None], 3, axis=1)
     return UnitGrid(
         colour=np.where(cells, 4, COLOUR_EMPTY).astype(np.int16),
-        cover=np.where(cells, Cover.MUST, Cover.EMPTY).astype(np.uint8),
+        cover=np.where(cells, Fill.REQUIRED, Fill.EMPTY).astype(np.uint8),
         role=np.zeros(cells.shape, np.uint8),
         origin=np.array([-8.0, 16.0, 3.2]),
     )
@@ -65,7 +65,7 @@ def build_of(rows):
         images=(np.zeros((1, 1, 3), np.uint8),),
         image_clamp=np.ones(1, bool),
     )
-    supports = supported(bricks, CATALOGUE, wish="none", deepest=3)
+    supports = plan_assembly(bricks, CATALOGUE, wish="none", deepest=3)
     solid = np.zeros((3, 6, 8), bool)
     solid[:2, 1:5, 1:7] = True
     cut = stages(painted(box((4, 28, 0), (36, 52, 19.2)), 4))
@@ -82,8 +82,8 @@ def build_of(rows):
         grid=grid_of(solid),
         hollow=grid_of(solid),
         bricks=bricks,
-        connection=connect(bricks, CATALOGUE),
-        stability=stability(bricks, CATALOGUE, connect(bricks, CATALOGUE)),
+        graph=contact_graph(bricks, CATALOGUE),
+        stability=stability(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE)),
         supports=supports,
         joints=(),
         proof=None,
@@ -176,7 +176,7 @@ def described_grid(grid, **changes):
 def test_detail_counts_layers_and_columns():
     """A plate alone and a brick of two colours are columns of plates; marks are counted by criterion, or unknown."""
     grid = grid_of(np.ones((4, 5, 6), bool))
-    grid.cover[1, 0, 2, 3], grid.colour[1, 0, 2, 3] = Cover.EMPTY, COLOUR_EMPTY
+    grid.cover[1, 0, 2, 3], grid.colour[1, 0, 2, 3] = Fill.EMPTY, COLOUR_EMPTY
     grid.colour[3, 1, :2, 0] = 15
     marks = Marks(number=np.array([0, 1, 1, 0], bool), length=np.ones(4, bool), area=np.zeros(4, bool))
     layer, slices = np.array([0, 1, 1, 1, 2, 3, 3, 3], np.int32), SimpleNamespace(heights=np.zeros(8))
@@ -256,7 +256,7 @@ def test_verdict_is_told_with_its_proof(described):
     assert told["verdict"] in ("stable", "collapses", "undecided")
     assert told["stable"] == (told["verdict"] == "stable")
     assert any("pieces that no brick joins" in reason for reason in told["reasons"])
-    assert told["hold_n"] == 0.98
+    assert told["clutch_n"] == 0.98
     assert told["proof_confirmed"] is True
     assert told["components"] == described["connection"]["components"]
     assert told["worst_margin"] <= 1

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from legorize_addon.core.shell.ceilings import Columns, carriers
-from legorize_addon.core.shell.hollowing import eroded, peeled
+from legorize_addon.core.shell.hollowing import erode, peel
 
 WAYS = ("cheaper", "corbels", "pillars")
 SQUARE = np.ones((1, 3, 3), bool)
@@ -17,9 +17,9 @@ SQUARE = np.ones((1, 3, 3), bool)
 
 def shelled(solid, deep=None):
     """Return the columns of a model of whole bricks, hollowed with a shell of one cell."""
-    deep = eroded(np.repeat(solid[:, None], 3, axis=1), 1) if deep is None else deep
-    must = solid & ~deep
-    return Columns(must, must, must, deep)
+    deep = erode(np.repeat(solid[:, None], 3, axis=1), 1) if deep is None else deep
+    required = solid & ~deep
+    return Columns(required, required, required, deep)
 
 
 def box(n_layers, n_y, n_x):
@@ -48,7 +48,7 @@ def test_bricks_reach_two_studs(width):
 def test_everything_is_carried(seed, way, upper):
     """Nothing stays uncarried over a hollow; only hollow cells are filled, each for one purpose."""
     solid = blob(seed)
-    columns = shelled(solid, peeled(np.repeat(solid[:, None], 3, axis=1), 1) if upper else None)
+    columns = shelled(solid, peel(np.repeat(solid[:, None], 3, axis=1), 1) if upper else None)
     corbels, pillars = carriers(columns, way)
     assert not (corbels & pillars).any()
     assert not ((corbels | pillars) & ~columns.hollow).any()

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.layout.joining.ties import strapped
+from legorize_addon.core.layout.joining.ties import add_ties
 from legorize_addon.core.layout.lay import lay
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, UnitGrid
-from legorize_addon.core.shell.cohesion import held_together
+from legorize_addon.core.shell.cohesion import make_cohesive
 from tests.core.shell.test_plate_seams import grid_of
 
 RED, BLUE = 4, 1
@@ -30,19 +30,19 @@ def house() -> UnitGrid:
 
 @pytest.mark.parametrize("plates", [True, False])
 def test_house_is_one_piece(plates):
-    """Each of three lacks leaves loose bricks; mended and strapped they are none; bricks mend all but the shelf."""
+    """Each of three lacks leaves loose bricks; mended and tied they are none; bricks mend all but the shelf."""
     catalogue = load_catalogue()
-    shell = held_together(house(), plates=plates)
+    shell = make_cohesive(house(), plates=plates)
     before, laid = (lay(grid, catalogue, rng=np.random.default_rng(0)) for grid in (house(), shell))
-    assert connect(before, catalogue).n_components > 3
-    bricks, _ = strapped(laid, shell, catalogue, plates=plates)
-    found = connect(bricks, catalogue)
+    assert contact_graph(before, catalogue).n_components > 3
+    bricks, _ = add_ties(laid, shell, catalogue, plates=plates)
+    found = contact_graph(bricks, catalogue)
     assert found.n_components == (1 if plates else 2)
 
 
 def test_bricks_alone_add_no_plates():
     """Without plates every column is a whole brick or as partial as it was."""
-    before, after = house(), held_together(house(), plates=False)
+    before, after = house(), make_cohesive(house(), plates=False)
     added = after.solid & ~before.solid
     assert added.any()
     assert (added.any(axis=1) == added.all(axis=1)).all()

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Cover, UnitGrid
-from legorize_addon.core.shell.near_bodies import free_bodies, with_bodies_joined
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill, UnitGrid
+from legorize_addon.core.shell.near_bodies import free_bodies, join_near_bodies
 from tests.core.shell.test_plate_seams import grid_of
 
 RED, BLUE = 4, 1
@@ -27,17 +27,17 @@ def test_hat_over_a_head(gap):
     """One to three plates of air are filled by one column in the colour of the smaller body."""
     grid = two(up=gap)
     assert free_bodies(grid) == 2
-    found = with_bodies_joined(grid, plates=True)
+    found = join_near_bodies(grid, plates=True)
     added = found.solid & ~grid.solid
     assert added.sum() == gap
-    assert (found.cover[added] == Cover.MUST).all()
+    assert (found.cover[added] == Fill.REQUIRED).all()
     assert free_bodies(found) == 1
 
 
 def test_one_stud_beside():
     """One stud of air is filled by one plate."""
     grid = two(aside=1)
-    found = with_bodies_joined(grid, plates=True)
+    found = join_near_bodies(grid, plates=True)
     assert (found.solid & ~grid.solid).sum() == 1
     assert free_bodies(found) == 1
 
@@ -46,7 +46,7 @@ def test_one_stud_beside():
 def test_what_stands_free_stays_free(gap):
     """Bodies farther apart are left as they are."""
     grid = two(**gap)
-    assert with_bodies_joined(grid, plates=True) is grid
+    assert join_near_bodies(grid, plates=True) is grid
     assert free_bodies(grid) == 2
 
 
@@ -57,7 +57,7 @@ def test_nearest_pair_is_taken_and_stacking_preferred():
     colour[9:12, 0, 0] = BLUE
     colour[0:3, 3, 5] = BLUE
     grid = grid_of(colour.reshape(10, 3, 6, 12))
-    found = with_bodies_joined(grid, plates=True)
+    found = join_near_bodies(grid, plates=True)
     assert free_bodies(found) == 1
     assert (found.solid & ~grid.solid).sum() == 3 + 1
 
@@ -65,13 +65,13 @@ def test_nearest_pair_is_taken_and_stacking_preferred():
 def test_one_body_is_left_alone():
     """A model in one piece comes back as it is."""
     grid = grid_of(np.full((2, 3, 3, 3), RED))
-    assert with_bodies_joined(grid, plates=True) is grid
+    assert join_near_bodies(grid, plates=True) is grid
 
 
 def test_bricks_alone_fill_with_bricks():
     """Without plates the gap is filled by a whole brick's height."""
     grid = two(aside=1)
-    found = with_bodies_joined(grid, plates=False)
+    found = join_near_bodies(grid, plates=False)
     added = found.solid & ~grid.solid
     assert added.sum() == 3
     assert added.all(axis=1).sum() == 1

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.model.brick_columns import brick_columns
 from legorize_addon.core.model.bricks import Role
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid
-from legorize_addon.core.shell.plate_seams import with_joints
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid
+from legorize_addon.core.shell.plate_seams import add_plate_seams
 
 RED, BLUE = 4, 1
 
@@ -17,7 +17,7 @@ RED, BLUE = 4, 1
 def grid_of(colour) -> UnitGrid:
     """Make a grid of shell cells, all of which must be built."""
     colour = np.asarray(colour, np.int16)
-    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, Cover.MUST).astype(np.uint8)
+    cover = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, Fill.REQUIRED).astype(np.uint8)
     return UnitGrid(colour, cover, np.zeros(colour.shape, np.uint8), np.zeros(3))
 
 
@@ -31,7 +31,7 @@ def wall_with_a_shelf(wall=RED, shelf=RED) -> UnitGrid:
 
 def test_shelf_is_held_by_plates_in_the_wall():
     """Where a shelf of plates leaves a wall of bricks the wall becomes plates, one stud deep, in that layer only."""
-    grid = with_joints(wall_with_a_shelf())
+    grid = add_plate_seams(wall_with_a_shelf())
     plates = (grid.role == Role.PLATE).all(axis=1)
     assert plates[1, :, 1].all()
     assert not plates[[0, 2]].any()
@@ -41,14 +41,14 @@ def test_shelf_is_held_by_plates_in_the_wall():
 
 def test_other_colours_cannot_be_held_so():
     """A blue shelf finds no part that covers it and the red wall: the wall stays as it is."""
-    grid = with_joints(wall_with_a_shelf(shelf=BLUE))
+    grid = add_plate_seams(wall_with_a_shelf(shelf=BLUE))
     assert (grid.role[:, :, :, :2] == Role.SHELL).all()
 
 
 def test_bricks_alone_stay_as_they_are():
     """Without plates there is nothing to do, and the very same grid comes back."""
     grid = grid_of(np.full((2, 3, 4, 5), RED))
-    assert with_joints(grid) is grid
+    assert add_plate_seams(grid) is grid
 
 
 def test_what_rests_needs_no_joint():
@@ -56,7 +56,7 @@ def test_what_rests_needs_no_joint():
     colour = np.full((2, 3, 3, 3), COLOUR_EMPTY)
     colour[0] = RED
     colour[1, 0, :, :2] = RED
-    grid = with_joints(grid_of(colour))
+    grid = add_plate_seams(grid_of(colour))
     assert (grid.role[0] == Role.SHELL).all()
 
 
@@ -66,8 +66,8 @@ def test_only_roles_change_and_twice_is_once(seed):
     """Colours and covers stay; bricks only ever become plates; a second pass finds nothing more to do."""
     rng = np.random.default_rng(seed)
     grid = grid_of(rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, BLUE], (3, 3, 5, 6), p=[0.4, 0.1, 0.4, 0.1]))
-    once = with_joints(grid)
+    once = add_plate_seams(grid)
     assert once.colour is grid.colour
     assert once.cover is grid.cover
     assert not (brick_columns(once)[0] & ~brick_columns(grid)[0]).any()
-    np.testing.assert_array_equal(with_joints(once).role, once.role)
+    np.testing.assert_array_equal(add_plate_seams(once).role, once.role)

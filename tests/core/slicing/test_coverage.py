@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from legorize_addon.core.mesh.triangle_mesh import repair
-from legorize_addon.core.slicing.coverage import Pieces, covered, covered_area, cut_at_grid
+from legorize_addon.core.slicing.coverage import Pieces, covered_area, covered_area_shares, cut_at_grid
 from legorize_addon.core.slicing.lattice import ALPHA, Grid
 from legorize_addon.core.slicing.slices import slice_mesh
 from legorize_addon.core.slicing.trajectories import linked
@@ -32,7 +32,7 @@ def pieces_of(loops, corner=(0, 0)) -> Pieces:
 def cover(loops, n_y=12, n_x=12, corner=(0, 0)) -> np.ndarray:
     """Return the area of every cell inside closed polygons, (n_y, n_x)."""
     pieces = pieces_of(loops, corner)
-    return covered(pieces, np.zeros(len(pieces.edge), dtype=np.int64), 1, n_y, n_x)[0]
+    return covered_area_shares(pieces, np.zeros(len(pieces.edge), dtype=np.int64), 1, n_y, n_x)[0]
 
 
 def rectangle(x0, y0, x1, y1) -> np.ndarray:
@@ -203,7 +203,7 @@ def test_shifted_square_falls_back_to_the_inner_cell(offset):
     square = box((offset, offset, 0), (80 - offset, 80 - offset, 9.6))
     built = stages(square, grid=Grid(np.array([-8.0, -8, 0]), 1, 12, 12))
     pieces, level = built.pieces()
-    area = covered(pieces, level[pieces.edge], len(built.layer), 12, 12)
+    area = covered_area_shares(pieces, level[pieces.edge], len(built.layer), 12, 12)
     assert area[0, 6, 1] == pytest.approx((8 - offset) * 8)
     solid = half_covered(area / 64)
     samples = built.steep()

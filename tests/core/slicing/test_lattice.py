@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, scaled
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, scale_mesh
 from legorize_addon.core.slicing.coverage import covered_area
 from legorize_addon.core.slicing.lattice import ALPHA, Grid, fit_grid
 from legorize_addon.core.slicing.slices import slice_mesh
@@ -76,7 +76,7 @@ def test_steps_are_a_stud_and_a_brick(symmetric):
 def test_size_follows_the_scale_factor(k):
     """At k = 10, 5 and 2.5 the layers and covered cells are those of the size times k / 10, but for one."""
     whole = box((0, 0, 0), (413, 277, 633.6))
-    mesh = scaled(whole, k / 10)
+    mesh = scale_mesh(whole, k / 10)
     grid = fit_grid(mesh, symmetric=True)
     half = first_layer(mesh, grid) >= 32
     counts = np.array([half.any(axis=0).sum(), half.any(axis=1).sum(), grid.n_layers])

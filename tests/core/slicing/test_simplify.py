@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from legorize_addon.core.slicing.simplify import simplified
+from legorize_addon.core.slicing.simplify import simplify
 
 DEVIATIONS = (0.0, 0.01, 0.1, 0.4, 1.0, 2.0, 4.0)
 
@@ -45,7 +45,7 @@ def rings(points, loop_start, keep=None):
 def test_distance_is_within_the_deviation_both_ways(deviation):
     """Hausdorff: all of the old outline is near the new one, and all of the new one near the old."""
     points, colour, loop_start = wavy()
-    keep = simplified(points, colour, loop_start, deviation)
+    keep = simplify(points, colour, loop_start, deviation)
     for old, new in rings(points, loop_start, keep):
         for one, other in ((old, new), (new, old)):
             after = np.roll(one, -1, axis=0)
@@ -56,7 +56,7 @@ def test_distance_is_within_the_deviation_both_ways(deviation):
 def test_the_larger_the_deviation_the_fewer_points():
     """Points fall as the deviation grows, and those of a larger deviation are among those of a smaller one."""
     points, colour, loop_start = wavy()
-    kept = [simplified(points, colour, loop_start, deviation) for deviation in DEVIATIONS]
+    kept = [simplify(points, colour, loop_start, deviation) for deviation in DEVIATIONS]
     counts = [int(keep.sum()) for keep in kept]
     assert counts == sorted(counts, reverse=True)
     assert len(set(counts)) == len(DEVIATIONS)
@@ -67,14 +67,14 @@ def test_the_larger_the_deviation_the_fewer_points():
 def test_nothing_is_left_out_at_zero():
     """A deviation of 0 keeps every point, even those on a straight line."""
     points = np.array([[0, 0], [1, 0], [2, 0], [2, 2], [0, 2]])
-    assert simplified(points, np.zeros(5, np.int16), np.array([0, 5]), 0.0).all()
-    assert len(simplified(np.zeros((0, 2)), np.zeros(0, np.int16), np.zeros(1, int), 1.0)) == 0
+    assert simplify(points, np.zeros(5, np.int16), np.array([0, 5]), 0.0).all()
+    assert len(simplify(np.zeros((0, 2)), np.zeros(0, np.int16), np.zeros(1, int), 1.0)) == 0
 
 
 def test_ends_of_colour_runs_stay():
     """However large the deviation, every point where the colour changes is kept."""
     points, colour, loop_start = wavy()
-    keep = simplified(points, colour, loop_start, 100.0)
+    keep = simplify(points, colour, loop_start, 100.0)
     for a, b in itertools.pairwise(loop_start):
         changes = colour[a:b] != np.roll(colour[a:b], 1)
         changes[0] = True
@@ -88,7 +88,7 @@ def test_straight_runs_lose_their_inner_points():
     side = np.arange(10)
     points = np.concatenate([np.stack([side, 0 * side], 1), np.stack([0 * side + 10, side], 1)])
     points = np.concatenate([points, 10 - points]).astype(np.float64)
-    keep = simplified(points, np.zeros(40, np.int16), np.array([0, 40]), 1e-6)
+    keep = simplify(points, np.zeros(40, np.int16), np.array([0, 40]), 1e-6)
     assert np.flatnonzero(keep).tolist() == [0, 10, 20, 30]
 
 
@@ -103,7 +103,7 @@ def test_any_loops_stay_near(rows, deviation, data):
     cut = data.draw(st.integers(1, len(rows)))
     loop_start = np.unique([0, cut, len(rows)])
     points = np.stack([x, y], axis=1).astype(np.float64)
-    keep = simplified(points, colour.astype(np.int16), loop_start, deviation)
+    keep = simplify(points, colour.astype(np.int16), loop_start, deviation)
     assert keep[loop_start[:-1]].all()
     for old, new in rings(points, loop_start, keep):
         assert distance(old, new, np.roll(new, -1, axis=0)).max() <= deviation + 1e-9

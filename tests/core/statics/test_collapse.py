@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.statics.collapse import is_collapse, least_hold, least_imbalance
+from legorize_addon.core.statics.collapse import is_collapse, least_clutch, least_imbalance
 from legorize_addon.core.statics.forces import HOLD, Ground
 from scripts.benchmarks.stablelego import stair
 from tests.core.standing import equations, judged, table, weight
@@ -19,7 +19,7 @@ def test_only_a_motion_that_wins_is_a_collapse() -> None:
     assert np.abs(motion).max() == 1
     assert not is_collapse(falls.statics, -motion)
     assert not is_collapse(falls.statics, np.zeros_like(motion))
-    stronger = equations(table(*stair(20)), hold=1.05 * HOLD, ground=Ground.BASEPLATE)
+    stronger = equations(table(*stair(20)), clutch=1.05 * HOLD, ground=Ground.BASEPLATE)
     assert not is_collapse(stronger, motion)
 
 
@@ -62,7 +62,7 @@ def test_balance_by_a_linear_programme(reserve: float) -> None:
 
 def test_least_hold_is_the_limit() -> None:
     """A hold a thousandth above it is enough, one a thousandth below is not; a brick by itself needs none."""
-    limit = least_hold(equations(table(*stair(15)), ground=Ground.BASEPLATE))
-    assert judged(table(*stair(15)), hold=1.001 * limit, ground=Ground.BASEPLATE).stable
-    assert not judged(table(*stair(15)), hold=0.999 * limit, ground=Ground.BASEPLATE).stable
-    assert least_hold(equations(table(("3001", 0, 0, 0)))) == 0
+    limit = least_clutch(equations(table(*stair(15)), ground=Ground.BASEPLATE))
+    assert judged(table(*stair(15)), clutch=1.001 * limit, ground=Ground.BASEPLATE).stable
+    assert not judged(table(*stair(15)), clutch=0.999 * limit, ground=Ground.BASEPLATE).stable
+    assert least_clutch(equations(table(("3001", 0, 0, 0)))) == 0

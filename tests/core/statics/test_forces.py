@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.model.bricks import NOBODY
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.statics.forces import GRAVITY, HOLD, TABLE_FRICTION, Ground
 from tests.core.standing import CATALOGUE, downward, equations, table, weight
 
@@ -25,7 +25,7 @@ def test_weight_of_every_part() -> None:
 def test_grips_of_a_stud(number: str, grips: int) -> None:
     """The upper part decides how many points of a stud it grips; a part one stud wide grips four."""
     bricks = table(("3001", 0, 0, 0), (number, 0, 0, 3))
-    links, contacts = connect(bricks, CATALOGUE), equations(bricks).contacts
+    links, contacts = contact_graph(bricks, CATALOGUE), equations(bricks).contacts
     vertical = (contacts.least == -HOLD) & (contacts.by != NOBODY)
     assert vertical.sum() == grips * links.studs[0]
     assert (contacts.on[vertical] == 1).all()

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.verdict import UNSUPPORTED, Verdict
-from legorize_addon.core.statics.collapse import least_hold
+from legorize_addon.core.statics.collapse import least_clutch
 from legorize_addon.core.statics.equilibrium import is_equilibrium
 from legorize_addon.core.statics.forces import CAUTIOUS_HOLD, GRAVITY, HOLD, TABLE_FRICTION, Ground, Statics
 from scripts.benchmarks.stablelego import CASES, NARROW, Case, arm, stair
@@ -31,16 +31,16 @@ def test_cases_of_the_article(case: Case, needed: float) -> None:
     bricks = case.bricks(CATALOGUE)
     found = judged(bricks, ground=Ground.BASEPLATE, loads=case.loads(CATALOGUE))
     # all forces are in proportion to g
-    assert least_hold(found.statics) * (9.8 / GRAVITY) / HOLD == pytest.approx(needed, abs=6e-4)
+    assert least_clutch(found.statics) * (9.8 / GRAVITY) / HOLD == pytest.approx(needed, abs=6e-4)
     assert found.verdict is (STABLE if case.stands else COLLAPSES)
     assert found.check()
 
 
 def test_stairs_end_at_twenty() -> None:
     """As in the article, nineteen levels stand and twenty fall; with the cautious hold seventeen and eighteen."""
-    for hold, last in ((HOLD, 19), (CAUTIOUS_HOLD, 17)):
+    for clutch, last in ((HOLD, 19), (CAUTIOUS_HOLD, 17)):
         verdicts = [
-            judged(table(*stair(n)), hold=hold, ground=Ground.BASEPLATE).verdict for n in range(last - 1, last + 3)
+            judged(table(*stair(n)), clutch=clutch, ground=Ground.BASEPLATE).verdict for n in range(last - 1, last + 3)
         ]
         assert verdicts == [STABLE, STABLE, COLLAPSES, COLLAPSES]
 
@@ -53,7 +53,7 @@ def test_any_part_stands(part: str) -> None:
     assert found.check()
     assert found.forces @ found.statics.contacts.direction[:, 2] == pytest.approx(weight(part))
     assert found.margin.tolist() == [1]
-    assert found.enough_hold == 0
+    assert found.enough_clutch == 0
     assert found.unsupported.tolist() == []
 
 
@@ -85,9 +85,9 @@ def test_cantilever_by_hand(n: int) -> None:
     """
     bricks = table(("3005", 0, 0, 0), *((NARROW[8], 7 * level, 0, 3 * level + 3) for level in range(n)))
     needed = weight(NARROW[8]) * sum(3.25 + 7 * level for level in range(n))
-    assert least_hold(equations(bricks, ground=Ground.BASEPLATE)) == pytest.approx(needed, rel=1e-6)
+    assert least_clutch(equations(bricks, ground=Ground.BASEPLATE)) == pytest.approx(needed, rel=1e-6)
     for factor, verdict in ((1.001, STABLE), (0.999, COLLAPSES)):
-        found = judged(bricks, hold=factor * needed, ground=Ground.BASEPLATE)
+        found = judged(bricks, clutch=factor * needed, ground=Ground.BASEPLATE)
         assert found.verdict is verdict
         assert found.check()
 
@@ -115,7 +115,7 @@ def test_tower_that_tips_over(top: str, inside: float) -> None:
     assert found.check()
     assert judged(bricks, ground=Ground.BASEPLATE).stable
     if inside < 0:
-        assert least_hold(found.statics) == np.inf
+        assert least_clutch(found.statics) == np.inf
         # both turn the same way about the edge: what hangs over goes down
         assert (found.motion[:, 4] > 0).all()
         assert found.motion[1, 2] < 0
@@ -159,7 +159,7 @@ def test_what_hangs_in_the_air_falls() -> None:
     assert found.margin[3] == UNSUPPORTED
     assert found.weakest(1).tolist() == [3]
     assert np.isnan(found.tipping).tolist() == (np.arange(2) == found.component[3]).tolist()
-    assert found.enough_hold == np.inf
+    assert found.enough_clutch == np.inf
 
 
 def test_collapse_tears_where_it_hangs() -> None:
@@ -179,27 +179,27 @@ def test_weakest_brick_is_at_the_root() -> None:
     assert found.stable
     assert set(found.weakest(2)) <= {0, 1, 2}
     assert 0 < found.margin.min() < found.margin[-1] <= 1
-    again = judged(table(*stair(12)), hold=found.enough_hold + 1e-9, ground=Ground.BASEPLATE)
+    again = judged(table(*stair(12)), clutch=found.enough_clutch + 1e-9, ground=Ground.BASEPLATE)
     assert is_equilibrium(again.statics, found.forces)
-    assert least_hold(again.statics) <= found.enough_hold + 1e-6
+    assert least_clutch(again.statics) <= found.enough_clutch + 1e-6
 
 
 @pytest.mark.parametrize(("factor", "verdict"), [(1 + 1e-5, STABLE), (1 - 1e-5, COLLAPSES)])
 def test_programme_decides_what_projections_do_not(factor: float, verdict: Verdict) -> None:
     """A hundred thousandth beside the limit a linear programme proves either; without it the answer is open."""
     bricks = table(*stair(12))
-    hold = factor * least_hold(equations(bricks, ground=Ground.BASEPLATE))
-    found = judged(bricks, hold=hold, ground=Ground.BASEPLATE)
+    clutch = factor * least_clutch(equations(bricks, ground=Ground.BASEPLATE))
+    found = judged(bricks, clutch=clutch, ground=Ground.BASEPLATE)
     assert found.verdict is verdict
     assert found.check()
-    assert judged(bricks, hold=hold, ground=Ground.BASEPLATE, programme=0).verdict in (verdict, UNDECIDED)
+    assert judged(bricks, clutch=clutch, ground=Ground.BASEPLATE, programme=0).verdict in (verdict, UNDECIDED)
 
 
 def test_undecided_is_said() -> None:
     """A billionth below the limit projections know nothing, and without a programme the verdict says so."""
     bricks = table(*stair(12))
-    hold = least_hold(equations(bricks, ground=Ground.BASEPLATE))
-    open_case = judged(bricks, hold=hold * (1 - 1e-9), ground=Ground.BASEPLATE, programme=0)
+    clutch = least_clutch(equations(bricks, ground=Ground.BASEPLATE))
+    open_case = judged(bricks, clutch=clutch * (1 - 1e-9), ground=Ground.BASEPLATE, programme=0)
     assert open_case.verdict is UNDECIDED
     assert (open_case.motion == 0).all()
     assert not open_case.stable
@@ -239,9 +239,9 @@ def solvable(equations: Statics, reserve: float) -> bool:
 
 @settings(max_examples=60)
 @given(piles(), st.sampled_from([0.002, 0.02, 0.98]), st.sampled_from(list(Ground)))
-def test_verdicts_agree_with_a_linear_programme(bricks, hold, ground) -> None:
+def test_verdicts_agree_with_a_linear_programme(bricks, clutch, ground) -> None:
     """What is proven to stand is feasible, what is proven to fall is not; only what has nothing to spare is open."""
-    found = judged(bricks, hold=hold, ground=ground)
+    found = judged(bricks, clutch=clutch, ground=ground)
     assert found.check()
     feasible, to_spare = (solvable(found.statics, reserve) for reserve in (0.0, 2e-6))
     if found.standing is UNDECIDED:
@@ -250,4 +250,4 @@ def test_verdicts_agree_with_a_linear_programme(bricks, hold, ground) -> None:
         assert not to_spare
     else:
         assert feasible == (found.standing is STABLE)
-    assert set(found.unsupported) == set(np.flatnonzero(~connect(bricks, CATALOGUE).grounded))
+    assert set(found.unsupported) == set(np.flatnonzero(~contact_graph(bricks, CATALOGUE).grounded))

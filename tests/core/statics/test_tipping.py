@@ -6,9 +6,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.verdict import Verdict
-from legorize_addon.core.statics.collapse import is_collapse, least_hold
+from legorize_addon.core.statics.collapse import is_collapse, least_clutch
 from legorize_addon.core.statics.tipping import tipping, toppling
 from tests.core.standing import CATALOGUE, downward, equations, judged, table
 
@@ -22,19 +22,19 @@ def test_a_fall_is_proven_as_soon_as_the_weight_is_outside(steps: list[tuple[int
         x, y = x + right, y + min(max(back, -1), 1)
         rows.append(("3001", x, y, 3 * number + 3, int(turned)))
     bricks = table(*rows)
-    links, found = connect(bricks, CATALOGUE), equations(bricks)
+    links, found = contact_graph(bricks, CATALOGUE), equations(bricks)
     if not links.grounded.all():
         return
     inside, motion = tipping(found, links), toppling(found, links)
     assert motion.any() == (inside[0] < 0)
     if abs(inside[0]) > 1e-6:
-        assert is_collapse(found, motion) == (inside[0] < 0) == (least_hold(found) == np.inf)
+        assert is_collapse(found, motion) == (inside[0] < 0) == (least_clutch(found) == np.inf)
 
 
 def test_only_the_body_that_falls_moves() -> None:
     """Of two bodies the one that stands has no motion, and the other turns as one piece."""
     bricks = table(("3003", 0, 0, 0), ("3007", 0, 0, 3), ("3001", 0, 9, 0))
-    motion = toppling(equations(bricks), connect(bricks, CATALOGUE)).reshape(-1, 5)
+    motion = toppling(equations(bricks), contact_graph(bricks, CATALOGUE)).reshape(-1, 5)
     assert (motion[2] == 0).all()
     np.testing.assert_allclose(motion[0, 3:], motion[1, 3:])
     # about the edge at x = 2: outwards is along +x, and the top turns faster than the foot
@@ -46,7 +46,7 @@ def test_only_the_body_that_falls_moves() -> None:
 def test_what_is_lifted_is_not_turned() -> None:
     """A load that lifts a brick leaves no place on the ground: minus infinity, and no toppling."""
     bricks = table(("3001", 0, 0, 0))
-    links, found = connect(bricks, CATALOGUE), equations(bricks, loads=downward(bricks, 0, -1.0))
+    links, found = contact_graph(bricks, CATALOGUE), equations(bricks, loads=downward(bricks, 0, -1.0))
     assert tipping(found, links).tolist() == [-np.inf]
     assert not toppling(found, links).any()
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.supports.boxes import sizes_in
-from legorize_addon.core.supports.clearance import Room
+from legorize_addon.core.supports.clearance import Clearance
 
 CATALOGUE = load_catalogue()
 WHITE = 15
@@ -22,7 +22,7 @@ def room_under(height, n_z=None):
     height = np.asarray(height)
     levels = np.arange(height.max() if n_z is None else n_z)[:, None, None]
     free = levels < height
-    return Room(free, free, ~free, np.zeros(3, np.int32))
+    return Clearance(free, free, ~free, np.zeros(3, np.int32))
 
 
 def ceiling(height):

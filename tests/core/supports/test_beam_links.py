@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from legorize_addon.core.supports.beam_links import LONG, OFF, links
+from legorize_addon.core.supports.beam_links import LONG, OFF, beam_links
 from legorize_addon.core.supports.beams import areas, pillars_of
 from tests.core.supports.places import ceilings
 
 
 def linked(*laid):
     """Return the links of beams."""
-    return links(laid, [pillar for beam in laid for pillar in pillars_of(beam)])
+    return beam_links(laid, [pillar for beam in laid for pillar in pillars_of(beam)])
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 
 from legorize_addon.core.model.bricks import NOBODY, Role
-from legorize_addon.core.model.contact_graph import connect
-from legorize_addon.core.supports.boxes import boxes_of, bricks_of_boxes, joined_upwards, sizes_in
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.supports.boxes import boxes_of, bricks_of_boxes, merge_upwards, sizes_in
 from legorize_addon.core.supports.columns import pillars
 from scripts.benchmarks.full_columns import full_columns
 from tests.core.supports.places import CATALOGUE, WHITE, ceilings, owners, triples
@@ -27,14 +27,14 @@ def tower(n, z=0):
 def test_no_boxes():
     """An empty list is an array of no rows, and no bricks."""
     assert boxes_of([]).shape == (0, 6)
-    assert len(bricks_of(boxes_of([]))) == len(joined_upwards(boxes_of([]), CATALOGUE, WHITE)) == 0
+    assert len(bricks_of(boxes_of([]))) == len(merge_upwards(boxes_of([]), CATALOGUE, WHITE)) == 0
 
 
 @pytest.mark.parametrize("n", range(10))
 @pytest.mark.parametrize("z", [0, 1, 2])
 def test_three_bricks_become_a_tall_one(n, z):
     """A tower becomes as many tall bricks as can be, from below, on whatever plate it begins."""
-    joined = joined_upwards(tower(n, z), CATALOGUE, WHITE)
+    joined = merge_upwards(tower(n, z), CATALOGUE, WHITE)
     assert joined[:, 5].tolist() == [9] * (n // 3) + [3] * (n % 3)
     assert joined[:, 3:].prod(axis=1).sum() == 12 * n
 
@@ -48,14 +48,14 @@ def test_only_equal_bricks_are_joined():
         boxes_of((0, 0, 3 * z, 3, 2, 3) for z in range(3)),
     ]
     for boxes in apart:
-        np.testing.assert_array_equal(joined_upwards(boxes, CATALOGUE, WHITE), boxes)
+        np.testing.assert_array_equal(merge_upwards(boxes, CATALOGUE, WHITE), boxes)
 
 
 def test_tall_bricks_need_their_colour():
     """Where the tall part is not made in a colour, three bricks stay three."""
     made = {code: sizes_in(CATALOGUE, code) for code in CATALOGUE.codes.tolist()}
     without = next(code for code, sizes in made.items() if (2, 2, 3) in sizes and (2, 2, 9) not in sizes)
-    assert len(joined_upwards(tower(3), CATALOGUE, without)) == 3
+    assert len(merge_upwards(tower(3), CATALOGUE, without)) == 3
 
 
 @given(ceilings())
@@ -63,7 +63,7 @@ def test_joining_keeps_the_cells(case):
     """Joined boxes cover the same cells, and none more than once."""
     room, cells = case
     for boxes in (pillars(triples(cells)), full_columns(cells, room)):
-        joined = joined_upwards(boxes, CATALOGUE, WHITE)
+        joined = merge_upwards(boxes, CATALOGUE, WHITE)
         before, after = (owners(each, room.open.shape) != NOBODY for each in (boxes, joined))
         np.testing.assert_array_equal(before, after)
         assert len(joined) <= len(boxes)
@@ -75,11 +75,11 @@ def test_bricks_fill_their_boxes(case):
     room, cells = case
     boxes = full_columns(cells, room)
     bricks = bricks_of(boxes)
-    connection = connect(bricks, CATALOGUE)
-    assert connection.collisions == 0
+    graph = contact_graph(bricks, CATALOGUE)
+    assert graph.collisions == 0
     wanted = owners(boxes, room.open.shape)
-    n_z, n_y, n_x = connection.owner.shape
-    np.testing.assert_array_equal(connection.owner, wanted[:n_z, :n_y, :n_x])
+    n_z, n_y, n_x = graph.owner.shape
+    np.testing.assert_array_equal(graph.owner, wanted[:n_z, :n_y, :n_x])
     assert (bricks.role == Role.SUPPORT_OUTSIDE).all()
     assert (bricks.colour == WHITE).all()
 

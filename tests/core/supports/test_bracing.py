@@ -1,4 +1,4 @@
-"""Posts that stay where a whole model would fall."""
+"""Pillars that stay where a whole model would fall."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.model.bricks import Bricks, Role
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.progress import silent
 from legorize_addon.core.statics.forces import HOLD
-from legorize_addon.core.supports.bracing import _post_of, _tested, _with_fewer, with_falling_propped
-from legorize_addon.core.supports.pillars import with_floating_carried
+from legorize_addon.core.supports.bracing import _pillar_of, _tested, _with_fewer, add_bracing
+from legorize_addon.core.supports.pillars import add_pillars
 from scripts.benchmarks.stablelego import stair
 from tests.core.standing import CATALOGUE, judged, table
 
 
 def propped(bricks):
-    """Return bricks with posts under what falls, their connection, and how they stand."""
-    return with_falling_propped(bricks, CATALOGUE, connect(bricks, CATALOGUE), judged(bricks), hold=HOLD)
+    """Return bricks with pillars under what falls, their connection, and how they stand."""
+    return add_bracing(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), judged(bricks), clutch=HOLD)
 
 
 def same(one, other):
@@ -39,23 +39,23 @@ def test_what_stands_stays_as_it_is():
 
 @pytest.mark.parametrize("height", range(1, 6))
 def test_one_post_under_what_tips_over(height):
-    """A long beam on one stud at its end gets one post, beyond its middle, and stands as safely as it is wide."""
+    """A long beam on one stud at its end gets one pillar, beyond its middle, and stands as safely as it is wide."""
     tower = [("3005", 0, 0, 3 * level) for level in range(height)]
     bricks = table(*tower, ("3008", 0, 0, 3 * height))
     assert judged(bricks).tipping[0] < 0
-    after, connection, found = propped(bricks)
+    after, graph, found = propped(bricks)
     assert found.stable
     assert found.check()
-    posts = after.take(np.arange(len(bricks), len(after)))
-    assert set(posts.role.tolist()) == {Role.SUPPORT_KEPT}
-    assert len(np.unique(posts.corner[:, 0])) == 1
-    assert posts.corner[0, 0] >= 3
+    pillars = after.take(np.arange(len(bricks), len(after)))
+    assert set(pillars.role.tolist()) == {Role.SUPPORT_KEPT}
+    assert len(np.unique(pillars.corner[:, 0])) == 1
+    assert pillars.corner[0, 0] >= 3
     np.testing.assert_allclose(found.tipping[0], 4)
-    assert connection.n_components == 1
+    assert graph.n_components == 1
 
 
 def test_post_under_what_tears_off():
-    """A stair of 30 levels that hangs on its lowest studs is held by posts under its upper half."""
+    """A stair of 30 levels that hangs on its lowest studs is held by pillars under its upper half."""
     bricks = table(*stair(30), ("3001", 0, 0, 0), ("3001", -4, 0, 0))
     after, _, found = propped(bricks)
     assert not judged(bricks).stable
@@ -65,11 +65,11 @@ def test_post_under_what_tears_off():
 
 
 def test_post_stands_on_what_is_below():
-    """An arm over a floor gets its post on the floor, not through it."""
+    """An arm over a floor gets its pillar on the floor, not through it."""
     bricks = table(("3007", 0, 0, 0), ("3005", 0, 0, 3), *[("3008", 0, 0, 6 + 3 * level) for level in range(12)])
-    after, connection, found = propped(bricks)
+    after, graph, found = propped(bricks)
     assert found.stable
-    assert connection.collisions == 0
+    assert graph.collisions == 0
     assert (after.corner[len(bricks) :, 2] >= 3).all()
 
 
@@ -91,11 +91,11 @@ def arms(draw):
 @given(arms())
 @settings(max_examples=40, deadline=None)
 def test_whatever_falls_is_left_alone_or_stands(bricks):
-    """Posts come after all that was there, overlap nothing, and are only kept if the model is proven to stand."""
-    bricks, connection = with_floating_carried(bricks, CATALOGUE, connect(bricks, CATALOGUE))
+    """Pillars come after all that was there, overlap nothing, and are only kept if the model is proven to stand."""
+    bricks, graph = add_pillars(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE))
     before = judged(bricks)
-    after, connection, found = with_falling_propped(bricks, CATALOGUE, connection, before, hold=HOLD)
-    assert connection.collisions == 0
+    after, graph, found = add_bracing(bricks, CATALOGUE, graph, before, clutch=HOLD)
+    assert graph.collisions == 0
     assert same(after.take(np.arange(len(bricks))), bricks)
     if len(after) > len(bricks):
         assert not before.stable
@@ -106,24 +106,24 @@ def test_whatever_falls_is_left_alone_or_stands(bricks):
 
 
 def test_posts_that_bear_little_are_left_out():
-    """Of seven posts under a beam that tips over, one or two stay, and the model still stands."""
+    """Of seven pillars under a beam that tips over, one or two stay, and the model still stands."""
     bricks = table(("3005", 0, 0, 0), ("3008", 0, 0, 3))
-    posts = [table(("3005", x, 0, 0)) for x in range(1, 8)]
-    tested = partial(_tested, bricks, catalogue=CATALOGUE, hold=HOLD, progress=silent)
-    after, _, found = _with_fewer(tested(posts), posts, tested)
+    pillars = [table(("3005", x, 0, 0)) for x in range(1, 8)]
+    tested = partial(_tested, bricks, catalogue=CATALOGUE, clutch=HOLD, progress=silent)
+    after, _, found = _with_fewer(tested(pillars), pillars, tested)
     assert found.stable
     assert 1 <= len(after) - len(bricks) <= 2
     assert same(after.take(np.arange(len(bricks))), bricks)
 
 
 def test_contacts_that_stay_are_told_by_their_posts():
-    """What is left of the contacts of bricks with posts, once some posts are taken away, are those of the others."""
+    """What is left of the contacts of bricks with pillars, once some are taken away, are those of the others."""
     bricks = table(("3005", 0, 0, 0), ("3008", 0, 0, 3), ("3003", 6, 0, 6))
-    posts = [table(("3024", x, 0, 0), ("3024", x, 0, 1), ("3024", x, 0, 2)) for x in (3, 5, 6)]
-    tested = partial(_tested, bricks, catalogue=CATALOGUE, hold=HOLD, progress=silent)
-    every = tested(posts)
+    pillars = [table(("3024", x, 0, 0), ("3024", x, 0, 1), ("3024", x, 0, 2)) for x in (3, 5, 6)]
+    tested = partial(_tested, bricks, catalogue=CATALOGUE, clutch=HOLD, progress=silent)
+    every = tested(pillars)
     for left in np.ndindex(2, 2, 2):
-        fewer = tested([post for post, stays in zip(posts, left, strict=True) if stays])[2].statics.contacts
-        kept = np.array([*left, 1], dtype=bool)[_post_of(every, posts)].all(axis=0)
+        fewer = tested([pillar for pillar, stays in zip(pillars, left, strict=True) if stays])[2].statics.contacts
+        kept = np.array([*left, 1], dtype=bool)[_pillar_of(every, pillars)].all(axis=0)
         for name in ("point", "direction", "least"):
             assert np.array_equal(getattr(every[2].statics.contacts, name)[kept], getattr(fewer, name))

@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from legorize_addon.core.model.bricks import NOBODY
-from legorize_addon.core.model.contact_graph import connect
-from legorize_addon.core.supports.clearance import MARGIN, room_around
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.supports.clearance import MARGIN, clearance_around
 from scripts.benchmarks.stablelego import placed
 from tests.core.standing import CATALOGUE, table
 
@@ -18,7 +18,7 @@ BRIDGE = (("3004", 0, 0, 0), ("3004", 4, 0, 0), ("3009", 0, 0, 3))
 
 def around(*rows):
     """Return the room around bricks."""
-    return room_around(connect(table(*rows), CATALOGUE))
+    return clearance_around(contact_graph(table(*rows), CATALOGUE))
 
 
 def test_room_under_a_bridge_is_open():
@@ -69,9 +69,9 @@ def test_closed_hollow_is_not_free():
 def test_open_room_has_nothing_below(places):
     """An open cell has open cells down to the ground, a filled one and all above it are closed; open air is free."""
     bricks = placed([("3024", *place, 0) for place in dict.fromkeys(places)], CATALOGUE)
-    connection = connect(bricks, CATALOGUE)
-    room = room_around(connection)
-    assert room.filled.sum() == (connection.owner != NOBODY).sum()
+    graph = contact_graph(bricks, CATALOGUE)
+    room = clearance_around(graph)
+    assert room.filled.sum() == (graph.owner != NOBODY).sum()
     np.testing.assert_array_equal(room.open, ~np.logical_or.accumulate(room.filled, axis=0))
     assert not (room.free & room.filled).any()
     sky = ~np.logical_or.accumulate(room.filled[::-1], axis=0)[::-1]

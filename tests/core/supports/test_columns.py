@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 
 from legorize_addon.core.model.bricks import NOBODY
-from legorize_addon.core.supports.columns import columns, covered, pillars, with_room
+from legorize_addon.core.supports.columns import columns, covered, pillars, within_clearance
 from scripts.benchmarks.full_columns import FLAT, TALL_SIZES, full_columns
 from tests.core.supports.places import assert_sound, ceiling, ceilings, room_under, triples
 
@@ -94,5 +94,5 @@ def test_covered_leaves_what_fits_nothing():
 def test_cells_without_room_are_left_out():
     """A cell over a closed column, and one on the ground, get nothing; doubles count once."""
     room = room_under([[6, 0]])
-    assert with_room(np.array([[0, 0, 6], [0, 0, 6], [1, 0, 6], [0, 0, 0]]), room).tolist() == [[0, 0, 6]]
+    assert within_clearance(np.array([[0, 0, 6], [0, 0, 6], [1, 0, 6], [0, 0, 0]]), room).tolist() == [[0, 0, 6]]
     assert len(full_columns(np.zeros((0, 3), dtype=int), room)) == 0

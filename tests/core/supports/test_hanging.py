@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from legorize_addon.core.model.contact_graph import connect
-from legorize_addon.core.supports.hanging import NOT_HELD, Carrying
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.supports.hanging import NOT_HELD, Hanging
 from scripts.benchmarks.stablelego import placed
 from tests.core.standing import CATALOGUE, table
 
@@ -16,11 +16,11 @@ ROOF = (("3004", 0, 0, 0), ("3009", 0, 0, 3), ("3023", 4, 0, 2), ("3024", 5, 0, 
 """A foot, a beam on it, under the beam's free end a plate, and under that another one."""
 
 
-def carrying(bricks, deepest, hold=()):
+def carrying(bricks, deepest, clutch=()):
     """Return what is held when some bricks stand."""
     height = np.array([part.height for part in CATALOGUE.parts])[bricks.part]
-    made = Carrying(connect(bricks, CATALOGUE), height, deepest=deepest)
-    made.hold(hold)
+    made = Hanging(contact_graph(bricks, CATALOGUE), height, deepest=deepest)
+    made.clutch(clutch)
     return made
 
 
@@ -45,9 +45,9 @@ def test_nothing_is_held_at_first():
 
 
 def test_what_is_carried_carries():
-    """A post under a hanging plate brings it to depth 0, and tells whom it holds from now on."""
+    """A pillar under a hanging plate brings it to depth 0, and tells whom it holds from now on."""
     made = carrying(table(*ROOF), 0, [0])
-    assert made.hold([3]) == [3, 2]
+    assert made.clutch([3]) == [3, 2]
     assert depths(made) == [0, 0, 0, 0]
     assert made.held(2)
 
@@ -76,7 +76,7 @@ def test_depths_are_a_fixed_point(bricks, deepest, data):
     """No depth can be bettered, each has its reason, and the order of holding does not matter."""
     level = bricks.corner[:, 2]
     ground = np.flatnonzero(level == level.min()).tolist()
-    pairs = connect(bricks, CATALOGUE).pairs
+    pairs = contact_graph(bricks, CATALOGUE).pairs
     made = carrying(bricks, deepest, ground)
     depth = made.depth.astype(np.int64)
     reason = np.where(level == level.min(), 0, NOT_HELD).astype(np.int64)
@@ -88,6 +88,6 @@ def test_depths_are_a_fixed_point(bricks, deepest, data):
     np.testing.assert_array_equal(depth, reason)
     piecemeal = carrying(bricks, 0)
     for row in data.draw(st.permutations(ground)):
-        piecemeal.hold([row])
+        piecemeal.clutch([row])
     piecemeal.deepen(deepest)
     np.testing.assert_array_equal(piecemeal.depth, made.depth)

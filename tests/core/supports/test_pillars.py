@@ -1,4 +1,4 @@
-"""Posts that stay: under what floats, and in closed hollows."""
+"""Pillars that stay: under what floats, and in closed hollows."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.model.bricks import Role
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.statics.stability import stability
 from legorize_addon.core.supports.boxes import INSIDE_COLOUR
-from legorize_addon.core.supports.pillars import with_floating_carried, with_inside_carried
+from legorize_addon.core.supports.pillars import add_inner_pillars, add_pillars
 from tests.core.standing import CATALOGUE, table
 
 
 def carried(*rows, colour=4):
-    """Return bricks with posts under all that floats, and their connection."""
+    """Return bricks with pillars under all that floats, and their connection."""
     bricks = table(*rows)
     bricks = replace(bricks, colour=np.full(len(bricks), colour, np.int16))
-    return (*with_floating_carried(bricks, CATALOGUE, connect(bricks, CATALOGUE)), len(bricks))
+    return (*add_pillars(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE)), len(bricks))
 
 
 @pytest.mark.parametrize("gap", range(1, 12))
 def test_post_fills_any_gap(gap):
     """Whatever the height in plates, the brick stands afterwards, and nothing overlaps."""
-    bricks, connection, n = carried(("3003", 0, 0, 0), ("3003", 0, 0, 3 + gap))
-    assert connection.n_floating == connection.collisions == 0
+    bricks, graph, n = carried(("3003", 0, 0, 0), ("3003", 0, 0, 3 + gap))
+    assert graph.n_floating == graph.collisions == 0
     heights = np.array([part.height for part in CATALOGUE.parts])[bricks.part[n:]]
     assert heights.sum() == gap
     assert (bricks.role[n:] == Role.SUPPORT_KEPT).all()
@@ -34,26 +34,26 @@ def test_post_fills_any_gap(gap):
 
 
 def test_shortest_way_down_is_taken():
-    """A beam over the ground and over a tower gets its post on the tower."""
+    """A beam over the ground and over a tower gets its pillar on the tower."""
     bricks, _, n = carried(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3009", 1, 0, 7))
     assert bricks.corner[n:].tolist() == [[1, 0, 6]]
 
 
 def test_part_on_the_ground_stands_by_itself():
-    """A beam of eight studs beside the model gets posts with the middle of its weight between them."""
-    bricks, connection, _ = carried(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3008", 5, 5, 3), ("3005", 12, 5, 6))
-    own = connection.component == connection.component[2]
+    """A beam of eight studs beside the model gets pillars with the middle of its weight between them."""
+    bricks, graph, _ = carried(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3008", 5, 5, 3), ("3005", 12, 5, 6))
+    own = graph.component == graph.component[2]
     feet = bricks.corner[own & (bricks.corner[:, 2] == 0), 0]
     assert feet.min() < 9 < feet.max() + 1
-    assert stability(bricks, CATALOGUE, connection).stable
+    assert stability(bricks, CATALOGUE, graph).stable
 
 
 def test_floating_parts_on_each_other_all_stand():
-    """One post between the two that float, and upright ones down to the ground."""
-    bricks, connection, n = carried(("3003", 9, 9, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 9))
-    assert connection.n_floating == 0
+    """One pillar between the two that float, and upright ones down to the ground."""
+    bricks, graph, n = carried(("3003", 9, 9, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 9))
+    assert graph.n_floating == 0
     assert sorted(bricks.corner[n:, 2].tolist())[-1] == 6
-    assert stability(bricks, CATALOGUE, connection).stable
+    assert stability(bricks, CATALOGUE, graph).stable
 
 
 def test_nothing_floats_nothing_changes():
@@ -65,8 +65,8 @@ def test_nothing_floats_nothing_changes():
 def test_post_inside_is_red():
     """It stands on the floor below the brick that is named, and joins the two."""
     bricks = table(("3001", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 6), ("3001", 0, 0, 9), ("3005", 3, 0, 6))
-    with_post, connection = with_inside_carried(bricks, CATALOGUE, connect(bricks, CATALOGUE), np.array([4]))
+    with_post, graph = add_inner_pillars(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), np.array([4]))
     assert with_post.corner[5:].tolist() == [[3, 0, 3]]
     assert with_post.role[5:].tolist() == [Role.SUPPORT_INSIDE]
     assert with_post.colour[5:].tolist() == [INSIDE_COLOUR]
-    assert {(0, 5), (5, 4)} <= set(map(tuple, connection.pairs.tolist()))
+    assert {(0, 5), (5, 4)} <= set(map(tuple, graph.pairs.tolist()))

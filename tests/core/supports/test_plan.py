@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.model.contact_graph import connect
-from legorize_addon.core.supports.demand import needed
-from legorize_addon.core.supports.plan import planned
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.supports.demand import support_demand
+from legorize_addon.core.supports.plan import plan_supports
 from tests.core.standing import CATALOGUE, table
 
 LEANING = (("3003", 0, 0, 0), ("3009", 0, 0, 3), ("3009", 1, 0, 6), ("3009", 2, 0, 9), ("3009", 3, 0, 12))
@@ -17,11 +17,11 @@ APART = (("3003", 0, 0, 0), *(("3005", x, 0, 30) for x in (6, 9)), ("3003", 0, 9
 """Two single bricks high above the ground, three studs apart."""
 
 
-def plan(*rows, ways=("tree",), hold=0.98):
+def plan(*rows, ways=("tree",), clutch=0.98):
     """Return the plan for some bricks."""
     bricks = table(*rows)
-    need = needed(bricks, CATALOGUE, connect(bricks, CATALOGUE), deepest=3)
-    return planned(bricks, CATALOGUE, need, ways=ways, hold=hold), need
+    need = support_demand(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), deepest=3)
+    return plan_supports(bricks, CATALOGUE, need, ways=ways, clutch=clutch), need
 
 
 @pytest.mark.parametrize("way", ["tree", "columns"])
@@ -60,7 +60,7 @@ def test_near_contacts_share_a_trunk():
 def test_branches_that_do_not_bear_are_straightened():
     """Under a load that lies on one branch alone, with studs that hold next to nothing, the rest is proven to bear."""
     heavy = [("3007", 6, 0, 30 + 3 * k) for k in range(12)]
-    found, _ = plan(("3003", 0, 0, 0), *heavy, ("3005", 5, 4, 30), hold=0.05)
+    found, _ = plan(("3003", 0, 0, 0), *heavy, ("3005", 5, 4, 30), clutch=0.05)
     assert found.bears
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.supports.assembly_plan import supported
-from legorize_addon.core.supports.segmentation import INTERFACE, LEAST, SAVING, segmented
+from legorize_addon.core.supports.assembly_plan import plan_assembly
+from legorize_addon.core.supports.segmentation import INTERFACE, LEAST, SAVING, segment
 from tests.core.overhanging import overhanging
 from tests.core.standing import CATALOGUE, table
 
@@ -21,7 +21,7 @@ def bricks_of(name, width):
 
 def cut(bricks, most=2, deepest=0):
     """Return bricks in pieces, and the joints."""
-    return segmented(bricks, CATALOGUE, connect(bricks, CATALOGUE), most=most, deepest=deepest)
+    return segment(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), most=most, deepest=deepest)
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,7 @@ def test_split_saves_a_fifth_of_the_supports(cars):
     """A car whose body hangs over its wheels takes at least a fifth fewer support bricks in two pieces."""
     pieces, joints = cut(cars)
     assert len(joints) == 1
-    whole, split = (len(supported(each, CATALOGUE, wish="tree", deepest=0).removed) for each in (cars, pieces))
+    whole, split = (len(plan_assembly(each, CATALOGUE, wish="tree", deepest=0).removed) for each in (cars, pieces))
     assert whole > 0
     assert split <= (1 - SAVING) * whole
 
@@ -44,9 +44,9 @@ def test_parts_join_to_the_same_model(cars):
     pieces, [joint] = cut(cars)
     assert np.array_equal(pieces.corner, cars.corner)
     upper = pieces.piece == joint.piece
-    assert connect(pieces.take(upper), CATALOGUE).n_components == 1
+    assert contact_graph(pieces.take(upper), CATALOGUE).n_components == 1
     assert min(upper.mean(), 1 - upper.mean()) >= LEAST
-    found = connect(pieces, CATALOGUE)
+    found = contact_graph(pieces, CATALOGUE)
     between = upper[found.pairs[:, 0]] != upper[found.pairs[:, 1]]
     assert found.studs[between].sum() == joint.studs >= INTERFACE
     assert (pieces.corner[upper, 2] >= joint.level).all()
@@ -54,27 +54,27 @@ def test_parts_join_to_the_same_model(cars):
 
 def test_split_model_can_be_built(cars):
     """Each piece on the table, its supports out, then joined: every step can be done."""
-    found = supported(cut(cars)[0], CATALOGUE, deepest=0)
+    found = plan_assembly(cut(cars)[0], CATALOGUE, deepest=0)
     assert found.walk.buildable
     assert found.contacts.collisions == 0
 
 
 def test_a_piece_cut_again_keeps_its_own_joint():
     """A plate that hangs under an arm holds on to the arm alone: it is no piece of its own, though that saves more."""
-    foot, post, arm = ("3001", 0, 0, 0), ("3001", 0, 0, 3), ("3007", 0, 0, 6)
-    bricks, joints = cut(table(foot, post, arm, ("3003", 6, 0, 3), ("3022", 6, 0, 2)), most=3)
+    foot, pillar, arm = ("3001", 0, 0, 0), ("3001", 0, 0, 3), ("3007", 0, 0, 6)
+    bricks, joints = cut(table(foot, pillar, arm, ("3003", 6, 0, 3), ("3022", 6, 0, 2)), most=3)
     assert [joint.studs for joint in joints] == [8]
     assert bricks.piece.tolist() == [0, 1, 1, 1, 1]
-    assert supported(bricks, CATALOGUE, deepest=0).walk.buildable
+    assert plan_assembly(bricks, CATALOGUE, deepest=0).walk.buildable
 
 
 def test_no_piece_sits_on_what_is_not_there_yet():
     """A tower on a brick that hangs from above the cut could not be joined before the brick that this one hangs on."""
-    post, arm, hanger = [("3003", 0, 0, z) for z in (0, 3, 6)], ("3007", 0, 0, 9), ("3001", 6, 0, 6, 1)
+    pillar, arm, hanger = [("3003", 0, 0, z) for z in (0, 3, 6)], ("3007", 0, 0, 9), ("3001", 6, 0, 6, 1)
     tower = [("3003", 6, 2, 9), ("3003", 6, 2, 12), ("3007", 6, 2, 15, 1), ("3003", 6, 8, 12), ("3003", 6, 8, 9)]
-    bricks, joints = cut(table(*post, arm, hanger, *tower), deepest=3)
+    bricks, joints = cut(table(*pillar, arm, hanger, *tower), deepest=3)
     assert all(joint.level != 9 for joint in joints)
-    assert supported(bricks, CATALOGUE, deepest=3).walk.buildable
+    assert plan_assembly(bricks, CATALOGUE, deepest=3).walk.buildable
 
 
 def test_no_cut_where_nothing_is_saved():

@@ -10,7 +10,7 @@ import pytest
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, repair
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.texturing.cutouts import remarks_on_unseen, without_unseen
+from legorize_addon.core.texturing.cutouts import cut_unseen, remarks_on_unseen
 from tests.core.solids import box, sheet
 from tests.core.textured import rgb_of, textured
 
@@ -37,7 +37,7 @@ def area(mesh: TriangleMesh) -> float:
 
 def test_a_disc_is_cut_out_of_its_square() -> None:
     """The area is that of the disc, no point lies farther out than the finest side, and the neighbours stay joined."""
-    seen, share = without_unseen(card(disc(256)), least=0.5, finest=1 / 64)
+    seen, share = cut_unseen(card(disc(256)), least=0.5, finest=1 / 64)
     assert area(seen) == pytest.approx(np.pi * 0.16, rel=0.01)
     assert share == pytest.approx(1 - np.pi * 0.16, abs=0.005)
     assert np.hypot(*(seen.vertices[:, :2] - 0.5).T).max() < 0.4 + 1 / 64
@@ -49,13 +49,13 @@ def test_a_disc_is_cut_out_of_its_square() -> None:
 
 def test_faces_far_from_the_border_stay_large() -> None:
     """The work goes along the border, not over the area: half the side length takes about twice the faces."""
-    counts = [len(without_unseen(card(disc(512)), least=0.5, finest=side)[0].faces) for side in (1 / 32, 1 / 64)]
+    counts = [len(cut_unseen(card(disc(512)), least=0.5, finest=side)[0].faces) for side in (1 / 32, 1 / 64)]
     assert counts[1] < 2.6 * counts[0]
 
 
 def test_normals_and_image_coordinates_are_those_of_the_face() -> None:
     """Every part looks the way of its face, and its image coordinates are those of its place."""
-    seen, _ = without_unseen(card(disc()), least=0.5, finest=0.1)
+    seen, _ = cut_unseen(card(disc()), least=0.5, finest=0.1)
     assert (seen.normals[:, 2] > 0).all()
     np.testing.assert_allclose(seen.uvs, seen.vertices[seen.faces][..., :2], atol=1e-12)
 
@@ -74,16 +74,16 @@ def test_panes_are_left_out_below_the_least_alpha(alpha: int, least: float, left
         image_clamp=np.array([True, True]),
         opacities=(pane.opacities[0], None),
     )
-    seen, share = without_unseen(both, least=least, finest=0.1)
+    seen, share = cut_unseen(both, least=least, finest=0.1)
     assert len(seen.faces) == 2 + 2 * left
     assert share == pytest.approx(0.5 * (1 - left))
 
 
 def test_repeated_images_repeat_their_alpha_and_others_keep_their_edge() -> None:
     """Four repeats show four discs; an image that ends in its edge texels shows one."""
-    repeated, _ = without_unseen(card(disc(), repeats=2.0), least=0.5, finest=1 / 64)
+    repeated, _ = cut_unseen(card(disc(), repeats=2.0), least=0.5, finest=1 / 64)
     assert area(repeated) == pytest.approx(np.pi * 0.16, rel=0.02)
-    once, _ = without_unseen(card(disc(), repeats=2.0, clamp=True), least=0.5, finest=1 / 64)
+    once, _ = cut_unseen(card(disc(), repeats=2.0, clamp=True), least=0.5, finest=1 / 64)
     assert area(once) == pytest.approx(np.pi * 0.16 / 4, rel=0.02)
 
 
@@ -91,10 +91,10 @@ def test_texels_finer_than_parts_count_by_their_share() -> None:
     """A fence much finer than the parts stays whole if most of it is seen, and is not seen if most is not."""
     fence = np.zeros((8, 8), dtype=np.uint8)
     fence[:6] = 255
-    seen, _ = without_unseen(card(fence, repeats=1000.0), least=0.5, finest=0.2)
+    seen, _ = cut_unseen(card(fence, repeats=1000.0), least=0.5, finest=0.2)
     assert area(seen) == pytest.approx(1.0)
     hidden = card(255 - fence, repeats=1000.0)
-    assert without_unseen(hidden, least=0.5, finest=0.2) == (hidden, 1.0)
+    assert cut_unseen(hidden, least=0.5, finest=0.2) == (hidden, 1.0)
 
 
 def test_a_model_of_which_nothing_is_seen_is_built() -> None:
@@ -109,15 +109,15 @@ def test_a_model_of_which_nothing_is_seen_is_built() -> None:
 def test_everything_is_built_at_zero() -> None:
     """At 0 the mesh comes back as it was; so does one without alpha."""
     mesh = card(disc())
-    assert without_unseen(mesh, least=0.0, finest=0.1)[0] is mesh
+    assert cut_unseen(mesh, least=0.0, finest=0.1)[0] is mesh
     opaque = replace(mesh, opacities=())
-    assert without_unseen(opaque, least=0.5, finest=0.1)[0] is opaque
+    assert cut_unseen(opaque, least=0.5, finest=0.1)[0] is opaque
 
 
 def test_the_work_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     """No more parts than the bound are made, and what is not cut any more is decided by its share."""
     monkeypatch.setattr("legorize_addon.core.texturing.cutouts._MOST_PARTS", 500)
-    seen, _ = without_unseen(card(disc(512)), least=0.5, finest=1e-3)
+    seen, _ = cut_unseen(card(disc(512)), least=0.5, finest=1e-3)
     assert len(seen.faces) <= 502
     assert area(seen) == pytest.approx(np.pi * 0.16, rel=0.1)
 

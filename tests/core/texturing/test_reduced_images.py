@@ -11,7 +11,7 @@ from legorize_addon.core.colours.difference import linear_from_srgb, srgb_from_l
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.texturing.reduced_images import TEXELS_PER_STUD, with_reduced_images
+from legorize_addon.core.texturing.reduced_images import TEXELS_PER_STUD, reduce_images
 from tests.core.solids import box, sheet
 from tests.core.textured import rgb_of, textured
 
@@ -34,13 +34,13 @@ def test_images_that_are_coarse_enough_stay() -> None:
     """Up to the bound of texels a stud the mesh keeps its very image."""
     image = np.random.default_rng(0).integers(90, 110, (64, 64, 3)).astype(np.uint8)
     mesh = flat(image, studs=64 / TEXELS_PER_STUD)
-    assert with_reduced_images(mesh, least=0.5).images[0] is image
+    assert reduce_images(mesh, least=0.5).images[0] is image
 
 
 def test_finer_images_become_means_in_linear_light() -> None:
     """Four times as many texels as matter are halved twice; black and white become the grey of half the light."""
     mesh = flat(checker(64), studs=64 / TEXELS_PER_STUD / 4)
-    [image] = with_reduced_images(mesh, least=0.5).images
+    [image] = reduce_images(mesh, least=0.5).images
     assert image.shape == (16, 16, 3)
     np.testing.assert_array_equal(image, srgb_from_linear(np.full((16, 16, 3), 0.5)))
 
@@ -49,7 +49,7 @@ def test_finer_images_become_means_in_linear_light() -> None:
 def test_no_edge_crosses_more_texels_than_matter(repeats: float) -> None:
     """Whatever the image coordinates are, each face has a texel or two left, and the mean colour."""
     mesh = flat(checker(64), studs=10, repeats=repeats)
-    reduced = with_reduced_images(mesh, least=0.5)
+    reduced = reduce_images(mesh, least=0.5)
     assert [image.shape for image in reduced.images] == [(1, 1, 3)]
     assert reduced.images[0][0, 0].tolist() == [188, 188, 188]
 
@@ -64,7 +64,7 @@ def test_faces_without_area_are_bounded_too() -> None:
         uvs=np.array([[(0, 0), (1e4, 0), (2e4, 0.0)]]),
         face_image=np.zeros(1, dtype=np.int32),
     )
-    reduced = with_reduced_images(needle, least=0.5)
+    reduced = reduce_images(needle, least=0.5)
     size = np.array(reduced.images[0].shape[1::-1])
     assert reduced.images[0].shape[1] == 1 or (np.ptp(reduced.uvs[0], axis=0) * size).max() < 1000
 
@@ -74,7 +74,7 @@ def test_great_coordinates_take_the_same_texels() -> None:
     image = np.random.default_rng(2).integers(0, 255, (4, 4, 3)).astype(np.uint8)
     near = flat(image, studs=16)
     far = replace(near, uvs=np.add(near.uvs, (123456.0, -98765.0)))
-    np.testing.assert_allclose(with_reduced_images(far, least=0.5).uvs, near.uvs, atol=1e-9)
+    np.testing.assert_allclose(reduce_images(far, least=0.5).uvs, near.uvs, atol=1e-9)
 
 
 def test_hidden_texels_have_no_say() -> None:
@@ -84,7 +84,7 @@ def test_hidden_texels_have_no_say() -> None:
     image[:, 40:], alpha[:, 40:] = (200, 20, 30), 255
     for studs in (4, 1):
         mesh = replace(flat(image, studs=studs, clamp=True), opacities=(alpha,))
-        found = with_reduced_images(mesh, least=0.5, mean=False).images[0]
+        found = reduce_images(mesh, least=0.5, mean=False).images[0]
         third = len(found) // 3
         np.testing.assert_allclose(found[:, : third // 2].reshape(-1, 3).mean(axis=0), (30, 180, 40), atol=1)
         assert (found.reshape(-1, 3).max(axis=1) > 100).all()

@@ -16,10 +16,10 @@ from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Cover, UnitGrid
+from legorize_addon.core.model.unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.unit_bricks.backing import with_backing
+from legorize_addon.core.unit_bricks.backing import add_backing
 from legorize_addon.core.unit_bricks.facing import Facing
 from tests.core.solids import box, sheet, sphere
 from tests.core.textured import painted, rgb_of, textured, turned_about_z
@@ -35,7 +35,7 @@ def grid_of(solid) -> UnitGrid:
     """Make a red model of some cells, (n_plates, n_y, n_x)."""
     solid = np.asarray(solid).reshape(-1, 3, *solid.shape[1:])
     colour = np.where(solid, 4, COLOUR_EMPTY).astype(np.int16)
-    cover = np.where(solid, Cover.MUST, Cover.EMPTY).astype(np.uint8)
+    cover = np.where(solid, Fill.REQUIRED, Fill.EMPTY).astype(np.uint8)
     return UnitGrid(colour, cover, np.full(solid.shape, Role.SHELL, np.uint8), np.array([-8.0, 16.0, 4.0]))
 
 
@@ -65,11 +65,11 @@ def levels(solid, facing) -> np.ndarray:
 def test_rows_behind(facing, depth):
     """A picture of one cell gets as many cells behind it as asked for, in any colour, and stays where it is."""
     grid = flat_grid(facing, np.ones((6, 6), int))
-    backed = with_backing(grid, facing, depth=depth)
+    backed = add_backing(grid, facing, depth=depth)
     behind = backed.colour == COLOUR_ANY
     cells = depth * (3 if facing.axis == 2 else 1)
     assert behind.sum() == 36 * cells
-    assert (backed.cover[behind] == Cover.MUST).all()
+    assert (backed.cover[behind] == Fill.REQUIRED).all()
     assert (backed.role[behind] == Role.INSIDE).all()
     picture, added = places(backed, backed.colour == 4), places(backed, behind)
     assert picture.tolist() == places(grid, grid.solid).tolist()
@@ -80,7 +80,7 @@ def test_rows_behind(facing, depth):
 @pytest.mark.parametrize("facing", WAYS)
 def test_free_cells_stay_around(facing):
     """Along x and y one cell at least stays free around a backed model, as around every other."""
-    solid = with_backing(flat_grid(facing, np.ones((6, 6), int)), facing, depth=4).solid
+    solid = add_backing(flat_grid(facing, np.ones((6, 6), int)), facing, depth=4).solid
     assert not solid[..., [0, -1], :].any()
     assert not solid[..., [0, -1]].any()
 
@@ -98,7 +98,7 @@ def test_any_relief(facing, front, rear, depth):
     grid = flat_grid(facing, front)
     solid = grid.solid & ~flat_grid(facing, np.minimum(front, rear)).solid
     grid = grid_of(solid.reshape(-1, *solid.shape[2:]))
-    backed = with_backing(grid, facing, depth=depth)
+    backed = add_backing(grid, facing, depth=depth)
     assert set(map(tuple, places(grid, solid))) <= set(map(tuple, places(backed, backed.solid)))
     starts = levels(backed.solid, facing)
     assert (starts == starts[0]).all()
@@ -108,14 +108,14 @@ def test_any_relief(facing, front, rear, depth):
 def test_nothing_asked_for():
     """No backing changes nothing."""
     grid = flat_grid(WAYS[0], np.ones((6, 6), int))
-    assert with_backing(grid, WAYS[0], depth=0) is grid
+    assert add_backing(grid, WAYS[0], depth=0) is grid
 
 
 def test_hidden_cells_need_no_colour():
     """What only the back showed is free once it is covered; what the edges show is not."""
     solid = np.zeros((12, 4, 8), bool)
     solid[:, 1:3, 1:7] = True
-    backed = with_backing(grid_of(solid), Facing(1, -1), depth=1)
+    backed = add_backing(grid_of(solid), Facing(1, -1), depth=1)
     # one row of the two, in the two layers between those at the edges, without its ends
     hidden = 2 * 3 * 4
     assert np.count_nonzero(backed.colour == 4) == 12 * 2 * 6 - hidden
@@ -165,9 +165,9 @@ def shown(build: Build, *, standing) -> np.ndarray:
 def built(mesh, width, **others) -> Build:
     """Legorize a picture with a backing of one, and check that it holds together."""
     build = legorize(mesh, Settings(width=width, **{"backing": 1, **others}))
-    assert build.connection.n_components == 1
-    assert build.connection.n_floating == 0
-    assert build.connection.collisions == 0
+    assert build.graph.n_components == 1
+    assert build.graph.n_floating == 0
+    assert build.graph.collisions == 0
     return build
 
 

@@ -15,7 +15,7 @@ from legorize_addon.core.geometry.neighbourhoods import outer_air, visible
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.model.unit_grid import COLOUR_ANY
-from legorize_addon.core.unit_bricks.colour_votes import chosen, counted, likeliest_colours
+from legorize_addon.core.unit_bricks.colour_votes import count_votes, likeliest_colours, winning_colours
 from legorize_addon.core.unit_bricks.surface_samples import SurfaceSamples
 from tests.core.solids import joined, reversed_mesh, sphere
 from tests.core.textured import Stages, blob, cells, painted, rgb_of, stages, turned_about_z
@@ -182,7 +182,7 @@ def test_votes_are_the_sums_by_cell_and_colour(seed):
     n = 60
     cell, colour = rng.integers(-1, seen.size, n), rng.choice(np.array([COLOUR_ANY, 0, 4, 71], np.int16), n)
     weight = rng.random(n)
-    codes, votes = counted(cell, colour, weight, seen)
+    codes, votes = count_votes(cell, colour, weight, seen)
     assert COLOUR_ANY not in codes
     for row, place in enumerate(np.flatnonzero(seen.ravel())):
         for column, code in enumerate(codes):
@@ -195,21 +195,21 @@ def test_cells_without_votes_take_the_nearest_colour():
     """The nearest cell with votes counts in mm, in which a step upwards is longer than one aside."""
     seen = np.ones((2, 1, 3), bool)
     votes = np.array([[0, 0], [3, 1], [0, 0], [0, 0], [0, 0], [0, 2.0]])
-    np.testing.assert_array_equal(chosen(np.int16([4, 15]), votes, votes, seen), [4, 4, 4, 4, 15, 15])
+    np.testing.assert_array_equal(winning_colours(np.int16([4, 15]), votes, votes, seen), [4, 4, 4, 4, 15, 15])
 
 
 def test_best_score_wins_and_the_lower_code_a_tie():
     """The colour with the best score is chosen; of equal ones the lower code."""
     seen = np.ones((1, 1, 3), bool)
     votes = np.array([[1, 2], [2, 1], [2, 2.0]])
-    np.testing.assert_array_equal(chosen(np.int16([4, 15]), votes, votes, seen), [15, 4, 4])
+    np.testing.assert_array_equal(winning_colours(np.int16([4, 15]), votes, votes, seen), [15, 4, 4])
 
 
 def test_no_votes_at_all_leave_the_colour_open():
     """Without any sample every cell is free to take any colour."""
     seen = np.ones((2, 2, 2), bool)
-    codes, votes = counted(np.zeros(0, np.int64), np.zeros(0, np.int16), np.zeros(0), seen)
-    np.testing.assert_array_equal(chosen(codes, votes, votes, seen), np.full(8, COLOUR_ANY))
+    codes, votes = count_votes(np.zeros(0, np.int64), np.zeros(0, np.int16), np.zeros(0), seen)
+    np.testing.assert_array_equal(winning_colours(codes, votes, votes, seen), np.full(8, COLOUR_ANY))
     nothing = samples_at(np.zeros((0, 3)), [])
     found = likeliest_colours(nothing, outer_air(seen), seen, load_catalogue()).winners(seen)
     np.testing.assert_array_equal(found, np.full(8, COLOUR_ANY))

@@ -143,7 +143,7 @@ def test_none_leaves_the_likeliest_colours(monkeypatch):
     def refuse(*_):
         raise AssertionError
 
-    monkeypatch.setattr("legorize_addon.core.unit_bricks.generation.dithered", refuse)
+    monkeypatch.setattr("legorize_addon.core.unit_bricks.generation.dither", refuse)
     assert built(picture(photo()), "none").colour.tobytes() == usual.colour.tobytes()
 
 

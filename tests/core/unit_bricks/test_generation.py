@@ -10,9 +10,9 @@ from hypothesis.extra.numpy import arrays
 from scipy import ndimage
 
 from legorize_addon.core.geometry.neighbourhoods import outer_air, visible
-from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, scaled
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, scale_mesh
 from legorize_addon.core.model.bricks import Role
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from legorize_addon.core.slicing.lattice import Grid
 from legorize_addon.core.slicing.levels import levels_of
 from legorize_addon.core.unit_bricks.generation import half_covered, mean_areas
@@ -188,7 +188,7 @@ def test_overlapping_bodies_count_once():
 def test_size_in_cells_is_linear(k):
     """At k = 10, 5 and 2.5 a figure is k / 10 times as many cells long, but for one."""
     whole = joined(sphere(16, 160.0, (0, 0, 160)), box((-60, -40, 0), (60, 40, 200)))
-    shape = np.array(trimmed(bricks(scaled(whole, k / 10))).shape)
+    shape = np.array(trimmed(bricks(scale_mesh(whole, k / 10))).shape)
     np.testing.assert_allclose(shape, np.array([320 / 9.6, 40, 40]) * k / 10, atol=1)
 
 
@@ -252,7 +252,7 @@ def test_roles_and_covers_follow_the_colours():
     """Visible cells are the shell, hidden ones the inside; all must be built before hollowing; plates are equal."""
     grid = stages(painted(box((0, 0, 0), (40, 40, 48)), 4)).bricks()
     empty, hidden = grid.colour == COLOUR_EMPTY, grid.colour == COLOUR_ANY
-    np.testing.assert_array_equal(grid.cover, np.where(empty, Cover.EMPTY, Cover.MUST))
+    np.testing.assert_array_equal(grid.cover, np.where(empty, Fill.EMPTY, Fill.REQUIRED))
     np.testing.assert_array_equal(grid.role[~empty], np.where(hidden, Role.INSIDE, Role.SHELL)[~empty])
     np.testing.assert_array_equal(grid.solid, ~empty)
     assert hidden.sum() == 3 * 3 * 3 * 3

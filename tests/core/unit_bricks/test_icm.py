@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
-from legorize_addon.core.unit_bricks.icm import Columns, is_brick, relaxed
+from legorize_addon.core.unit_bricks.icm import Columns, is_brick, relax
 
 RED, BLUE = 4, 1
 BRICK = (RED, RED, RED)
@@ -56,7 +56,7 @@ def settled(*row) -> list[tuple[int, ...]]:
         offered = np.stack([now, np.full_like(now, RED)], axis=1)
         return offered, np.stack([0.0 * missing, 1.2 * missing], axis=1)
 
-    found = relaxed(start, columns, np.arange(len(start)), offers, 1.0)
+    found = relax(start, columns, np.arange(len(start)), offers, 1.0)
     return [tuple(each) for each in found.tolist()]
 
 
@@ -114,10 +114,10 @@ def test_nothing_gets_dearer(seed, worth):
     states, offers, error = choice(columns, rng)
     start = states[rng.integers(len(states), size=len(columns))]
     rows = np.arange(len(columns))
-    found = relaxed(start, columns, rows, offers, worth)
+    found = relax(start, columns, rows, offers, worth)
     before, after = (error(rows, each[:, None]).sum() + worth * parts(each, columns) for each in (start, found))
     assert after <= before + 1e-4
-    np.testing.assert_array_equal(found, relaxed(start, columns, rows, offers, worth))
+    np.testing.assert_array_equal(found, relax(start, columns, rows, offers, worth))
 
 
 def test_without_worth_every_column_takes_its_own_best():
@@ -126,7 +126,7 @@ def test_without_worth_every_column_takes_its_own_best():
     columns = all_of(np.ones((1, 5, 7), bool))
     states, offers, error = choice(columns, rng)
     rows = np.arange(len(columns))
-    found = relaxed(states[rng.integers(len(states), size=len(columns))], columns, rows, offers, 0.0)
+    found = relax(states[rng.integers(len(states), size=len(columns))], columns, rows, offers, 0.0)
     best = states[error(rows, np.broadcast_to(states, (len(rows), *states.shape))).argmin(axis=1)]
     np.testing.assert_array_equal(found, best)
 
@@ -150,7 +150,7 @@ def test_what_is_listed_is_all_that_matters(seed):
             offered = np.concatenate([now[:, None], np.broadcast_to(states, (len(which), *states.shape))], axis=1)
             return offered, error[which]
 
-        found.append(columns.put(cells, relaxed(columns.plates(cells), columns, rows, offers, 0.5)))
+        found.append(columns.put(cells, relax(columns.plates(cells), columns, rows, offers, 0.5)))
     np.testing.assert_array_equal(*found)
     changed = (found[0] != cells).any(axis=1)
     assert not (changed & ~(active & there)).any()

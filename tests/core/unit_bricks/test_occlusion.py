@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from legorize_addon.core.arrays import Floats
-from legorize_addon.core.unit_bricks.occlusion import under_a_skin
+from legorize_addon.core.unit_bricks.occlusion import occluded
 from legorize_addon.core.unit_bricks.surface_samples import SurfaceSamples
 
 
@@ -34,7 +34,7 @@ UP, DOWN = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
 def test_body_under_a_cloak() -> None:
     """Of two sheets a quarter of a stud apart that face up the lower one is covered, and only it."""
     gap = 0.25 / 1.2
-    covered = under_a_skin(_samples(_sheet(2.0, UP), _sheet(2.0 + gap, UP)))
+    covered = occluded(_samples(_sheet(2.0, UP), _sheet(2.0 + gap, UP)))
     n = len(covered) // 2
     assert covered[:n].all()
     assert not covered[n:].any()
@@ -43,7 +43,7 @@ def test_body_under_a_cloak() -> None:
 def test_covered_whichever_way_it_faces() -> None:
     """The same sheets facing down: now the upper one is covered; turned upright: the one behind."""
     gap = 0.25 / 1.2
-    covered = under_a_skin(_samples(_sheet(2.0, DOWN), _sheet(2.0 + gap, DOWN)))
+    covered = occluded(_samples(_sheet(2.0, DOWN), _sheet(2.0 + gap, DOWN)))
     n = len(covered) // 2
     assert not covered[:n].any()
     assert covered[n:].all()
@@ -51,30 +51,30 @@ def test_covered_whichever_way_it_faces() -> None:
     for x in (3.0, 3.25):
         place, _ = _sheet(0.0, UP)
         upright.append((place[:, [1, 2, 0]] / [1.2, 1, 1] + [0, 0, x], np.tile((0.0, 0.0, 1.0), (len(place), 1))))
-    covered = under_a_skin(_samples(*upright))
+    covered = occluded(_samples(*upright))
     assert covered[:n].all()
     assert not covered[n:].any()
 
 
 def test_two_sides_of_a_wall() -> None:
     """The sides of a thin plate face apart and cover nothing, nor does a sheet farther off than a stud."""
-    assert not under_a_skin(_samples(_sheet(2.0, DOWN), _sheet(2.2, UP))).any()
-    assert not under_a_skin(_samples(_sheet(2.0, UP), _sheet(3.0, UP))).any()
+    assert not occluded(_samples(_sheet(2.0, DOWN), _sheet(2.2, UP))).any()
+    assert not occluded(_samples(_sheet(2.0, UP), _sheet(3.0, UP))).any()
 
 
 def test_one_skin_alone() -> None:
     """Neither a slope nor a ball of ten studs covers itself."""
     place, _ = _sheet(0.0, UP)
     place[:, 0] = place[:, 2] / 1.2
-    assert not under_a_skin(_samples((place, np.tile((1 / 1.2, 0.0, -1.0), (len(place), 1))))).any()
+    assert not occluded(_samples((place, np.tile((1 / 1.2, 0.0, -1.0), (len(place), 1))))).any()
     golden = np.arange(4000) + 0.5
     height = 1 - golden / 2000
     turn = golden * np.pi * (3 - np.sqrt(5))
     around = np.sqrt(1 - height**2)
     normal = np.column_stack([height, around * np.sin(turn), around * np.cos(turn)]) / [1.2, 1, 1]
-    assert not under_a_skin(_samples((normal * 5, normal))).any()
+    assert not occluded(_samples((normal * 5, normal))).any()
 
 
 def test_no_samples() -> None:
     """Nothing covers nothing."""
-    assert under_a_skin(_samples(_sheet(0.0, UP, side=0))).shape == (0,)
+    assert occluded(_samples(_sheet(0.0, UP, side=0))).shape == (0,)

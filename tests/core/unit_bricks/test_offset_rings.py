@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 from scipy import ndimage
 
-from legorize_addon.core.unit_bricks.offset_rings import OverhangKind, offset_rings, overhang_kinds, recoloured
+from legorize_addon.core.unit_bricks.offset_rings import OverhangKind, offset_rings, overhang_kinds, recolour_rings
 from legorize_addon.core.units import BRICK, PLATE, STUD
 
 BLOBS = arrays(bool, array_shapes(min_dims=3, max_dims=3, max_side=9))
@@ -211,7 +211,7 @@ def test_bricks_left_alone_take_the_colour_of_the_nearest():
     source[:, 0, [0, 4, 5]] = True
     source[0, 0, 4] = False
     left_alone[0, 0, 4] = False
-    changed = recoloured(colour, left_alone, source)
+    changed = recolour_rings(colour, left_alone, source)
     np.testing.assert_array_equal(changed, [[[1, 1, 1, 6, 5, 6]], [[7] * 6]])
     np.testing.assert_array_equal(colour[0, 0], np.arange(1, 7))
 
@@ -220,8 +220,8 @@ def test_equally_near_colours_are_settled_by_the_grid():
     """Of four equally near bricks, the first one in the grid gives its colour."""
     colour = np.arange(9, dtype=np.int16).reshape(1, 3, 3)
     left_alone = colour == 4
-    assert recoloured(colour, left_alone, colour % 2 == 1)[0, 1, 1] == 1
-    assert recoloured(colour, left_alone, colour == 7)[0, 1, 1] == 7
+    assert recolour_rings(colour, left_alone, colour % 2 == 1)[0, 1, 1] == 1
+    assert recolour_rings(colour, left_alone, colour == 7)[0, 1, 1] == 7
 
 
 def test_recolouring_without_colours_changes_nothing():
@@ -229,7 +229,7 @@ def test_recolouring_without_colours_changes_nothing():
     colour = np.arange(6, dtype=np.int16).reshape(1, 2, 3)
     for left_alone, source in ((True, False), (False, True)):
         masks = np.full(colour.shape, left_alone), np.full(colour.shape, source)
-        np.testing.assert_array_equal(recoloured(colour, *masks), colour)
+        np.testing.assert_array_equal(recolour_rings(colour, *masks), colour)
 
 
 def post(*tops):

@@ -13,7 +13,7 @@ from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.unit_bricks.colour_votes import Ballot
-from legorize_addon.core.unit_bricks.plates import Detail, settled, settled_colours
+from legorize_addon.core.unit_bricks.plates import Detail, settle_colours, settle_plates
 from tests.core.solids import box, sphere, volume
 from tests.core.textured import painted, turned_about_z
 
@@ -31,7 +31,7 @@ def rounded(share, marked=MARKED, gain=1.0) -> list[bool]:
     below, above = column(1, 1, 1), column(0, 0, 0)
     shares = np.concatenate([below, column(*share), above])
     detail = Detail(np.array([True, marked[0], True]), gain)
-    return settled(shares >= 0.5, shares, detail)[3:6, 0, 0].tolist()
+    return settle_plates(shares >= 0.5, shares, detail)[3:6, 0, 0].tolist()
 
 
 @pytest.mark.parametrize("share", [(1, 1, 0), (1, 0, 1), (0, 1, 1), (0.9, 0.8, 0.1)])
@@ -56,7 +56,7 @@ def test_boundary_is_where_the_middle_plate_ends():
     for ends in product(range(1, 7), repeat=3):
         plates = np.array([[place < end for place in range(8)] for end in ends])[:, None]
         shares = np.concatenate([np.ones((3, 1, 8)), plates])
-        found = settled(shares >= 0.5, shares, Detail(np.array([True, True]), 1.0))[3:]
+        found = settle_plates(shares >= 0.5, shares, Detail(np.array([True, True]), 1.0))[3:]
         np.testing.assert_array_equal(found[:, 0].sum(axis=1), [sorted(ends)[1]] * 3)
 
 
@@ -64,9 +64,9 @@ def test_thin_and_hanging_plates_never_become_nothing():
     """A plate that was added though little of it is inside, or that rests on nothing, is filled up instead."""
     thin = column(1, 1, 1, 0.2, 0, 0)
     solid = thin >= 0.2
-    assert settled(solid, thin, Detail(np.array([True, True]), 1.0))[3:].all()
+    assert settle_plates(solid, thin, Detail(np.array([True, True]), 1.0))[3:].all()
     hanging = column(0, 0, 0, 0, 1, 0, 0, 0, 0)
-    assert settled(hanging >= 0.5, hanging, Detail(np.ones(3, bool), 1.0))[:, 0, 0].tolist() == [
+    assert settle_plates(hanging >= 0.5, hanging, Detail(np.ones(3, bool), 1.0))[:, 0, 0].tolist() == [
         0,
         0,
         0,
@@ -95,10 +95,10 @@ def test_volume_error_is_never_above_the_gain_given_up(seed, gain):
     rng = np.random.default_rng(seed)
     share = np.clip(rng.normal(0.5, 0.5, (9, 4, 5)), 0, 1)
     solid = share >= 0.5
-    found = settled(solid, share, Detail(np.ones(3, bool), gain))
+    found = settle_plates(solid, share, Detail(np.ones(3, bool), gain))
     error, least = (np.abs(share - each).reshape(3, 3, 4, 5).mean(axis=1) for each in (found, solid))
     assert (error < least + gain + 1e-12).all()
-    np.testing.assert_array_equal(settled(solid, share, Detail(np.ones(3, bool), 0.0)), solid)
+    np.testing.assert_array_equal(settle_plates(solid, share, Detail(np.ones(3, bool), 0.0)), solid)
 
 
 def ballot(votes, difference=60.0) -> Ballot:
@@ -111,7 +111,7 @@ def coloured(colour, votes, gain, marked=MARKED, difference=60.0) -> list[int]:
     """Settle the colours of a column of three visible plates."""
     cells = np.array(colour, np.int16)[:, None, None]
     seen = cells >= 0
-    return settled_colours(cells, seen, ballot(votes, difference), Detail(marked, gain))[:, 0, 0].tolist()
+    return settle_colours(cells, seen, ballot(votes, difference), Detail(marked, gain))[:, 0, 0].tolist()
 
 
 def test_colour_border_inside_a_brick():

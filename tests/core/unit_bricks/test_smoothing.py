@@ -12,8 +12,8 @@ from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.unit_bricks.colour_votes import CLEAR, Ballot
-from legorize_addon.core.unit_bricks.plates import Detail, settled_colours
-from legorize_addon.core.unit_bricks.smoothing import agreed_colours, agreed_shapes
+from legorize_addon.core.unit_bricks.plates import Detail, settle_colours
+from legorize_addon.core.unit_bricks.smoothing import smooth_colours, smooth_shapes
 from tests.core.solids import sphere
 from tests.core.textured import painted, turned_about_z
 
@@ -28,7 +28,7 @@ def row_of(*heights: int) -> np.ndarray:
 
 def shaped(share, *, worth=WORTH) -> list[int]:
     """Let the columns of a layer agree; return how many plates each has."""
-    found = agreed_shapes(share >= 0.5, share, least_gain=GAIN, worth=worth)
+    found = smooth_shapes(share >= 0.5, share, least_gain=GAIN, worth=worth)
     return found.sum(axis=0).ravel().tolist()
 
 
@@ -76,7 +76,7 @@ def random_layers(seed) -> tuple[np.ndarray, np.ndarray]:
 def test_only_columns_of_plates_change_and_only_by_plates_more(seed, worth):
     """What is solid stays; bricks and empty columns stay as they are."""
     share, solid = random_layers(seed)
-    found = agreed_shapes(solid, share, least_gain=GAIN, worth=worth)
+    found = smooth_shapes(solid, share, least_gain=GAIN, worth=worth)
     assert not (solid & ~found).any()
     before, after = (each.reshape(3, 3, 8, 7).swapaxes(0, 1) for each in (solid, found))
     partial = before.any(axis=0) & ~before.all(axis=0)
@@ -86,7 +86,7 @@ def test_only_columns_of_plates_change_and_only_by_plates_more(seed, worth):
 def test_without_worth_and_gain_nothing_changes():
     """What is half covered is the best of all shapes if neither parts nor plates count."""
     share, solid = random_layers(3)
-    np.testing.assert_array_equal(agreed_shapes(solid, share, least_gain=0.0, worth=0.0), solid)
+    np.testing.assert_array_equal(smooth_shapes(solid, share, least_gain=0.0, worth=0.0), solid)
 
 
 # ---------------------------------------------------------------- colours
@@ -105,9 +105,9 @@ def test_a_colour_that_nobody_voted_for_is_dearer_than_all_others(code):
     everywhere, ballot = np.ones(red.shape, dtype=bool), ballot_of(red.ravel(), 90.0)
     plate, wall = red.copy(), np.full_like(red, code)
     plate[0, 2], wall[:, 2] = code, RED
-    settled = settled_colours(plate, everywhere, ballot, Detail(np.array([True]), 0.0))
+    settled = settle_colours(plate, everywhere, ballot, Detail(np.array([True]), 0.0))
     np.testing.assert_array_equal(settled, red)
-    agreed = agreed_colours(wall, everywhere, ballot, np.array([True]), least_gain=0.2, worth=WORTH)
+    agreed = smooth_colours(wall, everywhere, ballot, np.array([True]), least_gain=0.2, worth=WORTH)
     np.testing.assert_array_equal(agreed[:, 1:4], red[:, 1:4])
 
 
@@ -116,7 +116,7 @@ def coloured(colour: np.ndarray, difference: float, *, marked=True) -> np.ndarra
     colour = colour.astype(np.int16)
     seen = colour >= 0
     ballot = ballot_of(colour[seen], difference)
-    return agreed_colours(colour, seen, ballot, np.array([marked]), least_gain=0.2, worth=WORTH)
+    return smooth_colours(colour, seen, ballot, np.array([marked]), least_gain=0.2, worth=WORTH)
 
 
 @pytest.mark.parametrize("plates", [slice(0, 1), slice(1, 2), slice(0, 3)], ids=["plate", "middle", "brick"])

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from .repair import connect_loose
-from .ties import strapped
+from .ties import add_ties
 from .windows import join_by_windows
 
 __all__ = [
+    "add_ties",
     "connect_loose",
     "join_by_windows",
-    "strapped",
 ]

@@ -39,7 +39,7 @@ _LONGEST: Final = 30
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Contacts:
+class NearContacts:
     """Places for plates that join two components.
 
     Attributes
@@ -65,9 +65,9 @@ class Contacts:
     on_top: Ints
     price: Floats
 
-    def take(self, rows: Index) -> Contacts:
+    def take(self, rows: Index) -> NearContacts:
         """Return some of the places."""
-        return Contacts(*(getattr(self, name)[rows] for name in self.__slots__))
+        return NearContacts(*(getattr(self, name)[rows] for name in self.__slots__))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,7 +80,7 @@ class _Reach:
     on_top: bool = False
 
 
-def contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) -> Contacts:
+def near_contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) -> NearContacts:
     """Find where components could be joined, the cheapest places first.
 
     Parameters
@@ -96,7 +96,7 @@ def contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) -> Co
 
     Returns
     -------
-    Contacts
+    NearContacts
         Some for each two components that come near to each other.
     """
     reaches = list(_reaches(owner)) if plates else [_Reach(owner, np.zeros(owner.shape), 0)]
@@ -111,7 +111,7 @@ def contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) -> Co
         for one in reaches
         for other in reaches
     ]
-    every = Contacts(*(np.concatenate([getattr(each, name) for each in found]) for name in Contacts.__slots__))
+    every = NearContacts(*(np.concatenate([getattr(each, name) for each in found]) for name in NearContacts.__slots__))
     return _chosen(_seams(every, len(component)), component)
 
 
@@ -146,7 +146,7 @@ def _open_faces(owner: Rows) -> Ints:
 
 def _across(
     axis: int, one: _Reach, other: _Reach, component: Rows, stacked: Mask, colour: Plane, recoloured: Floats
-) -> Contacts:
+) -> NearContacts:
     """Return the seams along an axis between what two cells reach, if that is two components."""
     low, high = (
         tuple(part if each == axis else slice(None) for each in range(3)) for part in (slice(None, -1), slice(1, None))
@@ -160,7 +160,7 @@ def _across(
     place = np.argwhere(near)
     differ = ~agree(colour[low][near], colour[high][near]) & (one.added + other.added == 0)
     change = np.minimum(recoloured[low][near], recoloured[high][near])
-    return Contacts(
+    return NearContacts(
         bricks=np.stack([first[near], second[near]], axis=1).astype(np.int64),
         place=place,
         axis=np.full(len(place), axis),
@@ -170,7 +170,7 @@ def _across(
     )
 
 
-def _seams(found: Contacts, n: int) -> Contacts:
+def _seams(found: NearContacts, n: int) -> NearContacts:
     """Keep the cheapest place of each seam between two of n bricks, in its middle plate if it has one.
 
     Below and on top of the same two bricks are different seams: what is cut for them may hold at one alone.
@@ -188,7 +188,7 @@ def _seams(found: Contacts, n: int) -> Contacts:
     return replace(kept, price=kept.price - _SEAM * length)
 
 
-def _chosen(found: Contacts, component: Rows) -> Contacts:
+def _chosen(found: NearContacts, component: Rows) -> NearContacts:
     """Keep the cheapest places for each two components, the cheapest first."""
     pair = np.sort(component[found.bricks], axis=1) @ np.array([len(component), 1])
     order = np.lexsort((found.price, pair))

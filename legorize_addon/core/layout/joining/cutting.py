@@ -145,24 +145,24 @@ class Bench:
         touched = int(beside[middle[0]].sum() + beside[:, middle[1]].sum()) - 2
         return 6 - touched - sum(self.at(level + step, square) != NOBODY for step in (1, -1))
 
-    def cut(self, numbers: Sequence[int], strap: Laid) -> list[Laid] | None:
-        """Return what bricks become that make room for a strap; None if they cannot."""
+    def cut(self, numbers: Sequence[int], tie: Laid) -> list[Laid] | None:
+        """Return what bricks become that make room for a tie; None if they cannot."""
         pieces = []
         for number in numbers:
-            brick, height = self.laid[number], strap.form.height
+            brick, height = self.laid[number], tie.form.height
             if brick.form.height not in (height, height * PLATES_PER_BRICK):
                 return None
             for level in range(brick.level, brick.level + brick.form.height, height):
-                squares = brick.squares - strap.squares if level == strap.level else brick.squares
+                squares = brick.squares - tie.squares if level == tie.level else brick.squares
                 tiles = self.forms.tiled(squares, brick, level, height)
                 if tiles is None:
                     return None
                 pieces += tiles
         return pieces
 
-    def reaches(self, strap: Laid, seam: Seam) -> bool:
-        """Tell whether a strap meets something at both ends of a seam: a brick that it cuts, or one below or above."""
-        levels = (seam.level, strap.level - 1, strap.level + strap.form.height)
+    def reaches(self, tie: Laid, seam: Seam) -> bool:
+        """Tell whether a tie meets something at both ends of a seam: a brick that it cuts, or one below or above."""
+        levels = (seam.level, tie.level - 1, tie.level + tie.form.height)
         return all(any(self.at(level, end) != NOBODY for level in levels) for end in seam.ends)
 
     def holds(self, pieces: list[Laid]) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Mask
-from ...model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Connection, agree, components, stud_columns
+from ...model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, ContactGraph, agree, components, stud_columns
 from ..problem import Plane, Rows
 
 
@@ -48,7 +48,7 @@ def _meeting(node: Rows, colour: Plane, axis: int) -> Rows:
     return np.stack([node[cell], node[cell + step]], axis=1)
 
 
-def loose_bricks(bricks: Bricks, links: Connection, islands: Islands, catalogue: Catalogue) -> Mask:
+def loose_bricks(bricks: Bricks, links: ContactGraph, islands: Islands, catalogue: Catalogue) -> Mask:
     """Tell which bricks are not in the main component of their island: the largest one, on the ground if any is."""
     brick, column = stud_columns(bricks, catalogue)
     component, first, size = np.unique(links.component, return_index=True, return_counts=True)

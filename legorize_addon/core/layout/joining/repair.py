@@ -17,7 +17,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter
 
 from ...arrays import Floats, Mask
-from ...model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Connection, Cover, UnitGrid, connect
+from ...model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, ContactGraph, Fill, UnitGrid, contact_graph
 from ...progress import Progress
 from ..problem import (
     Index,
@@ -26,8 +26,8 @@ from ..problem import (
     Rows,
     Shapes,
     Sheets,
-    bricks_of,
-    gathered,
+    brick_table,
+    gather,
     owners,
     placements,
     pose,
@@ -94,13 +94,13 @@ def connect_loose(
         Covers the same must cells, with no more loose and no more floating
         bricks than before.
     """
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     if links.n_components <= 1:
         return bricks
-    must = with_margins(grid.cover == Cover.MUST, False)
-    islands = Islands.of(with_margins(grid.colour, COLOUR_EMPTY), owners(links, must.shape), links.component)
+    required = with_margins(grid.cover == Fill.REQUIRED, False)
+    islands = Islands.of(with_margins(grid.colour, COLOUR_EMPTY), owners(links, required.shape), links.component)
     loose = loose_bricks(bricks, links, islands, catalogue)
-    cells, way = _Cells.of(bricks, links, must, loose, catalogue), 0
+    cells, way = _Cells.of(bricks, links, required, loose, catalogue), 0
     offers: list[_Offer] = []
     for number in range(_ROUNDS):
         if not cells.n_loose or way == len(_WAYS):
@@ -112,13 +112,13 @@ def connect_loose(
         if all(new is offer.bricks for new, offer in zip(relaid, offers, strict=True)):
             way += 1
             continue
-        tried = gathered(relaid)
-        tried_links = connect(tried, catalogue)
+        tried = gather(relaid)
+        tried_links = contact_graph(tried, catalogue)
         loose = loose_bricks(tried, tried_links, islands, catalogue)
         before, after = cells.n_loose, int(np.count_nonzero(loose))
         if after < before and tried_links.n_floating <= links.n_floating:
             bricks, links, offers = tried, tried_links, []
-            cells = _Cells.of(bricks, links, must, loose, catalogue)
+            cells = _Cells.of(bricks, links, required, loose, catalogue)
         way = 0 if after < _PROGRESS * before else way + 1
     return bricks
 
@@ -131,7 +131,7 @@ class _Cells:
     ----------
     owner : (n_plates + 2, n_y, n_x) int32 array
         Row of the brick, ``NOBODY`` or ``GROUND``, with one empty plane below and one above.
-    must : (n_plates + 2, n_y, n_x) bool array
+    required : (n_plates + 2, n_y, n_x) bool array
         Cells that have to be covered.
     label : (n + 2,) int32 array
         For each brick 0 in the main component of its island, a number for each
@@ -143,20 +143,20 @@ class _Cells:
     """
 
     owner: Rows
-    must: Mask
+    required: Mask
     label: Rows
     reached: Mask
     n_loose: int
 
     @classmethod
-    def of(cls, bricks: Bricks, links: Connection, must: Mask, loose: Mask, catalogue: Catalogue) -> _Cells:
+    def of(cls, bricks: Bricks, links: ContactGraph, required: Mask, loose: Mask, catalogue: Catalogue) -> _Cells:
         """Label the bricks of a model, given those that are loose."""
-        owner = standing(links, must)
+        owner = standing(links, required)
         label = np.append(np.where(loose, links.component + 1, 0), [-1, -1]).astype(np.int32)
         height = np.array([part.height for part in catalogue.parts])[bricks.part[loose]]
         lowest = bricks.corner[loose, 2] + 1
         ends = (np.bincount(plane, minlength=len(owner)) for plane in (lowest, lowest + height))
-        return cls(owner, must, label, np.cumsum(np.subtract(*ends)) > 0, int(np.count_nonzero(loose)))
+        return cls(owner, required, label, np.cumsum(np.subtract(*ends)) > 0, int(np.count_nonzero(loose)))
 
     def labels(self, sheets: Sheets) -> Rows:
         """Return the labels below, above and in the cells of sheets, (3, n_sheets, n_y, n_x)."""
@@ -201,9 +201,9 @@ class _Offer:
             none = np.zeros(0, dtype=np.intp)
             return cls(bricks, None, none, none, none, np.zeros(0))
         sheets, labels, loose = sheets.take(reached), labels[:, reached], loose[reached]
-        worthwhile = sheets.must | (cells.owner[sheets.level + 1] > NOBODY) | loose
-        found = placements(replace(sheets, must=_near(loose) & worthwhile), among)
-        problem = pose(sheets, among, found, cells.owner, cells.must)
+        worthwhile = sheets.required | (cells.owner[sheets.level + 1] > NOBODY) | loose
+        found = placements(replace(sheets, required=_near(loose) & worthwhile), among)
+        problem = pose(sheets, among, found, cells.owner, cells.required)
         at = labels.reshape(3, -1)[:, sheets.cells]
         # what touches nothing above or below would be loose itself
         alone = found.totals(at[:2].max(axis=0) >= 0) == 0
@@ -231,7 +231,7 @@ class _Offer:
         if chosen is self.lying:
             return self.bricks
         kept = self.bricks.take(np.delete(np.arange(len(self.bricks)), self.here))
-        return gathered([kept, bricks_of(self.problem, chosen)])
+        return gather([kept, brick_table(self.problem, chosen)])
 
 
 def _near(loose: Mask) -> Mask:

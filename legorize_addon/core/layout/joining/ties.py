@@ -1,8 +1,8 @@
 """Plates across seams, laid last, where no layout of the cells holds together.
 
 What is still loose once the bricks are laid is joined to what it touches by a
-plate across the seam, a *strap*, for which the bricks on both sides are cut. The
-strap has the colour of one side: where that would show, a plate is added below
+plate across the seam, a *tie*, for which the bricks on both sides are cut. The
+tie has the colour of one side: where that would show, a plate is added below
 an edge, and only where there is no room for one are a cell or two in the
 neighbour's colour. Where there is nothing to cut, a plate is added below or above.
 The cheapest joints come first, as in a least spanning tree (Kruskal 1956).
@@ -17,31 +17,42 @@ from typing import Final
 import numpy as np
 
 from ...arrays import Ints
-from ...model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Connection, Cover, Role, UnitGrid, components, connect
+from ...model import (
+    COLOUR_EMPTY,
+    NOBODY,
+    Bricks,
+    Catalogue,
+    ContactGraph,
+    Fill,
+    Role,
+    UnitGrid,
+    components,
+    contact_graph,
+)
 from ...units import PLATES_PER_BRICK
 from ..problem import Plane, Rows, owners, with_margins
-from .contacts import RECOLOURED, Contacts, contacts
+from .contacts import RECOLOURED, NearContacts, near_contacts
 from .cutting import Bench, Laid, Seam, Square
 
 _TRIED: Final = 16
-"""Most straps tried at one place."""
+"""Most ties tried at one place."""
 
 _MOST_WRONG: Final = 2
-"""Most stud squares of a strap that have to show another colour."""
+"""Most stud squares of a tie that have to show another colour."""
 
 _FREE: Final = 0.6
 _DEAR: Final = RECOLOURED + 0.6
-"""Prices below which a second strap shows nowhere, and below which it shows in one cell of another colour."""
+"""Prices below which a second tie shows nowhere, and below which it shows in one cell of another colour."""
 
 _BRICKS_A_STRAP: Final = 6
 _MOST_STRAPS: Final = 6
 _BRICKS_A_COLOUR: Final = 40
 _MOST_COLOURS: Final = 1
-"""Bricks that hang on a joint for each further strap that does not show, and how many at most; and that does show."""
+"""Bricks that hang on a joint for each further tie that does not show, and how many at most; and that does show."""
 
 
-def strapped(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, *, plates: bool) -> tuple[Bricks, UnitGrid]:
-    """Join the components of a layout by straps.
+def add_ties(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, *, plates: bool) -> tuple[Bricks, UnitGrid]:
+    """Join the components of a layout by ties.
 
     Parameters
     ----------
@@ -51,19 +62,19 @@ def strapped(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, *, plates: bo
         The cells that it covers.
     catalogue : Catalogue
     plates : bool
-        Whether bricks may be cut into plates, and plates be added; else straps
+        Whether bricks may be cut into plates, and plates be added; else ties
         are bricks.
 
     Returns
     -------
     bricks : Bricks
         Cover the same cells, and a few more where there is nothing to cut, in
-        fewer components where straps could join them.
+        fewer components where ties could join them.
     grid : UnitGrid
         With the cells that were added, which must be built and have the role of
-        plates, and the colours that straps show.
+        plates, and the colours that ties show.
     """
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     colour = with_margins(grid.colour, COLOUR_EMPTY)
     before = links.n_components + 1
     # each round looks for joints between what the rounds before have joined: a row after row, if need be
@@ -71,12 +82,12 @@ def strapped(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, *, plates: bo
         bench, before = Bench(bricks, owners(links, colour.shape), catalogue), links.n_components
         if _joined(bench, links.component, colour, plates=plates):
             bricks = bench.bricks()
-            links = connect(bricks, catalogue)
+            links = contact_graph(bricks, catalogue)
             grid = _as_laid(grid, bricks, links)
     return bricks, grid
 
 
-def _as_laid(grid: UnitGrid, bricks: Bricks, links: Connection) -> UnitGrid:
+def _as_laid(grid: UnitGrid, bricks: Bricks, links: ContactGraph) -> UnitGrid:
     """Return the grid in the colours of the bricks that lie in cells of another colour or in none."""
     owner = owners(links, with_margins(grid.colour, COLOUR_EMPTY).shape)[1:-1].reshape(grid.colour.shape)
     added = (owner != NOBODY) & ~grid.solid
@@ -84,14 +95,14 @@ def _as_laid(grid: UnitGrid, bricks: Bricks, links: Connection) -> UnitGrid:
     return replace(
         grid,
         colour=np.where(shown, bricks.colour[owner], grid.colour),
-        cover=np.where(added, np.uint8(Cover.MUST), grid.cover),
+        cover=np.where(added, np.uint8(Fill.REQUIRED), grid.cover),
         role=np.where(added, np.uint8(Role.PLATE), grid.role),
     )
 
 
 def _joined(bench: Bench, component: Rows, colour: Plane, *, plates: bool) -> int:
-    """Lay straps between components, more of them where more hangs on them; return how many were laid."""
-    found = contacts(bench.owner, component, colour, plates=plates)
+    """Lay ties between components, more of them where more hangs on them; return how many were laid."""
+    found = near_contacts(bench.owner, component, colour, plates=plates)
     height = 1 if plates else PLATES_PER_BRICK
     pairs = component[found.bricks]
     seams = _seams(found)
@@ -101,15 +112,15 @@ def _joined(bench: Bench, component: Rows, colour: Plane, *, plates: bool) -> in
     for rows, most_wrong in ((found.price < RECOLOURED, 0), (found.price > -np.inf, _MOST_WRONG)):
         for row in np.flatnonzero(rows).tolist():
             one, other = pairs[row]
-            if home[one] != home[other] and _strap(bench, seams[row], colour, height, most_wrong):
+            if home[one] != home[other] and _tie(bench, seams[row], colour, height, most_wrong):
                 home[home == home[one]] = home[other]
                 laid.append(row)
     for row in _more(found, pairs, laid, _hanging(pairs[laid], np.bincount(component))):
-        _strap(bench, seams[row], colour, height, 0 if found.price[row] < RECOLOURED else _MOST_WRONG)
+        _tie(bench, seams[row], colour, height, 0 if found.price[row] < RECOLOURED else _MOST_WRONG)
     return len(laid)
 
 
-def _seams(found: Contacts) -> list[Seam]:
+def _seams(found: NearContacts) -> list[Seam]:
     """Return the seams of places."""
     plane, y, x = found.place.T
     ends = np.stack([x, y, x + (found.axis == 2), y + (found.axis == 1)], axis=1).tolist()
@@ -138,8 +149,8 @@ def _hanging(joints: Rows, size: Ints) -> list[int]:
     return hanging
 
 
-def _more(found: Contacts, pairs: Rows, laid: list[int], hanging: list[int]) -> Iterator[int]:
-    """Yield the places for more straps at joints on which much hangs: free ones, and a few of another colour."""
+def _more(found: NearContacts, pairs: Rows, laid: list[int], hanging: list[int]) -> Iterator[int]:
+    """Yield the places for more ties at joints on which much hangs: free ones, and a few of another colour."""
     pairs = np.sort(pairs, axis=1)
     for joint, bricks in zip(laid, hanging, strict=True):
         if bricks >= _BRICKS_A_STRAP:
@@ -152,22 +163,22 @@ def _more(found: Contacts, pairs: Rows, laid: list[int], hanging: list[int]) -> 
             )
 
 
-def _strap(bench: Bench, seam: Seam, colour: Plane, height: int, most_wrong: int) -> bool:
-    """Lay a strap across a seam; return whether there is one that holds and is in the wrong colour in few squares."""
+def _tie(bench: Bench, seam: Seam, colour: Plane, height: int, most_wrong: int) -> bool:
+    """Lay a tie across a seam; return whether there is one that holds and is in the wrong colour in few squares."""
     ends = [bench.at(seam.level, end) for end in seam.ends]
     cut = sorted({number for number in ends if number != NOBODY})
-    # a strap laid before may reach across this seam already
+    # a tie laid before may reach across this seam already
     if NOBODY not in ends and len(cut) == 1:
         return False
-    for strap in _straps(bench, seam, cut, colour, height, most_wrong)[:_TRIED]:
-        pieces = bench.cut(cut, strap)
-        if pieces is not None and bench.reaches(strap, seam) and bench.holds([strap, *pieces]):
-            bench.put(cut, [strap, *pieces])
+    for tie in _ties(bench, seam, cut, colour, height, most_wrong)[:_TRIED]:
+        pieces = bench.cut(cut, tie)
+        if pieces is not None and bench.reaches(tie, seam) and bench.holds([tie, *pieces]):
+            bench.put(cut, [tie, *pieces])
             return True
     return False
 
 
-def _straps(bench: Bench, seam: Seam, cut: list[int], colour: Plane, height: int, most_wrong: int) -> list[Laid]:
+def _ties(bench: Bench, seam: Seam, cut: list[int], colour: Plane, height: int, most_wrong: int) -> list[Laid]:
     """Return what may lie across a seam, in the place of bricks or added: what shows least, then what lies on most."""
     bricks = [bench.laid[number] for number in cut or bench.over_and_under(seam)]
     level = seam.level if height == 1 else bricks[0].level
@@ -176,28 +187,24 @@ def _straps(bench: Bench, seam: Seam, cut: list[int], colour: Plane, height: int
     offers = []
     for code in sorted({brick.colour for brick in bricks}):
         for form, corner in bench.forms.within(sides[0] | sides[1], seam.ends[0], height, code):
-            strap = Laid(form, corner, level, code, int(role))
-            wrong = _wrong(strap, colour)
-            if (
-                seam.ends[1] in strap.squares
-                and len(wrong) <= most_wrong * height
-                and (not wrong or _rests(bench, strap))
-            ):
+            tie = Laid(form, corner, level, code, int(role))
+            wrong = _wrong(tie, colour)
+            if seam.ends[1] in tie.squares and len(wrong) <= most_wrong * height and (not wrong or _rests(bench, tie)):
                 faces = sum(bench.open_faces(each_level, square) for each_level, square in wrong)
-                rests = min(len(strap.squares & side) for side in sides)
-                offers.append((len(wrong), faces, -rests, -len(form.squares), corner, strap))
-    return [strap for *_, strap in sorted(offers, key=lambda offer: offer[:-1])]
+                rests = min(len(tie.squares & side) for side in sides)
+                offers.append((len(wrong), faces, -rests, -len(form.squares), corner, tie))
+    return [tie for *_, tie in sorted(offers, key=lambda offer: offer[:-1])]
 
 
-def _rests(bench: Bench, strap: Laid) -> bool:
-    """Tell whether there is something below or above a strap, as there is nothing for the pixels of a picture."""
-    levels = (strap.level - 1, strap.level + strap.form.height)
-    return any(bench.at(level, square) != NOBODY for level in levels for square in strap.squares)
+def _rests(bench: Bench, tie: Laid) -> bool:
+    """Tell whether there is something below or above a tie, as there is nothing for the pixels of a picture."""
+    levels = (tie.level - 1, tie.level + tie.form.height)
+    return any(bench.at(level, square) != NOBODY for level in levels for square in tie.squares)
 
 
-def _wrong(strap: Laid, colour: Plane) -> list[tuple[int, Square]]:
-    """Return the level and square of each cell of a strap that has to show another colour."""
-    levels = range(strap.level, strap.level + strap.form.height)
-    cells = [(level, square) for level in levels for square in sorted(strap.squares)]
+def _wrong(tie: Laid, colour: Plane) -> list[tuple[int, Square]]:
+    """Return the level and square of each cell of a tie that has to show another colour."""
+    levels = range(tie.level, tie.level + tie.form.height)
+    cells = [(level, square) for level in levels for square in sorted(tie.squares)]
     shown = [int(colour[level + 1, y, x]) for level, (x, y) in cells]
-    return [cell for cell, code in zip(cells, shown, strict=True) if code >= 0 and code != strap.colour]
+    return [cell for cell, code in zip(cells, shown, strict=True) if code >= 0 and code != tie.colour]

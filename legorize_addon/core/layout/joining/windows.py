@@ -23,14 +23,14 @@ from ...model import (
     NOBODY,
     Bricks,
     Catalogue,
-    Connection,
-    Cover,
+    ContactGraph,
+    Fill,
     Touching,
     UnitGrid,
     agree,
     brick_columns,
     components,
-    connect,
+    contact_graph,
     every_plate,
 )
 from ...progress import Progress
@@ -42,8 +42,8 @@ from ..problem import (
     Rows,
     Shapes,
     Sheets,
-    bricks_of,
-    gathered,
+    brick_table,
+    gather,
     placements,
     pose,
     standing,
@@ -96,11 +96,11 @@ def join_by_windows(
     Bricks
         Covers the same must cells, in fewer components where windows could join them.
     """
-    links = connect(bricks, catalogue)
+    links = contact_graph(bricks, catalogue)
     if links.n_components <= 1:
         return bricks
-    must, beside = with_margins(grid.cover == Cover.MUST, False), _beside(grid)
-    model = _Model.of(bricks, links, must)
+    required, beside = with_margins(grid.cover == Fill.REQUIRED, False), _beside(grid)
+    model = _Model.of(bricks, links, required)
     places, tried = _contacts(model, beside), set[tuple[int, ...]]()
     tries = min(_TRIES[0], _TRIES[1] // len(bricks))
     for number in range(tries):
@@ -109,10 +109,10 @@ def join_by_windows(
             break
         progress("connection", number / tries)
         tried.add(place)
-        relaid = (_relaid(model, sheets, among, place, must) for sheets, among in work)
+        relaid = (_relaid(model, sheets, among, place, required) for sheets, among in work)
         better = next((each for each in relaid if each is not None), None)
         if better is not None:
-            model = _Model.of(better, connect(better, catalogue), must)
+            model = _Model.of(better, contact_graph(better, catalogue), required)
             places = _contacts(model, beside)
             tried = {each for each in tried if (np.abs(np.subtract(each, place)) > _FAR).any()}
     return model.bricks
@@ -125,20 +125,20 @@ class _Model:
     Attributes
     ----------
     bricks : Bricks
-    links : Connection
+    links : ContactGraph
         The bricks as a graph.
     owner : (n_plates + 2, n_y, n_x) int32 array
         Brick in each cell, ``NOBODY`` or ``GROUND``, with the planes of :func:`with_margins`.
     """
 
     bricks: Bricks
-    links: Connection
+    links: ContactGraph
     owner: Rows
 
     @classmethod
-    def of(cls, bricks: Bricks, links: Connection, must: Mask) -> _Model:
+    def of(cls, bricks: Bricks, links: ContactGraph, required: Mask) -> _Model:
         """Look up which cells bricks lie in, given those that have to be covered."""
-        return cls(bricks, links, standing(links, must))
+        return cls(bricks, links, standing(links, required))
 
     def without(self, out: Ints) -> Rows:
         """Return the component of each brick, (n,), when some are left out, each of which has a number of its own."""
@@ -173,7 +173,7 @@ def _contacts(model: _Model, beside: Ints) -> Iterator[tuple[int, ...]]:
             yield tuple(int(each) for each in np.unravel_index(cell, planes.shape))
 
 
-def _relaid(model: _Model, sheets: Sheets, among: Shapes, place: tuple[int, ...], must: Mask) -> Bricks | None:
+def _relaid(model: _Model, sheets: Sheets, among: Shapes, place: tuple[int, ...], required: Mask) -> Bricks | None:
     """Lay the bricks of one sheet around a place anew; None if the model is not better for it."""
     level, y, x = place
     rows = np.flatnonzero((sheets.level <= level) & (level < sheets.level + sheets.height))
@@ -186,7 +186,7 @@ def _relaid(model: _Model, sheets: Sheets, among: Shapes, place: tuple[int, ...]
     out = np.unique(plane[box])
     out = out[(out > NOBODY) & np.isin(model.bricks.part[out], among.part)]
     window = _window(sheet, plane, out, box)
-    problem = pose(window, among, placements(window, among), model.owner, must)
+    problem = pose(window, among, placements(window, among), model.owner, required)
     component = model.without(out)
     # what lies below and above is in other sheets, so none of it was taken out
     around = model.owner[[base, base + sheet.height + 1]].reshape(2, -1)[:, window.cells]
@@ -198,17 +198,17 @@ def _relaid(model: _Model, sheets: Sheets, among: Shapes, place: tuple[int, ...]
     if chosen is None or not _better(model, component, out, known, touches[:, chosen], base):
         return None
     kept = model.bricks.take(np.delete(np.arange(len(model.bricks)), out))
-    return gathered([kept, bricks_of(problem, chosen)])
+    return gather([kept, brick_table(problem, chosen)])
 
 
 def _window(sheet: Sheets, plane: Rows, out: Ints, box: tuple[slice, slice]) -> Sheets:
     """Return the sheet with nothing but the cells of the bricks taken out, and the free ones of the box."""
     inside = np.isin(plane, out)
-    inside[box] |= (plane[box] == NOBODY) & ~sheet.must[0][box]
+    inside[box] |= (plane[box] == NOBODY) & ~sheet.required[0][box]
     return replace(
         sheet,
         colour=np.where(inside, sheet.colour, np.int16(COLOUR_EMPTY)),
-        must=sheet.must & inside,
+        required=sheet.required & inside,
     )
 
 
@@ -231,7 +231,7 @@ def _solved(problem: Problem, touches: Mask, home: Ints, loose: int) -> Index | 
     if len(found) == 0 or len(_cuts(touches, np.arange(len(found)), home, loose)):
         return None
     alone = ~touches.any(axis=0)
-    constraints = [LinearConstraint(_covering(problem), problem.must.astype(np.float64), 1.0)]
+    constraints = [LinearConstraint(_covering(problem), problem.required.astype(np.float64), 1.0)]
     chosen = np.zeros(0, dtype=np.intp)
     for _ in range(_CUTS):
         cuts = _cuts(touches, chosen, home, loose)
@@ -259,7 +259,7 @@ def _covering(problem: Problem) -> csr_array:
     """Return which cells each placement covers, (n_cells, n)."""
     found = problem.placements
     entry = np.repeat(np.arange(len(found)), found.size)
-    return csr_array((np.ones(len(entry)), (found.cells, entry)), shape=(len(problem.must), len(found)))
+    return csr_array((np.ones(len(entry)), (found.cells, entry)), shape=(len(problem.required), len(found)))
 
 
 def _cuts(touches: Mask, chosen: Index, home: Ints, loose: int) -> Floats:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from .own_samples import learned_more, learned_table, samples_text, version_of
+from .own_samples import learn_more, learned_table, samples_text, version_of
 from .svm import improved, read, shipped
 
 __all__ = [
     "improved",
-    "learned_more",
+    "learn_more",
     "learned_table",
     "read",
     "samples_text",

@@ -96,7 +96,7 @@ def version_of(text: str) -> int:
     return whole(read(text)[1], "version", SHIPPED_VERSION)
 
 
-def learned_more(
+def learn_more(
     text: str,
     models: Sequence[tuple[UnitGrid, Bricks]],
     catalogue: Catalogue,

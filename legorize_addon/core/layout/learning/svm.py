@@ -233,9 +233,9 @@ def changes(problem: Problem, chosen: Index) -> Levels:
     )
     sums = segment_sums(of_brick[owner][found.cells], found.start[1:])
     units, area = sums & ((1 << _FIELD) - 1), (sums >> _FIELD) & ((1 << _FIELD) - 1)
-    hold = (sums >> 2 * _FIELD) - extra
+    clutch = (sums >> 2 * _FIELD) - extra
     cuts = _PER_BRICK * _n_bricks(problem, owner) - area
-    measured = np.stack([units, hold, cuts, area], axis=1)
+    measured = np.stack([units, clutch, cuts, area], axis=1)
     return np.clip((measured - _LOW) // _STEPS, 0, np.array(LEVELS) - 1).astype(np.int16)
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...arrays import Mask
 from ...errors import BuildError
-from ...model import NOBODY, Bricks, Catalogue, Cover, UnitGrid, connect, ground_of
+from ...model import NOBODY, Bricks, Catalogue, Fill, UnitGrid, contact_graph, ground_of
 from ..problem import GROUND, Index, Problem, owners, placements, pose, shapes, split, with_margins
 from ..solvers import cover, fewer_small, gains
 from .svm import COLUMNS, Machine, Samples, changes
@@ -79,9 +79,9 @@ def tasks(grid: UnitGrid, bricks: Bricks, catalogue: Catalogue) -> Iterator[Prob
     Problem
         All sheets of one height and one half.
     """
-    must = with_margins(grid.cover == Cover.MUST, False)
+    required = with_margins(grid.cover == Fill.REQUIRED, False)
     codes = np.unique(grid.colour[grid.colour >= 0])
-    built = owners(connect(bricks, catalogue), must.shape)
+    built = owners(contact_graph(bricks, catalogue), required.shape)
     ground = ground_of(built != NOBODY)
     for sheets in split(grid):
         # the colour of what nobody sees does not matter here
@@ -91,7 +91,7 @@ def tasks(grid: UnitGrid, bricks: Bricks, catalogue: Catalogue) -> Iterator[Prob
             around[:ground] = GROUND
             if half.any():
                 part = sheets.take(half)
-                yield pose(part, among, placements(part, among), around, must)
+                yield pose(part, among, placements(part, among), around, required)
 
 
 def samples_of(

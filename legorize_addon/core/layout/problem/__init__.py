@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from .blocks import blocks
-from .candidates import Amounts, Live
+from .candidates import Amounts, Candidates
 from .dominance import dominated
 from .placements import Placements, placements, segment_sums
 from .planes import spread
 from .problem import BRIDGE, GROUND, Problem, owners, pose, standing, with_margins
 from .shapes import Index, Plane, Rows, Shapes, pattern_bits, shapes
 from .sheets import Sheets, split
-from .table import bricks_of, gathered
+from .table import brick_table, gather
 
 __all__ = [
     "BRIDGE",
     "GROUND",
     "Amounts",
+    "Candidates",
     "Index",
-    "Live",
     "Placements",
     "Plane",
     "Problem",
@@ -25,9 +25,9 @@ __all__ = [
     "Shapes",
     "Sheets",
     "blocks",
-    "bricks_of",
+    "brick_table",
     "dominated",
-    "gathered",
+    "gather",
     "owners",
     "pattern_bits",
     "placements",

@@ -17,7 +17,7 @@ Amounts = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Live:
+class Candidates:
     """Some of the placements on some sheets.
 
     Attributes
@@ -35,7 +35,7 @@ class Live:
     cells: Index
 
     @classmethod
-    def of(cls, found: Placements) -> Live:
+    def of(cls, found: Placements) -> Candidates:
         """Return all placements."""
         return cls(np.arange(len(found)), found.size, found.cells)
 
@@ -50,19 +50,19 @@ class Live:
         np.maximum.at(greatest, self.cells, keys)
         return np.equal(self.totals(keys == greatest[self.cells]), self.size)
 
-    def only(self, kept: Mask) -> Live:
+    def only(self, kept: Mask) -> Candidates:
         """Drop the other placements."""
-        return Live(self.rows[kept], self.size[kept], self.cells[np.repeat(kept, self.size)])
+        return Candidates(self.rows[kept], self.size[kept], self.cells[np.repeat(kept, self.size)])
 
-    def clear_of(self, covered: Mask) -> Live:
+    def clear_of(self, covered: Mask) -> Candidates:
         """Drop the placements that lie on a covered cell."""
         return self.only(self.totals(covered[self.cells]) == 0)
 
-    def within(self, inside: Mask) -> Live:
+    def within(self, inside: Mask) -> Candidates:
         """Leave out the cells outside, and the placements that have no others."""
         kept = inside[self.cells]
         size = self.totals(kept)
-        return Live(self.rows[size > 0], size[size > 0], self.cells[kept])
+        return Candidates(self.rows[size > 0], size[size > 0], self.cells[kept])
 
     def groups(self, n_cells: int) -> Index:
         """Return the number of the set of placements that each hangs together with by shared cells, shape (n,)."""

@@ -13,7 +13,7 @@ from .placements import Placements
 from .shapes import Shapes
 
 
-def dominated(found: Placements, among: Shapes, must: Mask, cost: Floats) -> Mask:
+def dominated(found: Placements, among: Shapes, required: Mask, cost: Floats) -> Mask:
     """Tell which placements another one makes superfluous.
 
     Parameters
@@ -22,7 +22,7 @@ def dominated(found: Placements, among: Shapes, must: Mask, cost: Floats) -> Mas
         What may be laid.
     among : Shapes
         Its shapes.
-    must : (n_cells,) bool array
+    required : (n_cells,) bool array
         Cells that have to be covered.
     cost : (n,) float64 array
         Cost of each placement.
@@ -32,7 +32,7 @@ def dominated(found: Placements, among: Shapes, must: Mask, cost: Floats) -> Mas
     (n,) bool array
         Leaving these out changes neither what can be covered nor the least cost.
     """
-    needed = found.totals(must)
+    needed = found.totals(required)
     superfluous = np.zeros(len(found), dtype=bool)
     partial = np.flatnonzero(needed < found.size)
     for inner, x, y in among.within:

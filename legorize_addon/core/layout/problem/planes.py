@@ -41,7 +41,7 @@ class Planes:
     least, most : (n,) int16 arrays
         Column of the colour in ``Shapes.made``; free colours count as the
         greatest in `least` and as -1 in `most`, forbidden cells the other way.
-    must : (n,) bool array
+    required : (n,) bool array
         Whether the cell has to be covered.
     number : (n,) intp array
         Number of the cell, of no meaning where it is forbidden.
@@ -52,14 +52,14 @@ class Planes:
     extent: int
     least: Plane
     most: Plane
-    must: Mask
+    required: Mask
     number: Index
 
     @classmethod
     def of(cls, sheets: Sheets, among: Shapes) -> Planes:
         """Cut out what shapes on must cells reach, and pad it on the far sides."""
         reach = int(among.extent.max()) - 1
-        box = tuple(spread(sheets.must.any(axis=axes), reach) for axes in ((0, 2), (0, 1)))
+        box = tuple(spread(sheets.required.any(axis=axes), reach) for axes in ((0, 2), (0, 1)))
         cut, padding = (slice(None), *box), ((0, 0), (0, reach + 1), (0, reach))
         number = np.cumsum(sheets.colour != COLOUR_EMPTY, dtype=np.intp).reshape(sheets.colour.shape) - 1
         colour = np.pad(sheets.colour[cut], padding, constant_values=COLOUR_EMPTY)
@@ -71,18 +71,18 @@ class Planes:
             extent=colour[0].size,
             least=np.where(empty, np.int16(-1), np.where(free, np.int16(_FREE), column)).reshape(-1),
             most=np.where(empty, np.int16(_FREE), np.where(free, np.int16(-1), column)).reshape(-1),
-            must=np.pad(sheets.must[cut], padding).reshape(-1),
+            required=np.pad(sheets.required[cut], padding).reshape(-1),
             number=np.pad(number[cut], padding).reshape(-1),
         )
 
     def fitting(self, among: Shapes) -> list[tuple[Index, Plane]]:
         """Return where each shape fits, and the column of the colour it takes there."""
-        merged: list[Merged] = [(self.least, self.most, self.must)] * len(among.size)
+        merged: list[Merged] = [(self.least, self.most, self.required)] * len(among.size)
         found = [(np.zeros(0, dtype=np.intp), self.most[:0])] * len(among.size)
         # what a shape is made of comes before it
         for row in np.argsort(among.size, kind="stable"):
-            merged[row] = least, most, must = self._merged(row, merged, among)
-            places = np.flatnonzero((least >= most) & must)
+            merged[row] = least, most, required = self._merged(row, merged, among)
+            places = np.flatnonzero((least >= most) & required)
             # all colours under the shape agree: this is the one, or -1, the last column
             columns = most[places]
             made = among.made[row][columns]
@@ -93,14 +93,14 @@ class Planes:
         """Return the least and the greatest colour under a shape at each place, and whether a must cell is there."""
         pieces, cells = among.pieces[row], among.cells[row]
         parts = [(merged[inner], x + y * self.stride) for inner, x, y in pieces] or [
-            ((self.least, self.most, self.must), x + y * self.stride) for x, y in cells
+            ((self.least, self.most, self.required), x + y * self.stride) for x, y in cells
         ]
         length = len(self.least) - int(self.offsets(cells).max())
-        least, most, must = (
+        least, most, required = (
             reduce(merge, (planes[kind][offset : offset + length] for planes, offset in parts))
             for kind, merge in enumerate((np.minimum, np.maximum, np.logical_or))
         )
-        return least, most, must
+        return least, most, required
 
     def offsets(self, covered: Rows) -> Index:
         """Return the cells of a shape as offsets in the flat planes, shape (k,)."""

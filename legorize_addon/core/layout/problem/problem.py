@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Floats, Mask
-from ...model import NOBODY, Connection, ground_of
+from ...model import NOBODY, ContactGraph, ground_of
 from .placements import Placements, segment_sums
 from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
@@ -42,7 +42,7 @@ class Problem:
         What the rows of ``placements.shape`` mean.
     placements : Placements
         What may be laid.
-    must : (n_cells,) bool array
+    required : (n_cells,) bool array
         Cells that have to be covered.
     corner : (n_cells, 3) intp array
         Where the cells are: x and y in studs, number of the sheet.
@@ -55,14 +55,14 @@ class Problem:
     sheets: Sheets
     shapes: Shapes
     placements: Placements
-    must: Mask
+    required: Mask
     corner: Index
     cost: Floats
     price: Floats | None = None
 
     def owner(self, chosen: Index) -> Index:
         """Return the position in `chosen` of the placement that covers each cell, ``NOBODY`` where there is none."""
-        owner = np.full(len(self.must), NOBODY, dtype=np.intp)
+        owner = np.full(len(self.required), NOBODY, dtype=np.intp)
         cells = self.placements.cells[self.placements.entries(chosen)]
         owner[cells] = np.repeat(np.arange(len(chosen)), self.placements.size[chosen])
         return owner
@@ -86,12 +86,12 @@ def with_margins(cells: NDArray[Cell], fill: Any) -> NDArray[Cell]:
     return np.pad(cells.reshape(-1, *cells.shape[2:]), ((1, 1), (0, 0), (0, 0)), constant_values=fill)
 
 
-def owners(links: Connection, shape: tuple[int, ...]) -> Rows:
+def owners(links: ContactGraph, shape: tuple[int, ...]) -> Rows:
     """Return the brick in each cell of a model, with the planes of :func:`with_margins`.
 
     Parameters
     ----------
-    links : Connection
+    links : ContactGraph
         The bricks as cells.
     shape : tuple of int
         (n_plates + 2, n_y, n_x).
@@ -107,14 +107,16 @@ def owners(links: Connection, shape: tuple[int, ...]) -> Rows:
     return owner
 
 
-def standing(links: Connection, must: Mask) -> Rows:
+def standing(links: ContactGraph, required: Mask) -> Rows:
     """Return the brick in each cell of a model, as :func:`owners`, and ``GROUND`` below the lowest must cell."""
-    owner = owners(links, must.shape)
-    owner[: ground_of(must)] = GROUND
+    owner = owners(links, required.shape)
+    owner[: ground_of(required)] = GROUND
     return owner
 
 
-def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Mask, bridge: float = BRIDGE) -> Problem:
+def pose(
+    sheets: Sheets, among: Shapes, found: Placements, owner: Rows, required: Mask, bridge: float = BRIDGE
+) -> Problem:
     """Put costs on the placements on some sheets.
 
     Parameters
@@ -128,7 +130,7 @@ def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Ma
     owner : (n_plates + 2, n_y, n_x) int32 array
         Brick in each cell of the model, ``NOBODY`` or ``GROUND``; plane 0 lies
         below the lowest plate, the last one above the highest.
-    must : (n_plates + 2, n_y, n_x) bool array
+    required : (n_plates + 2, n_y, n_x) bool array
         Cells of the model that have to be covered.
     bridge : float
         What lying across a seam saves, in bricks.
@@ -141,10 +143,10 @@ def pose(sheets: Sheets, among: Shapes, found: Placements, owner: Rows, must: Ma
         cells, and less for the seams that it bridges.
     """
     cells = sheets.cells
-    needed = sheets.must.reshape(-1)[cells]
+    needed = sheets.required.reshape(-1)[cells]
     # bricks that lie there already, and cells that will be built
     around = np.stack([sheets.level, sheets.level + sheets.height + 1])
-    held = ((owner[around] != NOBODY) | must[around]).reshape(2, -1)[:, cells]
+    held = ((owner[around] != NOBODY) | required[around]).reshape(2, -1)[:, cells]
     n_sides = sum(found.totals(side) > 0 for side in held)
     on_ground = (owner[sheets.level] == GROUND).any(axis=(1, 2))[found.corner[:, 2]]
     bridged = _bridged(found, among, _seams(owner[around])[:, cells])

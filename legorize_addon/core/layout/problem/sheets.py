@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Mask
-from ...model import COLOUR_EMPTY, Cover, Role, UnitGrid, brick_columns
+from ...model import COLOUR_EMPTY, Fill, Role, UnitGrid, brick_columns
 from ...units import PLATES_PER_BRICK
 from .shapes import Index, Plane, Rows
 
@@ -32,7 +32,7 @@ class Sheets:
         Lowest plate of each sheet.
     colour : (n_sheets, n_y, n_x) int16 array
         LDraw code, ``COLOUR_ANY``, or ``COLOUR_EMPTY`` where nothing may be laid.
-    must : (n_sheets, n_y, n_x) bool array
+    required : (n_sheets, n_y, n_x) bool array
         Cells that have to be covered.
     role : (n_sheets, n_y, n_x) uint8 array
         ``Role`` of the cells.
@@ -41,7 +41,7 @@ class Sheets:
     height: int
     level: Rows
     colour: Plane
-    must: Mask
+    required: Mask
     role: NDArray[np.uint8]
 
     def __len__(self) -> int:
@@ -61,7 +61,7 @@ class Sheets:
 
     def take(self, which: Mask | Index | slice) -> Sheets:
         """Return some of the sheets."""
-        return Sheets(self.height, self.level[which], self.colour[which], self.must[which], self.role[which])
+        return Sheets(self.height, self.level[which], self.colour[which], self.required[which], self.role[which])
 
 
 def split(grid: UnitGrid) -> list[Sheets]:
@@ -81,13 +81,13 @@ def split(grid: UnitGrid) -> list[Sheets]:
         a height without sheets.
     """
     brick, top = brick_columns(grid)
-    must = grid.cover == Cover.MUST
+    required = grid.cover == Fill.REQUIRED
     level = np.arange(len(brick) * PLATES_PER_BRICK, dtype=np.int32)
     bricks = Sheets(
         height=PLATES_PER_BRICK,
         level=level[::PLATES_PER_BRICK],
         colour=np.where(brick, top, np.int16(COLOUR_EMPTY)),
-        must=must.any(axis=1) & brick,
+        required=required.any(axis=1) & brick,
         role=_outermost(grid.role),
     )
     plane = (-1, *brick.shape[1:])
@@ -95,7 +95,7 @@ def split(grid: UnitGrid) -> list[Sheets]:
         height=1,
         level=level,
         colour=np.where(brick[:, None], np.int16(COLOUR_EMPTY), grid.colour).reshape(plane),
-        must=(must & ~brick[:, None]).reshape(plane),
+        required=(required & ~brick[:, None]).reshape(plane),
         role=grid.role.reshape(plane),
     )
     filled = [each.take((each.colour != COLOUR_EMPTY).any(axis=(1, 2))) for each in (bricks, plates)]

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import Bricks, Role, joined
+from ...model import Bricks, Role, concatenate
 from ...units import PLATES_PER_BRICK
 from .problem import Problem
 from .shapes import Index
 
 
-def bricks_of(problem: Problem, chosen: Index) -> Bricks:
+def brick_table(problem: Problem, chosen: Index) -> Bricks:
     """Write chosen placements down as bricks.
 
     Parameters
@@ -44,7 +44,7 @@ def bricks_of(problem: Problem, chosen: Index) -> Bricks:
     )
 
 
-def gathered(tables: Sequence[Bricks]) -> Bricks:
+def gather(tables: Sequence[Bricks]) -> Bricks:
     """Put tables together.
 
     Parameters
@@ -57,7 +57,7 @@ def gathered(tables: Sequence[Bricks]) -> Bricks:
     Bricks
         By ascending plate, then y, then x.
     """
-    bricks = joined(tables)
+    bricks = concatenate(tables)
     return bricks.take(np.lexsort(tuple(bricks.corner.T)))
 
 

@@ -59,7 +59,7 @@ def running_bond(problem: Problem) -> Index:
 def _deep(problem: Problem) -> Mask:
     """Tell which cells have only must cells of their own colour around them, shape (n_cells,)."""
     sheets = problem.sheets
-    colour = np.where(sheets.must, sheets.colour, np.int16(COLOUR_EMPTY))
+    colour = np.where(sheets.required, sheets.colour, np.int16(COLOUR_EMPTY))
     window = (1, 2 * _DEPTH + 1, 2 * _DEPTH + 1)
     least, most = (
         extreme(colour, window, mode="constant", cval=COLOUR_EMPTY) for extreme in (minimum_filter, maximum_filter)

@@ -19,7 +19,7 @@ from scipy.optimize import Bounds, LinearConstraint, linprog, milp
 from scipy.sparse import csc_array
 
 from ...arrays import Floats, Mask
-from ..problem import Index, Live
+from ..problem import Candidates, Index
 
 WHOLE: Final = 1e-6
 """How far from a whole number a share may be for a whole one."""
@@ -38,28 +38,28 @@ prices are as good as each other, as on wide areas, the simplex method goes in c
 _PLAIN: Final = (("presolve", False),)
 
 
-def shares(live: Live, must: Mask, cost: Floats) -> Floats:
+def shares(candidates: Candidates, required: Mask, cost: Floats) -> Floats:
     """Find the cheapest shares.
 
     Parameters
     ----------
-    live : Live
+    candidates : Candidates
         Placements to choose among.
-    must : (n_cells,) bool array
+    required : (n_cells,) bool array
         Cells that have to be covered; those without a placement are left out.
     cost : (n,) float64 array
-        Cost of each placement of `live`.
+        Cost of each placement of `candidates`.
 
     Returns
     -------
     (n,) float64 array
         Share of each placement, 0 to 1.
     """
-    found = _milp(live, must, cost, Bounds(0, np.inf), options=dict(_PLAIN))
-    return np.asarray(found[: len(live.rows)])
+    found = _milp(candidates, required, cost, Bounds(0, np.inf), options=dict(_PLAIN))
+    return np.asarray(found[: len(candidates.rows)])
 
 
-def whole_shares(live: Live, must: Mask, cost: Floats, nodes: int) -> Floats | None:
+def whole_shares(candidates: Candidates, required: Mask, cost: Floats, nodes: int) -> Floats | None:
     """Find the cheapest shares that are 0 or 1, by branch and bound.
 
     Parameters
@@ -75,20 +75,20 @@ def whole_shares(live: Live, must: Mask, cost: Floats, nodes: int) -> Floats | N
         Share of each placement; None if so many nodes did not suffice to find any.
     """
     options = {"node_limit": nodes, "mip_rel_gap": _GAP}
-    found = _milp(live, must, cost, Bounds(0, 1), integrality=1, options=options)
-    return None if found is None else np.rint(found[: len(live.rows)])
+    found = _milp(candidates, required, cost, Bounds(0, 1), integrality=1, options=options)
+    return None if found is None else np.rint(found[: len(candidates.rows)])
 
 
-def prices(live: Live, must: Mask, room: Floats) -> tuple[Index, Floats]:
+def prices(candidates: Candidates, required: Mask, room: Floats) -> tuple[Index, Floats]:
     """Find what each cell is worth at most, if no placement may be worth more than its room.
 
     This is the dual of the programme of :func:`shares`, with the rooms as costs.
 
     Parameters
     ----------
-    live : Live
+    candidates : Candidates
         Placements.
-    must : (n_cells,) bool array
+    required : (n_cells,) bool array
         Cells that have to be covered.
     room : (n,) float64 array
         What the cells of each placement may be worth together.
@@ -101,8 +101,8 @@ def prices(live: Live, must: Mask, room: Floats) -> tuple[Index, Floats]:
         Worth of each, not above 0 where the cell need not be covered; the
         greatest sum that there is, but for rounding errors.
     """
-    used, matrix = _matrix(live, must)
-    rows, needed = matrix.tocsr(), must[used]
+    used, matrix = _matrix(candidates, required)
+    rows, needed = matrix.tocsr(), required[used]
     optional = {"A_ub": rows[~needed], "b_ub": np.ones(np.count_nonzero(~needed))} if not needed.all() else {}
     found = linprog(
         np.append(room, np.full(matrix.shape[1] - len(room), _BARE)),
@@ -118,30 +118,30 @@ def prices(live: Live, must: Mask, room: Floats) -> tuple[Index, Floats]:
     return used, price
 
 
-def _milp(live: Live, must: Mask, cost: Floats, bounds: Bounds, **options: Any) -> Any:
+def _milp(candidates: Candidates, required: Mask, cost: Floats, bounds: Bounds, **options: Any) -> Any:
     """Return the shares of the placements and of the bare cells, None if there are none."""
-    used, matrix = _matrix(live, must)
+    used, matrix = _matrix(candidates, required)
     found = milp(
         np.append(cost, np.full(matrix.shape[1] - len(cost), _BARE)),
-        constraints=LinearConstraint(matrix, must[used].astype(np.float64), np.ones(len(used))),
+        constraints=LinearConstraint(matrix, required[used].astype(np.float64), np.ones(len(used))),
         bounds=bounds,
         **options,
     )
     return found.x
 
 
-def _matrix(live: Live, must: Mask) -> tuple[Index, csc_array]:
+def _matrix(candidates: Candidates, required: Mask) -> tuple[Index, csc_array]:
     """Return the cells that placements cover, and which placement covers which.
 
     The columns after those of the placements belong to must cells that might
     stay bare, because they have no brick of their own.
     """
-    there, single = np.zeros_like(must), np.zeros_like(must)
-    there[live.cells] = True
-    single[live.cells[np.repeat(live.size == 1, live.size)]] = True
+    there, single = np.zeros_like(required), np.zeros_like(required)
+    there[candidates.cells] = True
+    single[candidates.cells[np.repeat(candidates.size == 1, candidates.size)]] = True
     row = np.cumsum(there) - 1
-    bare = np.flatnonzero(there & must & ~single)
-    rows = row[np.concatenate([live.cells, bare])]
-    start = np.append(0, np.cumsum(np.append(live.size, np.ones(len(bare), dtype=np.intp))))
+    bare = np.flatnonzero(there & required & ~single)
+    rows = row[np.concatenate([candidates.cells, bare])]
+    start = np.append(0, np.cumsum(np.append(candidates.size, np.ones(len(bare), dtype=np.intp))))
     used = np.flatnonzero(there)
     return used, csc_array((np.ones(len(rows)), rows, start), shape=(len(used), len(start) - 1))

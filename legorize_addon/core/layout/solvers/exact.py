@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ..problem import Index, Live, Problem, dominated
+from ..problem import Candidates, Index, Problem, dominated
 from . import linear
 from .covering_lp import WHOLE, shares, whole_shares
 from .linear import dive
@@ -39,20 +39,22 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
     (n_bricks,) intp array
         Rows of the placements to lay, never dearer than what :mod:`.linear` lays.
     """
-    found, must, cost = problem.placements, problem.must, problem.cost
-    live = Live.of(found).only(~dominated(found, problem.shapes, must, cost))
-    laid = dive(live, must, cost).rows if len(live.rows) <= _LARGE else linear.cover(problem, rng)
-    group = Live.of(found).groups(len(must))
-    live = live.only((np.bincount(group[live.rows], minlength=len(found)) <= _SMALL)[group[live.rows]])
-    if not len(live.rows):
+    found, required, cost = problem.placements, problem.required, problem.cost
+    candidates = Candidates.of(found).only(~dominated(found, problem.shapes, required, cost))
+    laid = dive(candidates, required, cost).rows if len(candidates.rows) <= _LARGE else linear.cover(problem, rng)
+    group = Candidates.of(found).groups(len(required))
+    candidates = candidates.only(
+        (np.bincount(group[candidates.rows], minlength=len(found)) <= _SMALL)[group[candidates.rows]]
+    )
+    if not len(candidates.rows):
         return laid
-    share = shares(live, must, cost[live.rows])
-    least = np.bincount(group[live.rows], weights=share * cost[live.rows], minlength=len(found))
+    share = shares(candidates, required, cost[candidates.rows])
+    least = np.bincount(group[candidates.rows], weights=share * cost[candidates.rows], minlength=len(found))
     spent = np.bincount(group[laid], weights=cost[laid], minlength=len(found))
-    tried = np.isin(np.arange(len(found)), group[live.rows])
+    tried = np.isin(np.arange(len(found)), group[candidates.rows])
     for number in np.flatnonzero(tried & (spent > least + _LEAST_GAIN)):
-        part = live.only(group[live.rows] == number)
-        whole = whole_shares(part, must, cost[part.rows], _NODES)
+        part = candidates.only(group[candidates.rows] == number)
+        whole = whole_shares(part, required, cost[part.rows], _NODES)
         if whole is not None and whole @ cost[part.rows] < spent[number] - _LEAST_GAIN:
             laid = np.concatenate([laid[group[laid] != number], part.rows[whole > WHOLE]])
     return laid

@@ -47,7 +47,7 @@ def fewer_small(problem: Problem, chosen: Index, rng: np.random.Generator) -> In
     """
     size = problem.placements.size
     for _ in range(_PASSES):
-        single = np.zeros(len(problem.must), dtype=bool)
+        single = np.zeros(len(problem.required), dtype=bool)
         single[problem.placements.cells[problem.placements.start[chosen[size[chosen] == 1]]]] = True
         offered = problem.placements.through(single)
         offered = offered[size[offered] > 1]
@@ -135,7 +135,7 @@ def _saved(problem: Problem, chosen: Index, offered: Index, moves: _Moves, rests
 
 def _patched(problem: Problem, cells: Index, rng: np.random.Generator) -> Index:
     """Cover the must cells among those given, with bricks that lie on no others."""
-    inside = np.zeros(len(problem.must), dtype=bool)
+    inside = np.zeros(len(problem.required), dtype=bool)
     inside[cells] = True
     found = problem.placements
     rows = np.flatnonzero(found.totals(inside) == found.size)
@@ -201,13 +201,13 @@ class _Rests:
         cut_rows = chosen[moves.brick]
         cell = problem.placements.cells[problem.placements.entries(cut_rows)]
         of_cell = np.repeat(np.arange(len(cut_rows)), problem.placements.size[cut_rows])
-        n_cells = len(problem.must)
+        n_cells = len(problem.required)
         # a cell of a cut brick is left if the move that cuts it does not take it
         taken = np.sort(moves.of_cell * n_cells + moves.cell)
         wanted = moves.of_cut[of_cell] * n_cells + cell
         left = taken[np.minimum(np.searchsorted(taken, wanted), len(taken) - 1)] != wanted
         cell, of_cell = cell[left], of_cell[left]
-        needed = problem.must[cell]
+        needed = problem.required[cell]
         # first all that is left, then only what must be covered: may cells can be dropped
         rows = np.stack(
             [

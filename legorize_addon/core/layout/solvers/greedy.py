@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from ...arrays import Mask
-from ..problem import Amounts, Index, Live, Problem
+from ..problem import Amounts, Candidates, Index, Problem
 
 _ONE: Final = 1 << 20
 """One brick in the fixed-point numbers that prices are made of: sums of integers
@@ -58,16 +58,19 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
     tie = _ties(problem, rng)
     n_ties = int(tie.max(initial=0)) + 1
     price_of_best = _price_table(int(placements.size.max(initial=0)))
-    covered = np.zeros_like(problem.must)
-    live = Live.of(placements)
-    chosen = [live.rows[:0]]
-    while len(live.rows):
-        score = live.totals(_prices(live, problem.must, price_of_best)[live.cells]) + merit[live.rows]
+    covered = np.zeros_like(problem.required)
+    candidates = Candidates.of(placements)
+    chosen = [candidates.rows[:0]]
+    while len(candidates.rows):
+        score = (
+            candidates.totals(_prices(candidates, problem.required, price_of_best)[candidates.cells])
+            + merit[candidates.rows]
+        )
         # the tie makes all keys different: on every cell there is one winner
-        won = live.winners(score * n_ties + tie[live.rows], len(covered))
-        chosen.append(live.rows[won])
-        covered[live.only(won).cells] = True
-        live = live.clear_of(covered)
+        won = candidates.winners(score * n_ties + tie[candidates.rows], len(covered))
+        chosen.append(candidates.rows[won])
+        covered[candidates.only(won).cells] = True
+        candidates = candidates.clear_of(covered)
     return np.concatenate(chosen)
 
 
@@ -93,29 +96,29 @@ def _price_table(largest: int) -> Amounts:
     return np.append(0, np.rint(_ONE * sizes**-_BEST)).astype(np.int64)
 
 
-def _prices(live: Live, must: Mask, price_of_best: Amounts) -> Amounts:
+def _prices(candidates: Candidates, required: Mask, price_of_best: Amounts) -> Amounts:
     """Return the prices of the cells, 0 where a cell need not be covered, but for its neighbours' sake."""
-    size = np.repeat(live.size, live.size)
-    best = np.zeros(len(must), dtype=np.int64)
-    np.maximum.at(best, live.cells, size)
-    offers = np.bincount(live.cells, weights=size, minlength=len(must)).astype(np.int64)
-    price = np.where(must, price_of_best[best] * (offers + _SCARCE) // np.maximum(offers, 1), 0)
-    return price + _neighbourly(live, must)
+    size = np.repeat(candidates.size, candidates.size)
+    best = np.zeros(len(required), dtype=np.int64)
+    np.maximum.at(best, candidates.cells, size)
+    offers = np.bincount(candidates.cells, weights=size, minlength=len(required)).astype(np.int64)
+    price = np.where(required, price_of_best[best] * (offers + _SCARCE) // np.maximum(offers, 1), 0)
+    return price + _neighbourly(candidates, required)
 
 
-def _neighbourly(live: Live, must: Mask) -> Amounts:
+def _neighbourly(candidates: Candidates, required: Mask) -> Amounts:
     """Reward taking a cell together with its last neighbours, and punish taking these alone.
 
     The reward of the cell and the punishment of its neighbours cancel out in a
     placement that covers them all.
     """
     # two cells are neighbours if the brick of two cells still fits there
-    pairs = live.cells[np.repeat(live.size == 2, live.size)].reshape(-1, 2)
+    pairs = candidates.cells[np.repeat(candidates.size == 2, candidates.size)].reshape(-1, 2)
     one, other = np.concatenate([pairs, pairs[:, ::-1]]).T
-    n_neighbours = np.bincount(one, minlength=len(must))
-    worth = np.zeros(len(must), dtype=np.int64)
+    n_neighbours = np.bincount(one, minlength=len(required))
+    worth = np.zeros(len(required), dtype=np.int64)
     for count, amount in _PARTNERS:
-        few = (n_neighbours == count) & must
-        dependants = np.bincount(one[few[other]], minlength=len(must))
+        few = (n_neighbours == count) & required
+        dependants = np.bincount(one[few[other]], minlength=len(required))
         worth += amount * (count * few - dependants)
     return worth

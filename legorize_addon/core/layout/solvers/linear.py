@@ -14,7 +14,7 @@ import numpy as np
 
 from ...arrays import Floats, Mask
 from ...model import NOBODY
-from ..problem import Index, Live, Problem, blocks, dominated
+from ..problem import Candidates, Index, Problem, blocks, dominated
 from . import greedy
 from .bond import running_bond
 from .covering_lp import WHOLE, shares
@@ -52,76 +52,76 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
         only where no layout could cover them together.
     """
     found = problem.placements
-    kept = ~dominated(found, problem.shapes, problem.must, problem.cost)
+    kept = ~dominated(found, problem.shapes, problem.required, problem.cost)
     if problem.price is not None:
         kept &= promising(problem, problem.price)
-    live = Live.of(found).only(kept)
+    candidates = Candidates.of(found).only(kept)
     cost = problem.cost + _NOISE * rng.random(len(found))
-    if len(live.rows) <= _WIDE:
-        return dive(live, problem.must, cost).rows
-    pieces = _piecewise(problem, live, cost)
+    if len(candidates.rows) <= _WIDE:
+        return dive(candidates, problem.required, cost).rows
+    pieces = _piecewise(problem, candidates, cost)
     quick = fewer_small(problem, greedy.cover(problem, rng), rng)
     return min(pieces, quick, key=lambda rows: (_bare(problem, rows), cost[rows].sum()))
 
 
 def _bare(problem: Problem, chosen: Index) -> int:
     """Count the must cells that are left over: between blocks some may, where no brick of one cell is made."""
-    return int(np.count_nonzero(problem.must & (problem.owner(chosen) == NOBODY)))
+    return int(np.count_nonzero(problem.required & (problem.owner(chosen) == NOBODY)))
 
 
-def _piecewise(problem: Problem, live: Live, cost: Floats) -> Index:
+def _piecewise(problem: Problem, candidates: Candidates, cost: Floats) -> Index:
     """Cover wide sheets: first the middle of wide areas, then block after block."""
     bond = running_bond(problem)
     covered = problem.owner(bond) != NOBODY
-    live = live.clear_of(covered)
+    candidates = candidates.clear_of(covered)
     chosen = [bond]
-    if len(live.rows) <= _LARGE:
-        return np.append(bond, dive(live, problem.must & ~covered, cost).rows)
+    if len(candidates.rows) <= _LARGE:
+        return np.append(bond, dive(candidates, problem.required & ~covered, cost).rows)
     for window, core in blocks(problem.corner):
-        part = live.clear_of(covered | ~window)
-        laid = dive(part, problem.must & window & ~covered, cost)
+        part = candidates.clear_of(covered | ~window)
+        laid = dive(part, problem.required & window & ~covered, cost)
         laid = laid.only(laid.totals(core[laid.cells]) > 0)
         covered[laid.cells] = True
         chosen.append(laid.rows)
     return np.concatenate(chosen)
 
 
-def dive(live: Live, must: Mask, cost: Floats) -> Live:
+def dive(candidates: Candidates, required: Mask, cost: Floats) -> Candidates:
     """Lay placements by their shares, solving anew for what is left.
 
     Parameters
     ----------
-    live : Live
+    candidates : Candidates
         Placements to choose among.
-    must : (n_cells,) bool array
+    required : (n_cells,) bool array
         Cells that have to be covered.
     cost : (n,) float64 array
         Cost of every placement of the problem.
 
     Returns
     -------
-    Live
+    Candidates
         Those that are laid.
     """
     laid = np.zeros(len(cost), dtype=bool)
-    everything, covered = live, np.zeros_like(must)
-    while (must[live.cells] & ~covered[live.cells]).any():
-        won = _sure(live, shares(live, must & ~covered, cost[live.rows]), len(must))
+    everything, covered = candidates, np.zeros_like(required)
+    while (required[candidates.cells] & ~covered[candidates.cells]).any():
+        won = _sure(candidates, shares(candidates, required & ~covered, cost[candidates.rows]), len(required))
         if not won.any():
             break
-        laid[live.rows[won]] = True
-        covered[live.only(won).cells] = True
-        live = live.clear_of(covered)
+        laid[candidates.rows[won]] = True
+        covered[candidates.only(won).cells] = True
+        candidates = candidates.clear_of(covered)
     return everything.only(laid[everything.rows])
 
 
-def _sure(live: Live, share: Floats, n_cells: int) -> Mask:
+def _sure(candidates: Candidates, share: Floats, n_cells: int) -> Mask:
     """Choose the placements with a great share, and one where shares hang together without any."""
     won = share > _SURE
     open_ = np.flatnonzero(share > WHOLE)
     if won[open_].all():
         return won
-    among = live.only(share > WHOLE)
+    among = candidates.only(share > WHOLE)
     group = among.groups(n_cells)
     settled = np.zeros(group.max() + 1, dtype=bool)
     settled[group[won[open_]]] = True

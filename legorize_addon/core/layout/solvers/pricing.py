@@ -53,19 +53,19 @@ def guessed_prices(problem: Problem) -> Floats:
     (n_cells,) float64 array
         In bricks; not above 0 where a cell need not be covered.
     """
-    found, must = problem.placements, problem.must
-    kept = np.flatnonzero(~dominated(found, problem.shapes, must, problem.cost))
+    found, required = problem.placements, problem.required
+    kept = np.flatnonzero(~dominated(found, problem.shapes, required, problem.cost))
     found, cost = found.take(kept), problem.cost[kept]
-    covers = csr_array((np.ones(len(found.cells)), found.cells, found.start), shape=(len(found), len(must)))
+    covers = csr_array((np.ones(len(found.cells)), found.cells, found.start), shape=(len(found), len(required)))
     through, size = covers.T.tocsr(), found.size.astype(np.float64)
-    price = np.zeros(len(must))
+    price = np.zeros(len(required))
     for heat in np.geomspace(*_HEAT, _ROUNDS):
         share = np.exp(np.minimum((covers @ price - cost) / heat, _GREATEST))
         demand = np.maximum(through @ share, _LEAST)
         # a price counts as often as the placements have cells
         mean_size = np.maximum(through @ (share * size) / demand, 1)
         price -= _PACE * heat * np.log(demand) / mean_size
-        np.minimum(price, 0, out=price, where=~must)
+        np.minimum(price, 0, out=price, where=~required)
     return price
 
 
@@ -87,7 +87,7 @@ def promising(problem: Problem, price: Floats) -> Mask:
     found = problem.placements
     reduced = problem.cost - np.add.reduceat(price[found.cells], found.start[:-1])
     # must cells that no brick of one cell could cover in the end
-    alone = problem.must.copy()
+    alone = problem.required.copy()
     alone[found.cells[found.start[:-1]][found.size == 1]] = False
     needed: Mask = (reduced < _MARGIN) | (found.size == 1) | (found.totals(alone) > 0)
     return needed

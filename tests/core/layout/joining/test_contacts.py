@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.layout.joining.contacts import contacts
+from legorize_addon.core.layout.joining.contacts import near_contacts
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
 from tests.core.layout.cells import RED, WHITE
@@ -17,7 +17,7 @@ def found_in(owner, colour=RED, component=None, *, plates=True):
     owner = np.pad(np.asarray(owner, np.int32), ((1, 1), (0, 0), (0, 0)), constant_values=NOBODY)
     component = np.arange(owner.max() + 1, dtype=np.int32) if component is None else np.asarray(component, np.int32)
     colour = np.where(owner == NOBODY, COLOUR_EMPTY, np.asarray(colour)).astype(np.int16)
-    return contacts(owner, component, colour, plates=plates)
+    return near_contacts(owner, component, colour, plates=plates)
 
 
 def test_neighbours_of_one_colour_are_joined_for_nothing():

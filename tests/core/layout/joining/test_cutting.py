@@ -8,7 +8,7 @@ import pytest
 from legorize_addon.core.layout.joining.cutting import Bench, Laid, Seam
 from legorize_addon.core.layout.lay import lay
 from legorize_addon.core.layout.problem.problem import owners
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY
 from tests.core.layout.cells import CATALOGUE, RED, WHITE, grid_of
 
@@ -19,7 +19,7 @@ def bench_of(cells) -> Bench:
     """Lay a grid and put it on the bench."""
     bricks = lay(grid_of(cells), CATALOGUE, rng=np.random.default_rng(0), join=False)
     n_layers, n_plates, *across = np.shape(cells)
-    return Bench(bricks, owners(connect(bricks, CATALOGUE), (n_layers * n_plates + 2, *across)), CATALOGUE)
+    return Bench(bricks, owners(contact_graph(bricks, CATALOGUE), (n_layers * n_plates + 2, *across)), CATALOGUE)
 
 
 def block(length=4) -> Bench:
@@ -38,7 +38,7 @@ def plate(bench, squares, level, colour=RED) -> Laid:
 def test_what_is_put_on_comes_off():
     """A layout goes through the bench unchanged."""
     bricks = lay(grid_of(np.full((3, 3, 5, 7), RED)), CATALOGUE, rng=np.random.default_rng(0))
-    found = Bench(bricks, owners(connect(bricks, CATALOGUE), (11, 5, 7)), CATALOGUE).bricks()
+    found = Bench(bricks, owners(contact_graph(bricks, CATALOGUE), (11, 5, 7)), CATALOGUE).bricks()
     for name in ("part", "corner", "turn", "colour", "role", "piece", "step"):
         np.testing.assert_array_equal(getattr(found, name), getattr(bricks, name))
 
@@ -47,13 +47,13 @@ def test_what_is_put_on_comes_off():
 def test_cut_brick_keeps_its_cells(level):
     """Around a plate of one cell the brick becomes plates that cover all the rest once and hold together."""
     bench = block()
-    strap = plate(bench, {(0, 0)}, level)
-    pieces = bench.cut([0], strap)
-    cells = sorted((piece.level, square) for piece in [strap, *pieces] for square in piece.squares)
+    tie = plate(bench, {(0, 0)}, level)
+    pieces = bench.cut([0], tie)
+    cells = sorted((piece.level, square) for piece in [tie, *pieces] for square in piece.squares)
     assert cells == sorted((z, (x, y)) for z in range(3) for x in range(4) for y in range(2))
-    assert bench.holds([strap, *pieces])
-    bench.put([0], [strap, *pieces])
-    links = connect(bench.bricks(), CATALOGUE)
+    assert bench.holds([tie, *pieces])
+    bench.put([0], [tie, *pieces])
+    links = contact_graph(bench.bricks(), CATALOGUE)
     assert links.n_components == 1
     assert links.collisions == 0
 
@@ -63,8 +63,8 @@ def test_plate_that_loses_a_cell_does_not_hold():
     cells = np.full((1, 3, 1, 4), RED)
     cells[:, 1:] = -2
     bench = bench_of(cells)
-    strap = plate(bench, {(0, 0)}, 0)
-    assert not bench.holds([strap, *bench.cut([0], strap)])
+    tie = plate(bench, {(0, 0)}, 0)
+    assert not bench.holds([tie, *bench.cut([0], tie)])
     whole = plate(bench, {(x, 0) for x in range(4)}, 0)
     assert bench.cut([0], whole) == []
     assert bench.holds([whole])
@@ -76,14 +76,14 @@ def test_added_plate_has_to_reach_both_sides():
     cells[1, :, 0, :2] = RED
     cells[0, 0, 0, 3] = RED
     bench = bench_of(cells)
-    strap = plate(bench, {(1, 0), (2, 0)}, 2)
-    assert bench.holds([strap])
-    assert not bench.reaches(strap, Seam(2, ((1, 0), (2, 0))))
+    tie = plate(bench, {(1, 0), (2, 0)}, 2)
+    assert bench.holds([tie])
+    assert not bench.reaches(tie, Seam(2, ((1, 0), (2, 0))))
     assert bench.reaches(plate(bench, {(0, 0), (1, 0)}, 2), Seam(2, ((0, 0), (1, 0))))
 
 
 def test_brick_cannot_be_laid_in_a_plate():
-    """A strap higher than what it lies in finds no room."""
+    """A tie higher than what it lies in finds no room."""
     cells = np.full((1, 3, 1, 4), RED)
     cells[:, 1:] = -2
     bench = bench_of(cells)

@@ -6,7 +6,7 @@ import numpy as np
 
 from legorize_addon.core.layout.joining.islands import Islands, loose_bricks
 from legorize_addon.core.layout.problem.problem import owners, with_margins
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY
 from tests.core.layout.cells import RED, WHITE, brick_grid
 from tests.core.standing import CATALOGUE, table
@@ -15,7 +15,7 @@ from tests.core.standing import CATALOGUE, table
 def loose(colour, *rows):
     """Return which of some bricks are loose in a grid of whole bricks of these colours."""
     bricks = table(*rows)
-    links, planes = connect(bricks, CATALOGUE), with_margins(brick_grid(colour).colour, COLOUR_EMPTY)
+    links, planes = contact_graph(bricks, CATALOGUE), with_margins(brick_grid(colour).colour, COLOUR_EMPTY)
     islands = Islands.of(planes, owners(links, planes.shape), links.component)
     return loose_bricks(bricks, links, islands, CATALOGUE).tolist()
 

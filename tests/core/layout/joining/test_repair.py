@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from legorize_addon.core.layout.joining.repair import connect_loose
 from legorize_addon.core.layout.problem.shapes import shapes
 from legorize_addon.core.layout.problem.sheets import split
-from legorize_addon.core.layout.problem.table import gathered
+from legorize_addon.core.layout.problem.table import gather
 from legorize_addon.core.model.bricks import Bricks
-from legorize_addon.core.model.contact_graph import connect
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from legorize_addon.core.progress import silent
 from tests.core.layout.cells import CATALOGUE, assert_covers, brick_grid
 
@@ -30,7 +30,7 @@ def held(bricks, grid, seed=0):
 
 def singles(grid):
     """Return every must cell as a brick of its own, in red where the colour is free."""
-    layer, y, x = np.nonzero(grid.cover[:, 0] == Cover.MUST)
+    layer, y, x = np.nonzero(grid.cover[:, 0] == Fill.REQUIRED)
     n = len(x)
     colour = grid.colour[layer, 0, y, x]
     return Bricks(
@@ -50,27 +50,27 @@ def test_a_hanging_column_is_joined_to_a_standing_one():
     colour[0, 0, 1] = COLOUR_EMPTY
     grid = brick_grid(colour)
     before = singles(grid)
-    assert connect(before, CATALOGUE).n_floating == 3
+    assert contact_graph(before, CATALOGUE).n_floating == 3
     assert assert_covers(held(before, grid), grid).n_floating == 0
 
 
 def test_a_wide_roof_is_tied_from_below():
     """Bricks of a roof that touch nothing are held by bricks in the optional layer below them."""
     colour = np.full((3, 6, 24), COLOUR_EMPTY)
-    cover = np.full(colour.shape, Cover.EMPTY)
-    colour[:2, :, 0], cover[:2, :, 0] = RED, Cover.MUST
-    colour[1, :, 1:], cover[1, :, 1:] = COLOUR_ANY, Cover.MAY
+    cover = np.full(colour.shape, Fill.EMPTY)
+    colour[:2, :, 0], cover[:2, :, 0] = RED, Fill.REQUIRED
+    colour[1, :, 1:], cover[1, :, 1:] = COLOUR_ANY, Fill.OPTIONAL
     walls = singles(brick_grid(colour, cover))
-    colour[2], cover[2] = RED, Cover.MUST
+    colour[2], cover[2] = RED, Fill.REQUIRED
     corner = [[x, y, 6] for x in range(0, 24, 4) for y in range(0, 6, 2)]
     roof = walls.take(np.zeros(len(corner), np.intp))
     part = np.full(len(corner), CATALOGUE.part_row("3001"), np.int16)
-    before = gathered([walls, replace(roof, part=part, corner=np.array(corner, np.int32))])
+    before = gather([walls, replace(roof, part=part, corner=np.array(corner, np.int32))])
     grid = brick_grid(colour, cover)
     assert assert_covers(before, grid).n_floating == 15
     after = assert_covers(held(before, grid), grid)
     assert after.n_floating == 0
-    assert after.n_components < connect(before, CATALOGUE).n_components
+    assert after.n_components < contact_graph(before, CATALOGUE).n_components
 
 
 def test_what_cannot_be_joined_is_left_alone():
@@ -86,7 +86,7 @@ def test_bricks_on_the_ground_are_joined_too():
     """Two bricks side by side on the ground, one component of cells, become one component of bricks."""
     grid = brick_grid(np.full((2, 1, 4), RED))
     before = singles(grid)
-    assert connect(before, CATALOGUE).n_components == 4
+    assert contact_graph(before, CATALOGUE).n_components == 4
     assert assert_covers(held(before, grid), grid).n_components == 1
 
 
@@ -96,9 +96,11 @@ def test_repair_keeps_the_cover(seed):
     """Whatever is joined, must cells stay covered once, and no more bricks float than before."""
     rng = np.random.default_rng(seed)
     colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, RED, WHITE], (4, 6, 6))
-    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST, Cover.MUST], colour.shape))
-    colour[0, 0, 0], cover[0, 0, 0] = RED, Cover.MUST
+    cover = np.where(
+        colour == COLOUR_EMPTY, Fill.EMPTY, rng.choice([Fill.OPTIONAL, Fill.REQUIRED, Fill.REQUIRED], colour.shape)
+    )
+    colour[0, 0, 0], cover[0, 0, 0] = RED, Fill.REQUIRED
     grid = brick_grid(colour, cover)
     before = singles(grid)
     links = assert_covers(held(before, grid), grid)
-    assert links.n_floating <= connect(before, CATALOGUE).n_floating
+    assert links.n_floating <= contact_graph(before, CATALOGUE).n_floating

@@ -1,4 +1,4 @@
-"""Straps join whatever touches, and a little besides, and cost as little colour as they can."""
+"""Ties join whatever touches, and a little besides, and cost as little colour as they can."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from legorize_addon.core.layout.joining.cutting import Bench, Seam
-from legorize_addon.core.layout.joining.ties import _strap, strapped
+from legorize_addon.core.layout.joining.ties import _tie, add_ties
 from legorize_addon.core.layout.lay import lay
 from legorize_addon.core.layout.problem.problem import owners, with_margins
 from legorize_addon.core.model.bricks import NOBODY, Bricks, Role
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
 from tests.core.layout.cells import CATALOGUE, RED, WHITE, assert_covers, grid_of, planes
 
@@ -28,8 +28,8 @@ def laid(grid):
 def both(grid, *, plates=True):
     """Return the connections of a grid's bricks before and after, and the bricks after."""
     bricks = laid(grid)
-    found, _ = strapped(bricks, grid, CATALOGUE, plates=plates)
-    return connect(bricks, CATALOGUE), connect(found, CATALOGUE), found
+    found, _ = add_ties(bricks, grid, CATALOGUE, plates=plates)
+    return contact_graph(bricks, CATALOGUE), contact_graph(found, CATALOGUE), found
 
 
 def wrong(grid, bricks, links) -> np.ndarray:
@@ -98,14 +98,14 @@ def test_what_stands_beside_is_joined_by_one_plate():
 def test_no_plate_is_added_that_joins_nothing():
     """Where a place is offered at which one side has nothing to hold to, no plate is laid."""
     bricks = laid(two_plates())
-    links = connect(bricks, CATALOGUE)
+    links = contact_graph(bricks, CATALOGUE)
     colour = with_margins(two_plates().colour, COLOUR_EMPTY)
     bench = Bench(bricks, owners(links, colour.shape), CATALOGUE)
     before = len(bench.laid)
-    assert not _strap(bench, Seam(3, ((4, 0), (5, 0))), colour, 1, 0)
-    assert not _strap(bench, Seam(3, ((3, 0), (4, 0))), colour, 1, 0)
+    assert not _tie(bench, Seam(3, ((4, 0), (5, 0))), colour, 1, 0)
+    assert not _tie(bench, Seam(3, ((3, 0), (4, 0))), colour, 1, 0)
     assert len(bench.laid) == before
-    assert _strap(bench, Seam(3, ((1, 0), (2, 0))), colour, 1, 0)
+    assert _tie(bench, Seam(3, ((1, 0), (2, 0))), colour, 1, 0)
 
 
 def test_cell_that_is_seen_least_changes():
@@ -127,8 +127,8 @@ def test_colours_that_agree_are_kept():
         grid = grid_of(cells)
         apart = cells.copy()
         apart[..., 1] = BLUE
-        bricks, _ = strapped(laid(grid_of(apart)), grid, CATALOGUE, plates=True)
-        links = connect(bricks, CATALOGUE)
+        bricks, _ = add_ties(laid(grid_of(apart)), grid, CATALOGUE, plates=True)
+        links = contact_graph(bricks, CATALOGUE)
         assert links.n_components == 1
         assert len(bricks) >= 6
 
@@ -178,11 +178,11 @@ def test_row_after_row_is_joined():
     before, after, bricks = both(grid)
     assert before.n_components > 10
     assert after.n_components == 1
-    assert_covers(bricks, strapped(laid(grid), grid, CATALOGUE, plates=True)[1])
+    assert_covers(bricks, add_ties(laid(grid), grid, CATALOGUE, plates=True)[1])
 
 
 def test_place_on_top_is_tried_where_the_one_below_does_not_hold():
-    """A plate above a row on the ground can be cut for a strap on that row, though a strap beside it is cheaper."""
+    """A plate above a row on the ground can be cut for a tie on that row, though a tie beside it is cheaper."""
     cells = np.full((1, 3, 2, 3), COLOUR_EMPTY)
     cells[0, 0] = [[COLOUR_EMPTY, RED, BLUE], [RED, RED, RED]]
     cells[0, 1, 0] = COLOUR_ANY, COLOUR_ANY, RED
@@ -196,9 +196,9 @@ def test_place_on_top_is_tried_where_the_one_below_does_not_hold():
         ("3024", RED, 0, 0, 2),
         ("3023", BLUE, 1, 0, 2),
     )
-    assert connect(bricks, CATALOGUE).n_components == 2
-    found, joined = strapped(bricks, grid, CATALOGUE, plates=True)
-    links = connect(found, CATALOGUE)
+    assert contact_graph(bricks, CATALOGUE).n_components == 2
+    found, joined = add_ties(bricks, grid, CATALOGUE, plates=True)
+    links = contact_graph(found, CATALOGUE)
     assert links.n_components == 1
     assert not wrong(grid, found, links).any()
     assert_covers(found, joined)
@@ -243,20 +243,20 @@ def test_what_is_apart_stays_apart():
     cells[..., :3] = cells[..., 5:] = RED
     grid = grid_of(cells)
     bricks = laid(grid)
-    found, same = strapped(bricks, grid, CATALOGUE, plates=True)
+    found, same = add_ties(bricks, grid, CATALOGUE, plates=True)
     assert found is bricks
     assert same is grid
 
 
-def test_heavy_parts_get_more_straps():
+def test_heavy_parts_get_more_ties():
     """What many bricks hang on, and agrees in colour, is held in several places."""
     cells = np.full((14, 3, 6, 8), COLOUR_EMPTY)
     cells[..., :4] = RED
     cells[2:, :, :, 4:] = COLOUR_ANY
     apart = np.where(cells == COLOUR_ANY, BLUE, cells)
     bricks = laid(grid_of(apart))
-    found, _ = strapped(bricks, grid_of(cells), CATALOGUE, plates=True)
-    links = connect(found, CATALOGUE)
+    found, _ = add_ties(bricks, grid_of(cells), CATALOGUE, plates=True)
+    links = contact_graph(found, CATALOGUE)
     assert links.n_components == 1
     across = (links.owner[:, :, 3] == links.owner[:, :, 4]) & (links.owner[:, :, 3] != NOBODY)
     assert len(np.unique(links.owner[:, :, 3][across])) > 1
@@ -276,7 +276,7 @@ def test_bricks_alone_are_joined_by_bricks():
 def test_grid_is_told_what_was_laid(make):
     """The grid that comes back is covered by the bricks in its own colours: recoloured, and with what was added."""
     grid = make()
-    bricks, told = strapped(laid(grid), grid, CATALOGUE, plates=True)
+    bricks, told = add_ties(laid(grid), grid, CATALOGUE, plates=True)
     assert_covers(bricks, told)
     assert (told.colour != grid.colour).sum() in (1, 2)
     assert not (grid.solid & ~told.solid).any()
@@ -305,6 +305,6 @@ def test_same_input_same_bricks(plates):
     """Nothing is decided by chance."""
     grid = claw(width=3)
     bricks = laid(grid)
-    one, other = (strapped(bricks, grid, CATALOGUE, plates=plates)[0] for _ in range(2))
+    one, other = (add_ties(bricks, grid, CATALOGUE, plates=plates)[0] for _ in range(2))
     np.testing.assert_array_equal(one.corner, other.corner)
     np.testing.assert_array_equal(one.part, other.part)

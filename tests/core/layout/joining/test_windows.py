@@ -12,7 +12,7 @@ from legorize_addon.core.layout.problem.shapes import shapes
 from legorize_addon.core.layout.problem.sheets import split
 from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import footprint
-from legorize_addon.core.model.contact_graph import connect
+from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
 from legorize_addon.core.progress import silent
 from tests.core.layout.cells import CATALOGUE, RED, assert_covers, brick_grid
@@ -47,10 +47,10 @@ def test_two_towers_side_by_side():
     """Towers of single studs that touch become one piece by one brick across both."""
     grid = brick_grid(np.full((3, 1, 2), RED))
     bricks = single_studs(grid)
-    assert connect(bricks, CATALOGUE).n_components == 2
+    assert contact_graph(bricks, CATALOGUE).n_components == 2
     found = joined(grid, bricks)
     assert_covers(found, grid)
-    assert connect(found, CATALOGUE).n_components == 1
+    assert contact_graph(found, CATALOGUE).n_components == 1
     assert len(found) == 5
 
 
@@ -70,7 +70,7 @@ def test_free_cells_take_the_colour_that_joins():
     grid = brick_grid(colour)
     found = joined(grid, single_studs(grid))
     assert_covers(found, grid)
-    assert connect(found, CATALOGUE).n_components == 1
+    assert contact_graph(found, CATALOGUE).n_components == 1
 
 
 @settings(max_examples=15)
@@ -82,9 +82,9 @@ def test_windows_never_make_it_worse(seed):
     if not grid.solid.any():
         return
     bricks = single_studs(grid)
-    before = connect(bricks, CATALOGUE)
+    before = contact_graph(bricks, CATALOGUE)
     found = joined(grid, bricks)
-    after = connect(found, CATALOGUE)
+    after = contact_graph(found, CATALOGUE)
     assert_covers(found, grid)
     assert (after.n_floating, after.n_components) <= (before.n_floating, before.n_components)
     cells = sum(

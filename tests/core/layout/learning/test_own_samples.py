@@ -9,7 +9,7 @@ import pytest
 
 from legorize_addon.core.errors import BuildError
 from legorize_addon.core.layout.lay import lay
-from legorize_addon.core.layout.learning.own_samples import EACH, learned_more, learned_table, samples_text, version_of
+from legorize_addon.core.layout.learning.own_samples import EACH, learn_more, learned_table, samples_text, version_of
 from legorize_addon.core.layout.learning.sample_file import MOST_SAMPLES
 from legorize_addon.core.layout.learning.svm import LEVELS, read, shipped
 from legorize_addon.core.layout.learning.svm_training import train
@@ -27,7 +27,7 @@ def model():
 def more(model):
     """Return the shipped samples and those of the model."""
     rng = np.random.default_rng(4)
-    return learned_more(samples_text(""), [model], CATALOGUE, rng, names=["my\ntower"], version=2)
+    return learn_more(samples_text(""), [model], CATALOGUE, rng, names=["my\ntower"], version=2)
 
 
 def test_a_new_version_has_all_samples_before_it(more):
@@ -48,7 +48,7 @@ def test_a_new_version_has_all_samples_before_it(more):
 def test_same_models_same_file(model, more):
     """The same seed gives the same file; the shipped one is as it was."""
     shipped_before = samples_text("")
-    again = learned_more(shipped_before, [model], CATALOGUE, np.random.default_rng(4), names=["my tower"], version=2)
+    again = learn_more(shipped_before, [model], CATALOGUE, np.random.default_rng(4), names=["my tower"], version=2)
     assert again == more
     assert samples_text("") == shipped_before
 
@@ -77,7 +77,7 @@ def test_too_small_models_are_refused():
     grid = brick_grid(np.full((1, 2, 4), 4))
     bricks = lay(grid, CATALOGUE, rng=np.random.default_rng(0))
     with pytest.raises(BuildError, match="0 samples of 30"):
-        learned_more(samples_text(""), [(grid, bricks)], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
+        learn_more(samples_text(""), [(grid, bricks)], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
 
 
 def test_a_full_file_is_not_learned_on(model):
@@ -86,14 +86,14 @@ def test_a_full_file_is_not_learned_on(model):
     rows = [line for line in table if line[:1].isdigit()]
     full = "\n".join([*table, *(rows * 20)[: MOST_SAMPLES - len(rows)]])
     with pytest.raises(BuildError, match=f"full with {MOST_SAMPLES} samples"):
-        learned_more(full, [model], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
+        learn_more(full, [model], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
 
 
 def test_folds_of_one_kind_can_be_judged(model):
     """Where all samples that pay are from one model, the machine that never saw it takes nothing for paying."""
     rows = [f"{number},{int(number == 0)},0,{number + 4},1,2" for number in range(5) for _ in range(4)]
     text = "\n".join(["# C: 1.0", "# gamma: 1.0", *rows])
-    more = learned_more(text, [model], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
+    more = learn_more(text, [model], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
     assert len(read(more)[0].pays) == len(rows) + EACH
     samples = read(text)[0]
     trained = train(samples, np.random.default_rng(0), costs=[1.0], gammas=[1.0])

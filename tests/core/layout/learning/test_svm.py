@@ -14,7 +14,7 @@ from legorize_addon.core.layout.learning.svm_training import tasks
 from legorize_addon.core.layout.solvers.exchange import fewer_small, gains
 from legorize_addon.core.layout.solvers.greedy import cover
 from legorize_addon.core.model.catalogue import ASSETS
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from scripts.train_layout import UNSEEN, built
 from scripts.training_models import KINDS
 from tests.core.layout.cells import CATALOGUE, RED, WHITE, assert_covers, problem_of
@@ -132,8 +132,8 @@ def test_parts_left_behind(seed):
     rng = np.random.default_rng(seed)
     colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, RED, RED, WHITE], (5, 6))
     colour[0, 0] = RED
-    wanted = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST], (5, 6)))
-    wanted[0, 0] = Cover.MUST
+    wanted = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, rng.choice([Fill.OPTIONAL, Fill.REQUIRED], (5, 6)))
+    wanted[0, 0] = Fill.REQUIRED
     problem = problem_of(colour, wanted)
     chosen = cover(problem, rng)
     owner, found = problem.owner(chosen), problem.placements
@@ -154,7 +154,7 @@ def test_learned_exchanges_pay(held_back, laid):
         better = improved(problem, chosen, np.random.default_rng(0))
         cells = problem.placements.cells[problem.placements.entries(better)]
         assert len(np.unique(cells)) == len(cells)
-        assert np.isin(np.flatnonzero(problem.must), cells).all()
+        assert np.isin(np.flatnonzero(problem.required), cells).all()
         assert problem.cost[better].sum() <= problem.cost[chosen].sum() + 1e-6
         before, after = before + len(chosen), after + len(better)
     assert after <= 0.995 * before

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from legorize_addon.core.layout.problem.candidates import Live
+from legorize_addon.core.layout.problem.candidates import Candidates
 
-LIVE = Live(np.array([3, 5, 8, 9]), np.array([2, 1, 2, 1]), np.array([0, 1, 1, 2, 3, 4]))
+LIVE = Candidates(np.array([3, 5, 8, 9]), np.array([2, 1, 2, 1]), np.array([0, 1, 1, 2, 3, 4]))
 """Placements on cells 0 and 1, 1 alone, 2 and 3, 4 alone."""
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from legorize_addon.core.layout.problem.placements import placements
 from legorize_addon.core.layout.problem.shapes import shapes
 from legorize_addon.core.layout.problem.sheets import split
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from tests.core.layout.cells import CATALOGUE, brick_grid
 
 FILLER = 71
@@ -46,7 +46,9 @@ def random_grid(seed, shape=(2, 5, 6)):
     """Return whole bricks at random: empty, any colour or one of three, must or may."""
     rng = np.random.default_rng(seed)
     colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, COLOUR_ANY, RED, WHITE, SAND_GREEN], shape)
-    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST, Cover.MUST], shape))
+    cover = np.where(
+        colour == COLOUR_EMPTY, Fill.EMPTY, rng.choice([Fill.OPTIONAL, Fill.REQUIRED, Fill.REQUIRED], shape)
+    )
     return brick_grid(colour, cover)
 
 
@@ -65,9 +67,9 @@ def test_same_as_trying_every_place(seed):
             continue
         colours = set(sheets.colour[sheet, places[:, 1], places[:, 0]].tolist())
         fixed = colours - {COLOUR_ANY}
-        must = sheets.must[sheet, places[:, 1], places[:, 0]].any()
+        required = sheets.required[sheet, places[:, 1], places[:, 0]].any()
         code = fixed.pop() if fixed else int(among.hidden[row])
-        if not fixed and code != COLOUR_EMPTY and must and CATALOGUE.exists_in(among.part[row], code):
+        if not fixed and code != COLOUR_EMPTY and required and CATALOGUE.exists_in(among.part[row], code):
             expected.add((sheet, row, x, y, code))
     listed = [
         (int(sheet), int(row), int(x), int(y), int(code))

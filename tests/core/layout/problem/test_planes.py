@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from legorize_addon.core.layout.problem.planes import Planes, spread
 from legorize_addon.core.layout.problem.shapes import shapes
 from legorize_addon.core.layout.problem.sheets import split
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from tests.core.layout.cells import CATALOGUE, brick_grid
 
 FILLER = 71
@@ -37,8 +37,8 @@ def test_spread(marked, reach, range_):
 def test_far_cells_are_left_out():
     """Of a wide sheet with one must cell only what the longest shape reaches is looked at."""
     colour = np.full((1, 40, 50), COLOUR_ANY)
-    cover = np.full(colour.shape, Cover.MAY)
-    cover[0, 20, 30] = Cover.MUST
+    cover = np.full(colour.shape, Fill.OPTIONAL)
+    cover[0, 20, 30] = Fill.REQUIRED
     planes, among, _ = planes_of(colour, cover)
     reach = among.extent.max() - 1
     assert planes.low == (30 - reach, 20 - reach)
@@ -59,11 +59,11 @@ def test_same_as_looking_under_each(seed):
     """A place is found exactly if no cell under the shape is empty, one must be covered, and the colours agree."""
     rng = np.random.default_rng(seed)
     colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, COLOUR_ANY, RED, WHITE], (2, 4, 5))
-    cover = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST], colour.shape))
-    cover[0, 0, 0], colour[0, 0, 0] = Cover.MUST, RED
+    cover = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, rng.choice([Fill.OPTIONAL, Fill.REQUIRED], colour.shape))
+    cover[0, 0, 0], colour[0, 0, 0] = Fill.REQUIRED, RED
     planes, among, sheets = planes_of(colour, cover)
     shape = (len(sheets), -1, planes.stride)
-    least, most, must = planes.least.reshape(shape), planes.most.reshape(shape), planes.must.reshape(shape)
+    least, most, required = planes.least.reshape(shape), planes.most.reshape(shape), planes.required.reshape(shape)
     n_y, n_x = sheets.colour.shape[1:]
     for row, (place, _) in enumerate(planes.fitting(among)):
         x, y = among.cells[row].T
@@ -71,6 +71,6 @@ def test_same_as_looking_under_each(seed):
         for sheet, j, i in np.ndindex(len(sheets), max(n_y - deep + 1, 0), max(n_x - wide + 1, 0)):
             under = sheet, j + y - planes.low[1], i + x - planes.low[0]
             low, high = least[under].min(), most[under].max()
-            fits = low >= high and must[under].any() and among.made[row][high]
+            fits = low >= high and required[under].any() and among.made[row][high]
             at = np.ravel_multi_index((sheet, j - planes.low[1], i - planes.low[0]), least.shape)
             assert (at in place) == fits

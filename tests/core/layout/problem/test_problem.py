@@ -10,8 +10,8 @@ from legorize_addon.core.layout.problem.problem import GROUND, pose, standing, w
 from legorize_addon.core.layout.problem.shapes import shapes
 from legorize_addon.core.layout.problem.sheets import split
 from legorize_addon.core.model.bricks import NOBODY
-from legorize_addon.core.model.contact_graph import connect
-from legorize_addon.core.model.unit_grid import Cover
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.model.unit_grid import Fill
 from tests.core.layout.cells import CATALOGUE, brick_grid
 from tests.core.standing import table
 
@@ -21,10 +21,10 @@ def row_problem(below, cover=None):
     grid = brick_grid(np.full((1, 1, 4), 4), cover)
     (sheets,) = split(grid)
     among = shapes(CATALOGUE, 3, np.array([4]), 71)
-    must = with_margins(grid.cover == Cover.MUST, False)
-    owner = np.full(must.shape, NOBODY, np.int32)
+    required = with_margins(grid.cover == Fill.REQUIRED, False)
+    owner = np.full(required.shape, NOBODY, np.int32)
     owner[0] = below
-    return pose(sheets, among, placements(sheets, among), owner, must)
+    return pose(sheets, among, placements(sheets, among), owner, required)
 
 
 def cost_at(problem, size, x):
@@ -63,16 +63,16 @@ def test_bridging_a_seam_pays():
 
 def test_optional_cells_cost_a_little():
     """Each cell that need not be covered costs a little, far less than a brick."""
-    cover = np.array([[[Cover.MUST, Cover.MAY, Cover.MAY, Cover.MUST]]])
+    cover = np.array([[[Fill.REQUIRED, Fill.OPTIONAL, Fill.OPTIONAL, Fill.REQUIRED]]])
     problem = row_problem(GROUND, cover)
     assert 1 < cost_at(problem, 2, 0) < cost_at(problem, 3, 0) < 1.05
 
 
 def test_ground_is_below_the_lowest_must_cell():
     """Bricks stand in the planes of their cells; all planes below the lowest cell that must be built are ground."""
-    must = np.zeros((7, 1, 2), dtype=bool)
-    must[3:6] = True
-    owner = standing(connect(table(("3004", 0, 0, 2)), CATALOGUE), must)
+    required = np.zeros((7, 1, 2), dtype=bool)
+    required[3:6] = True
+    owner = standing(contact_graph(table(("3004", 0, 0, 2)), CATALOGUE), required)
     assert (owner[:3] == GROUND).all()
     assert (owner[3:6] == 0).all()
     assert (owner[6] == NOBODY).all()

@@ -44,4 +44,4 @@ def test_three_equal_plates_are_a_brick():
     assert bricks.colour[0, 0].tolist() == [RED, COLOUR_EMPTY, COLOUR_EMPTY, RED]
     assert plates.level.tolist() == [0, 1, 2]
     for sheets in (bricks, plates):
-        np.testing.assert_array_equal(sheets.must, sheets.colour != COLOUR_EMPTY)
+        np.testing.assert_array_equal(sheets.required, sheets.colour != COLOUR_EMPTY)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from legorize_addon.core.layout.lay import lay
-from legorize_addon.core.layout.problem.table import gathered
+from legorize_addon.core.layout.problem.table import gather
 from legorize_addon.core.model.bricks import Bricks, Role
 from tests.core.layout.cells import CATALOGUE, brick_grid, grid_of
 
@@ -39,6 +39,6 @@ def test_gathered_tables_keep_every_row():
     bricks = laid(brick_grid(np.full((2, 4, 9), 4)))
     rows = np.arange(len(bricks)) % 2 == 0
     for parts in ((rows, ~rows), (~rows, rows)):
-        again = gathered([bricks.take(part) for part in parts])
+        again = gather([bricks.take(part) for part in parts])
         for name in Bricks.__slots__:
             np.testing.assert_array_equal(getattr(again, name), getattr(bricks, name))

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.layout.problem.candidates import Live
+from legorize_addon.core.layout.problem.candidates import Candidates
 from legorize_addon.core.layout.solvers import exact, linear
 from legorize_addon.core.layout.solvers.covering_lp import whole_shares
 from tests.core.layout.cells import RED, assert_covered_once, disc, problem_of, random_sheet
@@ -20,7 +20,7 @@ def test_the_best_cost(seed):
     problem = problem_of(*random_sheet(seed, (7, 8)))
     rows = exact.cover(problem, np.random.default_rng(0))
     assert_covered_once(problem, rows)
-    best = whole_shares(Live.of(problem.placements), problem.must, problem.cost, 10_000) @ problem.cost
+    best = whole_shares(Candidates.of(problem.placements), problem.required, problem.cost, 10_000) @ problem.cost
     assert problem.cost[rows].sum() == pytest.approx(best, rel=2e-4)
 
 

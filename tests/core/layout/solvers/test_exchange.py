@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.layout.solvers.exchange import exchange, fewer_small
 from legorize_addon.core.layout.solvers.greedy import cover
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from tests.core.layout.cells import RED, WHITE, problem_of
 
 
@@ -44,7 +44,7 @@ def test_two_bricks_become_one():
 def test_optional_rest_is_dropped():
     """What is left of a cut brick need not be covered again where nothing must be built."""
     colour = [[RED, RED, COLOUR_ANY, COLOUR_ANY]]
-    problem = problem_of(colour, [[Cover.MUST, Cover.MUST, Cover.MAY, Cover.MAY]])
+    problem = problem_of(colour, [[Fill.REQUIRED, Fill.REQUIRED, Fill.OPTIONAL, Fill.OPTIONAL]])
     better = fewer_small(problem, rows_at(problem, (1, 1, 0, 0), (3, 1, 1, 0)), np.random.default_rng(0))
     assert len(better) == 1
 
@@ -76,8 +76,8 @@ def test_covers_stay_covers_and_get_cheaper(seed):
     """After any exchange must cells are covered once, no cell twice, and the cost has not grown."""
     rng = np.random.default_rng(seed)
     colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, COLOUR_ANY, RED, RED, WHITE], (8, 9))
-    wanted = np.where(colour == COLOUR_EMPTY, Cover.EMPTY, rng.choice([Cover.MAY, Cover.MUST], (8, 9)))
-    wanted[0, 0], colour[0, 0] = Cover.MUST, RED
+    wanted = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, rng.choice([Fill.OPTIONAL, Fill.REQUIRED], (8, 9)))
+    wanted[0, 0], colour[0, 0] = Fill.REQUIRED, RED
     problem = problem_of(colour, wanted)
     chosen = cover(problem, rng)
     everything = np.arange(len(problem.placements))
@@ -86,8 +86,10 @@ def test_covers_stay_covers_and_get_cheaper(seed):
         exchange(problem, chosen, everything, rng),
         exchange(problem, chosen, everything, rng, reward=rng.random(len(everything)) * 3, patch=2.0),
     ):
-        times = np.bincount(problem.placements.cells[problem.placements.entries(better)], minlength=len(problem.must))
+        times = np.bincount(
+            problem.placements.cells[problem.placements.entries(better)], minlength=len(problem.required)
+        )
         assert times.max() == 1
-        assert (times[problem.must] == 1).all()
+        assert (times[problem.required] == 1).all()
     unrewarded = exchange(problem, chosen, everything, rng)
     assert problem.cost[unrewarded].sum() <= problem.cost[chosen].sum() + 1e-9

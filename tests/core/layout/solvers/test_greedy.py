@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.layout.solvers.greedy import cover
 from legorize_addon.core.model.bricks import NOBODY
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from tests.core.layout.cells import RED, assert_covered_once, problem_of, random_sheet
 
 
@@ -54,7 +54,7 @@ def test_a_corner_is_one_brick():
 def test_optional_cells_save_bricks():
     """Two cells that touch at a corner are one brick if a cell beside both may be covered, else two."""
     colour = [[RED, COLOUR_ANY], [COLOUR_EMPTY, RED]]
-    with_it, _ = laid(problem_of(colour, [[Cover.MUST, Cover.MAY], [Cover.EMPTY, Cover.MUST]]))
+    with_it, _ = laid(problem_of(colour, [[Fill.REQUIRED, Fill.OPTIONAL], [Fill.EMPTY, Fill.REQUIRED]]))
     without, _ = laid(problem_of([[RED, COLOUR_EMPTY], [COLOUR_EMPTY, RED]]))
     assert (len(with_it), len(without)) == (1, 2)
 

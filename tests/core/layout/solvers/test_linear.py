@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.layout.problem.candidates import Live
+from legorize_addon.core.layout.problem.candidates import Candidates
 from legorize_addon.core.layout.solvers import greedy, linear
 from legorize_addon.core.layout.solvers.covering_lp import shares, whole_shares
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from tests.core.layout.cells import RED, WHITE, assert_covered_once, disc, problem_of, random_sheet, ring
 
 
@@ -33,9 +33,9 @@ def test_close_to_the_best_cost(seed):
     """On small sheets the cost is at least that of the best shares and at most a brick above the best layout."""
     problem = problem_of(*random_sheet(seed, (7, 7)))
     cost = problem.cost[laid(problem)].sum()
-    live = Live.of(problem.placements)
-    best = whole_shares(live, problem.must, problem.cost, 10_000) @ problem.cost
-    assert shares(live, problem.must, problem.cost) @ problem.cost - 1e-6 <= best
+    candidates = Candidates.of(problem.placements)
+    best = whole_shares(candidates, problem.required, problem.cost, 10_000) @ problem.cost
+    assert shares(candidates, problem.required, problem.cost) @ problem.cost - 1e-6 <= best
     assert best - 1e-3 <= cost <= best + 1
 
 
@@ -85,7 +85,7 @@ def test_wide_slabs_of_two_colours():
 def test_optional_cells_save_bricks():
     """Two cells that touch at a corner are one brick if a cell beside both may be covered."""
     colour = [[RED, COLOUR_ANY], [COLOUR_EMPTY, RED]]
-    assert len(laid(problem_of(colour, [[Cover.MUST, Cover.MAY], [Cover.EMPTY, Cover.MUST]]))) == 1
+    assert len(laid(problem_of(colour, [[Fill.REQUIRED, Fill.OPTIONAL], [Fill.EMPTY, Fill.REQUIRED]]))) == 1
 
 
 def test_seams_below_are_bridged():
@@ -110,14 +110,14 @@ def test_a_cell_that_cannot_be_covered_stays_bare():
     problem = problem_of(np.full((1, 5), RED))
     found = problem.placements
     pairs = np.flatnonzero((found.size == 2) & (found.corner[:, 0] % 2 == 0))
-    live = Live.of(found).only(np.isin(np.arange(len(found)), pairs))
-    covered = linear.dive(live, problem.must, problem.cost)
+    candidates = Candidates.of(found).only(np.isin(np.arange(len(found)), pairs))
+    covered = linear.dive(candidates, problem.required, problem.cost)
     assert covered.rows.tolist() == pairs.tolist()
-    assert shares(live, problem.must, problem.cost[pairs]) == pytest.approx(1)
+    assert shares(candidates, problem.required, problem.cost[pairs]) == pytest.approx(1)
 
 
 def test_a_cheap_layout_with_holes_is_not_taken(monkeypatch):
     """Where the blocks of a wide sheet leave cells bare, the quick layout covers them."""
     problem = problem_of(np.full((30, 30), RED))
-    monkeypatch.setattr(linear, "_piecewise", lambda problem, live, cost: np.zeros(0, dtype=np.intp))
+    monkeypatch.setattr(linear, "_piecewise", lambda problem, candidates, cost: np.zeros(0, dtype=np.intp))
     assert_covered_once(problem, laid(problem))

@@ -9,19 +9,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.layout.problem.candidates import Live
+from legorize_addon.core.layout.problem.candidates import Candidates
 from legorize_addon.core.layout.solvers.covering_lp import shares
 from legorize_addon.core.layout.solvers.pricing import guessed_prices, promising
-from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Cover
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill
 from tests.core.layout.cells import RED, problem_of, random_sheet
 
 
 def least(problem, kept=None):
     """Return what the best shares cost, of all placements or of those kept."""
-    live = Live.of(problem.placements)
-    live = live if kept is None else live.only(kept)
-    cost = problem.cost[live.rows]
-    return shares(live, problem.must, cost) @ cost
+    candidates = Candidates.of(problem.placements)
+    candidates = candidates if kept is None else candidates.only(kept)
+    cost = problem.cost[candidates.rows]
+    return shares(candidates, problem.required, cost) @ cost
 
 
 @pytest.mark.parametrize("length", [1, 2, 3, 4, 6, 8])
@@ -36,7 +36,7 @@ def test_the_cells_under_one_brick_are_worth_about_that_brick(length):
 def test_what_need_not_be_covered_is_worth_nothing(seed):
     """Prices of optional cells are never positive."""
     problem = problem_of(*random_sheet(seed))
-    assert (guessed_prices(problem)[~problem.must] <= 0).all()
+    assert (guessed_prices(problem)[~problem.required] <= 0).all()
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -44,11 +44,11 @@ def test_what_need_not_be_covered_is_worth_nothing(seed):
 def test_what_can_be_covered_still_can(seed):
     """The least cost without the placements left out is finite, and not below that of all, whatever the prices are."""
     problem = problem_of(*random_sheet(seed))
-    price = np.random.default_rng(seed).normal(size=len(problem.must))
+    price = np.random.default_rng(seed).normal(size=len(problem.required))
     found, kept = problem.placements, promising(problem, price)
-    there = np.zeros(len(problem.must), dtype=bool)
-    there[Live.of(found).only(kept).cells] = True
-    assert there[problem.must].all()
+    there = np.zeros(len(problem.required), dtype=bool)
+    there[Candidates.of(found).only(kept).cells] = True
+    assert there[problem.required].all()
     assert least(problem, kept) >= least(problem) - 1e-5
 
 
@@ -70,13 +70,13 @@ def test_cells_without_a_brick_of_their_own_keep_all_placements():
     found = problem.placements
     rows = np.flatnonzero(found.size > 1)
     problem = replace(problem, placements=found.take(rows), cost=problem.cost[rows])
-    assert promising(problem, np.full(len(problem.must), -9.0)).all()
+    assert promising(problem, np.full(len(problem.required), -9.0)).all()
 
 
 def test_nothing_to_cover():
     """A sheet on which nothing has to be covered has no placements and no prices."""
     colour = np.full((3, 4), RED)
     colour[1, 2] = COLOUR_EMPTY
-    problem = problem_of(colour, np.where(colour == RED, Cover.MAY, Cover.EMPTY))
+    problem = problem_of(colour, np.where(colour == RED, Fill.OPTIONAL, Fill.EMPTY))
     assert not guessed_prices(problem).any()
     assert not len(promising(problem, guessed_prices(problem)))

@@ -24,7 +24,7 @@ Rows = NDArray[np.int32]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Connection:
+class ContactGraph:
     """The bricks of a model as cells and as a graph.
 
     Attributes
@@ -66,7 +66,7 @@ class Connection:
         return int(np.count_nonzero(~self.grounded))
 
 
-def connect(bricks: Bricks, catalogue: Catalogue) -> Connection:
+def contact_graph(bricks: Bricks, catalogue: Catalogue) -> ContactGraph:
     """Find out which bricks touch, collide and stand on the ground.
 
     Parameters
@@ -78,7 +78,7 @@ def connect(bricks: Bricks, catalogue: Catalogue) -> Connection:
 
     Returns
     -------
-    Connection
+    ContactGraph
         Cells, contacts and components.
     """
     brick, columns = stud_columns(bricks, catalogue)
@@ -89,7 +89,7 @@ def connect(bricks: Bricks, catalogue: Catalogue) -> Connection:
     tops[:, 2] += heights[brick]
     pairs, studs = _contacts(brick, owner[tops[:, 2], tops[:, 1], tops[:, 0]], len(bricks))
     component = components(pairs, len(bricks))
-    return Connection(owner[:-1], low, collisions, pairs, studs, component, _grounded(component, bricks.corner[:, 2]))
+    return ContactGraph(owner[:-1], low, collisions, pairs, studs, component, _grounded(component, bricks.corner[:, 2]))
 
 
 def stud_columns(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, Rows]:

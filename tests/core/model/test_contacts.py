@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import footprint, load_catalogue
-from legorize_addon.core.model.contact_graph import connect, stud_columns
+from legorize_addon.core.model.contacts import contact_graph, stud_columns
 
 CATALOGUE = load_catalogue()
 
@@ -37,7 +37,7 @@ def table(*rows):
 @pytest.mark.parametrize(("dx", "dy", "studs"), [(0, 0, 8), (1, 0, 6), (2, 1, 2), (3, 1, 1), (-3, 0, 2)])
 def test_studs_that_two_bricks_share(dx, dy, studs):
     """A 2 x 4 brick on another one, shifted, shares the studs of the overlap."""
-    links = connect(table(("3001", 5, 5, 0), ("3001", 5 + dx, 5 + dy, 3)), CATALOGUE)
+    links = contact_graph(table(("3001", 5, 5, 0), ("3001", 5 + dx, 5 + dy, 3)), CATALOGUE)
     assert links.pairs.tolist() == [[0, 1]]
     assert links.studs.tolist() == [studs]
     assert links.n_components == 1
@@ -46,7 +46,7 @@ def test_studs_that_two_bricks_share(dx, dy, studs):
 
 def test_side_by_side_is_not_connected():
     """Bricks that only stand next to each other are two components, both on the ground."""
-    links = connect(table(("3001", 0, 0, 0), ("3001", 4, 0, 0)), CATALOGUE)
+    links = contact_graph(table(("3001", 0, 0, 0), ("3001", 4, 0, 0)), CATALOGUE)
     assert len(links.pairs) == 0
     assert links.n_components == 2
     assert links.grounded.all()
@@ -54,7 +54,7 @@ def test_side_by_side_is_not_connected():
 
 def test_a_gap_of_one_plate_is_no_contact():
     """A brick a plate above another one floats."""
-    links = connect(table(("3001", 0, 0, 0), ("3001", 0, 0, 4), ("3001", 0, 0, 7)), CATALOGUE)
+    links = contact_graph(table(("3001", 0, 0, 0), ("3001", 0, 0, 4), ("3001", 0, 0, 7)), CATALOGUE)
     assert links.grounded.tolist() == [True, False, False]
     assert links.n_floating == 2
     assert links.n_components == 2
@@ -62,7 +62,7 @@ def test_a_gap_of_one_plate_is_no_contact():
 
 def test_ground_is_the_lowest_plate():
     """A model that begins at plate 6 stands on plate 6."""
-    links = connect(table(("3001", 0, 0, 6), ("3001", 9, 0, 9)), CATALOGUE)
+    links = contact_graph(table(("3001", 0, 0, 6), ("3001", 9, 0, 9)), CATALOGUE)
     assert links.grounded.tolist() == [True, False]
 
 
@@ -71,29 +71,31 @@ def test_a_corner_holds_nothing_in_its_missing_cell(turn):
     """A 1 x 1 brick over the free cell of a corner brick is not connected, over the others it is."""
     covered = {tuple(cell) for cell in footprint(CATALOGUE.parts[CATALOGUE.part_row("2357")], turn).tolist()}
     for cell in product(range(2), range(2)):
-        links = connect(table(("2357", 0, 0, 0, turn), ("3005", *cell, 3)), CATALOGUE)
+        links = contact_graph(table(("2357", 0, 0, 0, turn), ("3005", *cell, 3)), CATALOGUE)
         assert (links.n_components == 1) == (cell in covered)
 
 
 def test_plates_and_tall_bricks_connect_at_their_own_heights():
     """A plate carries at plate 1, a tall brick at plate 9."""
-    links = connect(table(("3024", 0, 0, 0), ("14716", 0, 0, 1), ("3024", 0, 0, 10), ("3024", 0, 0, 12)), CATALOGUE)
+    links = contact_graph(
+        table(("3024", 0, 0, 0), ("14716", 0, 0, 1), ("3024", 0, 0, 10), ("3024", 0, 0, 12)), CATALOGUE
+    )
     assert links.pairs.tolist() == [[0, 1], [1, 2]]
     assert links.grounded.tolist() == [True, True, True, False]
 
 
 def test_collisions_count_cells():
     """Two bricks in one place collide in all their cells, and the first one is named as the owner."""
-    links = connect(table(("3001", 0, 0, 0), ("3001", 2, 0, 0), ("3024", 3, 1, 2)), CATALOGUE)
+    links = contact_graph(table(("3001", 0, 0, 0), ("3001", 2, 0, 0), ("3024", 3, 1, 2)), CATALOGUE)
     assert links.collisions == 4 * 3
     assert (links.owner[:, :2, 2:4] == 0).all()
-    assert connect(table(("3001", 0, 0, 0), ("3001", 4, 0, 0)), CATALOGUE).collisions == 0
+    assert contact_graph(table(("3001", 0, 0, 0), ("3001", 4, 0, 0)), CATALOGUE).collisions == 0
 
 
 def test_owner_covers_the_volume_of_the_parts():
     """The cells of a brick are its studs times its plates."""
     rows = (("3001", 0, 0, 0), ("2357", 4, 0, 0), ("3710", 0, 2, 2), ("30144", 0, 4, 0))
-    links = connect(table(*rows), CATALOGUE)
+    links = contact_graph(table(*rows), CATALOGUE)
     counts = np.bincount(links.owner[links.owner != NOBODY])
     assert counts.tolist() == [24, 9, 4, 72]
     assert links.owner.shape == (9, 6, 6)
@@ -101,7 +103,7 @@ def test_owner_covers_the_volume_of_the_parts():
 
 def test_negative_places_are_allowed():
     """Bricks at negative coordinates shift the array of owners, nothing else."""
-    links = connect(table(("3005", -2, -3, -6), ("3004", -2, -3, -3)), CATALOGUE)
+    links = contact_graph(table(("3005", -2, -3, -6), ("3004", -2, -3, -3)), CATALOGUE)
     assert links.low.tolist() == [-2, -3, -6]
     assert links.owner[0, 0, 0] == 0
     assert links.studs.tolist() == [1]
@@ -110,7 +112,7 @@ def test_negative_places_are_allowed():
 
 def test_no_bricks():
     """An empty table has no cells, no contacts and no components."""
-    links = connect(table(), CATALOGUE)
+    links = contact_graph(table(), CATALOGUE)
     assert links.owner.size == 0
     assert links.pairs.shape == (0, 2)
     assert (links.n_components, links.n_floating, links.collisions) == (0, 0, 0)
@@ -150,7 +152,7 @@ def test_same_as_counting_cell_by_cell(rows):
         if upper != lower:
             shared[lower, upper] = shared.get((lower, upper), 0) + 1
     graph.add_edges_from(shared)
-    links = connect(bricks, CATALOGUE)
+    links = contact_graph(bricks, CATALOGUE)
     assert dict(zip(map(tuple, links.pairs.tolist()), links.studs.tolist(), strict=True)) == shared
     assert links.collisions == 0
     lowest = bricks.corner[:, 2].min()
