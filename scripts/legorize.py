@@ -50,6 +50,7 @@ try:
     from legorize_addon.core.files.folder import new_folder, temporary_of, writing
     from legorize_addon.core.files.manifest import changed
     from legorize_addon.core.files.paths import named, readable
+    from legorize_addon.core.instructions import PAPERS, layer_files, layer_pages
     from legorize_addon.core.model.bricks import Role
     from legorize_addon.core.model.catalogue import load_catalogue
     from legorize_addon.core.pipeline import legorize
@@ -107,6 +108,9 @@ class Wanted(NamedTuple):
     contact_sheet: int
     save_blend: bool
     bound: bool
+    layers: bool
+    actual_size: bool
+    paper: str
 
     @property
     def any_picture(self) -> bool:
@@ -120,6 +124,8 @@ class Wanted(NamedTuple):
             if getattr(self, name) and not drawn:
                 flag = name.replace("_", "-")
                 raise SettingsError(f"--{flag} is only to be seen in the picture: add --render, or leave it out.")
+        if self.actual_size and not self.layers:
+            raise SettingsError("--actual-size is only to be seen in layer maps: add --layers, or leave it out.")
 
 
 class Parser(argparse.ArgumentParser):
@@ -157,6 +163,7 @@ def parser() -> Parser:
     )  # fmt: skip
     add_source(made)
     add_pictures(made)
+    add_paper(made)
     made.add_argument(
         "--bound", action="store_true",
         help="prove for the report how few bricks any layout of the model needs; takes longer than the layout itself",
@@ -212,6 +219,16 @@ def add_pictures(made: Parser) -> None:
         help="write N small pictures of the building order, from the first steps to the finished model, side by side "
         "in one image, contact-sheet.png",
     )  # fmt: skip
+
+
+def add_paper(made: Parser) -> None:
+    """Add the flags for what is printed."""
+    made.add_argument("--layers", action="store_true", help="write a map of each layer, layers/001.svg and so on")
+    made.add_argument(
+        "--actual-size", action="store_true",
+        help="draw the layer maps in the size of the bricks, to lay these on their prints",
+    )  # fmt: skip
+    made.add_argument("--paper", choices=tuple(PAPERS), default="A4", help="size of the pages (default: A4)")
 
 
 def add_flag(group: Any, entry: Field[Any]) -> None:
@@ -295,7 +312,8 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         folder = stack.enter_context(new_folder(out))
         stop.temporary = temporary_of(folder)
         # in builds: measured without a proof at 48 to 192 studs, guessed for the proof and the pictures
-        later = {"report": 0.03 + wanted.bound, "files": 0.03, "pictures": float(wanted.any_picture)}
+        later = {"report": 0.03 + wanted.bound, "files": 0.03, "layer maps": 0.2 * wanted.layers}
+        later["pictures"] = float(wanted.any_picture)
         built = 1 / (1 + sum(later.values()))
         build = legorize(mesh, replace(settings, up=up), part(line, 0.0, built))
         build = replace(build, notes=(*left_out, *remarks, *build.notes), timings={**seconds, **build.timings})
@@ -305,6 +323,9 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
             for name, text in output_texts(build, load_catalogue(), facts, source.stem).items():
                 (folder / name).parent.mkdir(exist_ok=True)
                 (folder / name).write_text(text, encoding="utf-8", newline="")
+        if wanted.layers:
+            with rest.stage("layer maps") as progress, writing(out):
+                write_layers(build, folder / "layers", wanted, progress)
         if wanted.any_picture:
             with rest.stage("pictures"):
                 show(build, folder, wanted, name=source.stem, sources=objects)
@@ -327,6 +348,15 @@ def described(build: Build, rest: Overall, *, with_bound: bool) -> dict[str, Any
         units = {"version": version(), "mm_per_unit": mm_per_unit()}
         facts = report(build, load_catalogue(), **units, with_bound=with_bound, progress=rest)
         return facts | {"failed_checks": failed_checks(facts)}
+
+
+def write_layers(build: Build, folder: Path, wanted: Wanted, progress: Progress) -> None:
+    """Write the layer maps."""
+    plan, paper = build.supports, PAPERS[wanted.paper]
+    options = {"temporary": plan.temporary, "paper": paper, "actual_size": wanted.actual_size, "progress": progress}
+    folder.mkdir()
+    for name, text in layer_files(layer_pages(plan.bricks, load_catalogue(), **options)):
+        (folder / name).write_text(text, encoding="utf-8", newline="")
 
 
 class Line:

@@ -39,6 +39,7 @@ ORDER: Final = (
     "core.building",
     "core.supports",
     "core.measures",
+    "core.instructions",
     "core.files.sources",
     "core.files",
     "core.estimate",

@@ -18,6 +18,7 @@ above it in this table.
 ``building``         the order in which every brick finds hold, and its check
 ``supports``         what stands below while the model is built; pieces that are joined
 ``measures``         figures that building never needs
+``instructions``     layer maps and pictures of bricks, as SVG and PDF
 ``files``            LDraw documents, lists for shops, the folder of the results
 ``report``           what was built, in numbers and sentences
 ===================  =======================================================================

@@ -368,6 +368,21 @@ def test_pieces_apart_in_the_picture(script: ModuleType, tmp_path: Path, monkeyp
     assert np.ptp(shown_corners(build)[:, 2]) == pytest.approx(height)
 
 
+@pytest.mark.parametrize("flags", [[], ["--actual-size", "--paper", "Letter"]])
+def test_layer_maps(flags: list[str], script: ModuleType, tmp_path: Path) -> None:
+    """The flag writes a map of each layer, of the size that is asked for, with supports hatched."""
+    add_arm()
+    source = str(save(tmp_path / "arm.blend"))
+    assert script.main([source, "--out", str(tmp_path / "out"), *ARM, "--layers", *flags]) == 0
+    maps = sorted((tmp_path / "out" / "layers").iterdir())
+    assert [path.name for path in maps] == [f"{number:03}.svg" for number in range(1, len(maps) + 1)]
+    assert len(maps) >= report(tmp_path / "out")["grid"]["layers"]
+    texts = [path.read_text(encoding="utf-8") for path in maps]
+    assert all(text.startswith("<svg ") for text in texts)
+    assert ('height="297mm"' in texts[0] or 'width="297mm"' in texts[0]) == (not flags)
+    assert any("matrix(8 0 0 -8 " in text for text in texts) == bool(flags)
+
+
 def test_contact_sheet(script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The flag alone writes the sheet of as many pictures; the saved scene is that of the finished model."""
     few = partial(script.render_contact_sheet, samples=1, resolution=(32, 24))
@@ -468,6 +483,7 @@ def test_every_setting_is_a_flag(script: ModuleType) -> None:
         (["--explode", "0.5"], "--explode is only to be seen in the picture: add --render"),
         (["--explode", "1.5", "--render"], "'1.5' is no number from 0 to 1"),
         (["--explode", "nan", "--render"], "'nan' is no number from 0 to 1"),
+        (["--actual-size"], "--actual-size is only to be seen in layer maps"),
         (["--contact-sheet", "0"], "'0' is no whole number from 1 to 400"),
         (["--contact-sheet", "2.5"], "'2.5' is no whole number from 1 to 400"),
         (["--section", "w=0.5", "--render"], "'w=0.5' is no section"),

@@ -1,0 +1,320 @@
+"""Layer maps: for each layer, what is laid on what, as seen from above.
+
+Layers are laid one on the other from the table up. Where plates lie between
+bricks, the bricks that begin one or two plates above a layer have a map of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from ..arrays import Ints, Mask
+from ..model import Bricks, Catalogue, stud_columns
+from ..progress import Progress, silent
+from ..units import PLATES_PER_BRICK
+from ..units import STUD as STUD_MM
+from .canvas import WHITE, Group, Item, Page, Paint, Path, Rgb, Text, lines, moved
+from .fonts import width
+from .legend import Legend, lettered
+from .lots import GREY, lots_of, rgb_of
+from .plans import STUD, by_colour, hatched, plan_outlines, plan_studs
+from .shades import DARK, LIGHT_LINE, LINE, SUPPORT_TINT, brightness, mixed
+from .svg import svg
+
+
+class Paper(NamedTuple):
+    """Size of a sheet in mm, the long side across."""
+
+    width: float
+    height: float
+
+
+PAPERS: Final = {"A4": Paper(297.0, 210.0), "Letter": Paper(279.4, 215.9)}
+
+MARGIN: Final = 10.0
+"""mm around what is printed, as most printers need half of it."""
+
+TITLE: Final = 14.0
+"""mm for the title of a map."""
+
+LABELS: Final = 6.0
+"""mm for the numbers of rows and columns on each side."""
+
+LARGEST: Final = 12.0
+"""mm to which a stud is enlarged at most."""
+
+SMALLEST: Final = 1.1
+"""mm of the smallest letters on bricks; smaller ones are left out."""
+
+_GHOST: Final[Rgb] = (208, 210, 214)
+_THROUGH: Final[Rgb] = (232, 233, 236)
+_GRID: Final[Rgb] = (224, 226, 230)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Layer:
+    """What one map shows.
+
+    Attributes
+    ----------
+    title : str
+    new, below, through : (k,) int64 array
+        Rows of the bricks that are laid, of those on which they lie, and of taller ones between them.
+    """
+
+    title: str
+    new: Ints
+    below: Ints
+    through: Ints
+
+
+def layers_of(bricks: Bricks, catalogue: Catalogue) -> list[Layer]:
+    """Return the layers of a model with its supports, piece by piece from below.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        Model and supports. Pieces are built each by itself.
+    catalogue : Catalogue
+
+    Returns
+    -------
+    list of Layer
+    """
+    height = np.array([part.height for part in catalogue.parts])[bricks.part]
+    low = bricks.corner[:, 2]
+    high = low + height
+    pieces = np.unique(bricks.piece).tolist()
+    found = []
+    for number, piece in enumerate(pieces):
+        mine = bricks.piece == piece
+        ground = int(low[mine].min())
+        name = f"Piece {number + 1}, " if len(pieces) > 1 else ""
+        for level in np.unique(low[mine]).tolist():
+            rows = (mine & (low == level), mine & (high == level), mine & (low < level) & (high > level))
+            found.append(Layer(name + _level(level - ground), *(np.flatnonzero(each) for each in rows)))
+    return found
+
+
+def _level(plates: int) -> str:
+    layer, above = divmod(plates, PLATES_PER_BRICK)
+    return f"Layer {layer + 1}" + (f", {above} plate{'s' * (above > 1)} up" if above else "")
+
+
+class Frame(NamedTuple):
+    """Where the maps of a model lie on their pages, the same for all layers, so that they lie one over the other.
+
+    Attributes
+    ----------
+    low, high : (2,) int64 array
+        Studs from which and to which the maps go.
+    turned : bool
+        Whether y goes to the left and x upwards, for models that are deeper than wide.
+    stud : float
+        mm of a stud on paper.
+    left, top : float
+        Upper left corner of the maps in mm.
+    width, height : float
+        Size of the pages in mm.
+    """
+
+    low: Ints
+    high: Ints
+    turned: bool
+    stud: float
+    left: float
+    top: float
+    width: float
+    height: float
+
+    @classmethod
+    def of(cls, bricks: Bricks, catalogue: Catalogue, legend: float, paper: Paper, *, actual_size: bool) -> Frame:
+        """Return the frame for a model and the width of its widest legend."""
+        points, _ = plan_outlines(bricks, catalogue)
+        low, high = points.min(axis=0).astype(np.int64), points.max(axis=0).astype(np.int64)
+        turned = bool((high - low)[1] > (high - low)[0]) and not actual_size
+        across, up = (high - low)[:: -1 if turned else 1].tolist()
+        # what is beside and above the maps
+        beside, above = 2 * MARGIN + 2 * LABELS + legend, 2 * MARGIN + 2 * LABELS + TITLE
+        stud = min((paper.width - beside) / across, (paper.height - above) / up, LARGEST)
+        if actual_size:
+            stud = STUD_MM
+        width, height = max(paper.width, across * stud + beside), max(paper.height, up * stud + above)
+        left = MARGIN + LABELS + (width - beside - across * stud) / 2
+        top = MARGIN + TITLE + LABELS + (height - above - up * stud) / 2
+        return cls(low, high, turned, stud, left, top, width, height)
+
+    @property
+    def matrix(self) -> tuple[float, float, float, float, float, float]:
+        """From studs, y upwards, to mm on the page."""
+        (x_low, _), (x_high, y_high) = self.low.tolist(), self.high.tolist()
+        if self.turned:
+            return (0.0, -self.stud, -self.stud, 0.0, self.left + y_high * self.stud, self.top + x_high * self.stud)
+        return (self.stud, 0.0, 0.0, -self.stud, self.left - x_low * self.stud, self.top + y_high * self.stud)
+
+    def at(self, x: float, y: float) -> tuple[float, float]:
+        """Return where a place in studs lies on the page."""
+        a, b, c, d, e, f = self.matrix
+        return a * x + c * y + e, b * x + d * y + f
+
+
+def layer_files(pages: Iterable[Page]) -> Iterator[tuple[str, str]]:
+    """Yield the names and contents of the files of layer maps, ``001.svg`` and so on."""
+    for number, page in enumerate(pages, start=1):
+        yield f"{number:03}.svg", svg(page) + "\n"
+
+
+def layer_pages(
+    bricks: Bricks,
+    catalogue: Catalogue,
+    *,
+    temporary: Mask,
+    paper: Paper,
+    actual_size: bool = False,
+    progress: Progress = silent,
+) -> Iterator[Page]:
+    """Draw the layer maps.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        Model and supports, n rows.
+    catalogue : Catalogue
+    temporary : (n,) bool array
+        Bricks that are taken out again.
+    paper : Paper
+        Of the pages.
+    actual_size : bool
+        Whether a stud is 8 mm wide on the page, so that bricks can be laid on
+        its print; the page is as large as that takes.
+    progress : Progress
+
+    Yields
+    ------
+    Page
+        One a layer.
+    """
+    layers = layers_of(bricks, catalogue)
+    counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers]
+    legends = [Legend.of(count, paper.height - 2 * MARGIN - TITLE) for count in counts]
+    widest = max(legend.width for legend in legends)
+    frame = Frame.of(bricks, catalogue, widest, paper, actual_size=actual_size)
+    for number, (layer, legend) in enumerate(zip(layers, legends, strict=True)):
+        progress("layer maps", number / len(layers))
+        new = bricks.take(layer.new)
+        lots, lot = lots_of(new, catalogue)
+        items = (
+            *_heading(layer, f"{number + 1} of {len(layers)}", frame, actual_size=actual_size),
+            *_labels(frame),
+            Group(tuple(_plan(bricks, catalogue, layer, temporary, frame)), frame.matrix),
+            *_marks(new, lot, catalogue, frame),
+            moved(tuple(legend.items(lots, catalogue)), frame.width - MARGIN - legend.width, MARGIN + TITLE),
+        )
+        yield Page(frame.width, frame.height, items, layer.title)
+
+
+def _heading(layer: Layer, number: str, frame: Frame, *, actual_size: bool) -> Iterator[Item]:
+    yield Text(layer.title, MARGIN, MARGIN + 7, 8, bold=True)
+    bricks = f"{len(layer.new)} brick{'s' * (len(layer.new) != 1)}"
+    note = f"{bricks}, actual size: print at 100 %" if actual_size else bricks
+    yield Text(note, MARGIN + width(layer.title, 8, bold=True) + 5, MARGIN + 7, 4, colour=GREY)
+    yield Text(number, frame.width - MARGIN, MARGIN + 7, 4, anchor="end", colour=GREY)
+
+
+def _labels(frame: Frame) -> Iterator[Item]:
+    """Yield the numbers of the columns and the letters of the rows, on both sides, as dense as they can be read."""
+    every = next(step for step in (1, 2, 5, 10, 20, 50, 100, 1000) if step * frame.stud >= 3.5)
+    size = min(2.8, 0.75 * frame.stud * every)
+    (x_low, y_low), (x_high, y_high) = frame.low.tolist(), frame.high.tolist()
+    for axis, ends in enumerate(((y_low, y_high), (x_low, x_high))):
+        names = [
+            str(each + 1) if axis == 0 else lettered(each) for each in range((x_high - x_low, y_high - y_low)[axis])
+        ]
+        for number in range(0, len(names), every):
+            for end, out in zip(ends, (-1, 1), strict=True):
+                place = (x_low + number + 0.5, end) if axis == 0 else (end, y_low + number + 0.5)
+                yield _label(names[number], frame, place, axis, out, size)
+    yield _front(frame)
+
+
+def _label(name: str, frame: Frame, place: tuple[float, float], axis: int, out: int, size: float) -> Item:
+    """Return one label beside the map, at a place on its rim; `out` is the side of the other axis."""
+    x, y = frame.at(*place)
+    if (axis == 0) != frame.turned:
+        # above or below; turned maps have the greater x at the top, too
+        return Text(name, x, y + (1.5 + size if out < 0 else -1.5), size, anchor="middle", colour=GREY)
+    right = (out > 0) != frame.turned
+    return Text(
+        name, x + (1.5 if right else -1.5), y + 0.36 * size, size, anchor="start" if right else "end", colour=GREY
+    )
+
+
+def _front(frame: Frame) -> Item:
+    """Return the word that says where the front of the model is."""
+    x, y = frame.at(*((frame.low + frame.high) / 2).tolist())
+    if frame.turned:
+        x = frame.at(0, float(frame.low[1]))[0] + LABELS + 2.5
+        return Group((Text("FRONT", 0, 0, 2.6, bold=True, anchor="middle", colour=GREY),), (0.0, 1.0, -1.0, 0.0, x, y))
+    y = frame.at(0, float(frame.low[1]))[1] + LABELS + 2.5
+    return Text("FRONT", x, y, 2.6, bold=True, anchor="middle", colour=GREY)
+
+
+def _plan(bricks: Bricks, catalogue: Catalogue, layer: Layer, temporary: Mask, frame: Frame) -> Iterator[Item]:
+    """Yield the map of a layer, in studs."""
+    line = 0.3 / frame.stud
+    yield _grid(frame)
+    if len(layer.through):
+        points, count = plan_outlines(bricks.take(layer.through), catalogue)
+        yield Path(points, count, True, (Paint(_THROUGH, _GHOST, line),))
+    if len(layer.below):
+        below = bricks.take(layer.below)
+        points, count = plan_outlines(below, catalogue)
+        yield plan_studs(below, catalogue, Paint(stroke=_GHOST, width=STUD), Paint(stroke=WHITE, width=STUD - 2 * line))
+        yield Path(points, count, True, (Paint(stroke=_GHOST, width=line, dash=(0.18, 0.12)),))
+    yield from _new(bricks.take(layer.new), catalogue, temporary[layer.new], line)
+
+
+def _grid(frame: Frame) -> Item:
+    (left, bottom), (right, top) = frame.low.tolist(), frame.high.tolist()
+    upright = [[(x, bottom), (x, top)] for x in range(left, right + 1)]
+    level = [[(left, y), (right, y)] for y in range(bottom, top + 1)]
+    return lines(np.array(upright + level, dtype=np.float64), Paint(stroke=_GRID, width=0.12 / frame.stud))
+
+
+def _new(bricks: Bricks, catalogue: Catalogue, temporary: Mask, line: float) -> Iterator[Item]:
+    """Yield the bricks that are laid: coloured, with studs, the supports hatched."""
+    for rgb, rows in by_colour(rgb_of(bricks, catalogue)):
+        some = bricks.take(rows)
+        points, count = plan_outlines(some, catalogue)
+        edge = LIGHT_LINE if brightness(rgb) < DARK else mixed(rgb, LINE, 0.55)
+        yield Path(points, count, True, (Paint(fill=rgb),))
+        yield plan_studs(some, catalogue, Paint(stroke=edge, width=STUD), Paint(stroke=rgb, width=STUD - 1.6 * line))
+    if temporary.any():
+        points, count = plan_outlines(bricks.take(temporary), catalogue)
+        yield hatched(points, count, Paint(stroke=SUPPORT_TINT, width=1.2 * line))
+    points, count = plan_outlines(bricks, catalogue)
+    dark = np.repeat([brightness(tuple(row)) < DARK for row in rgb_of(bricks, catalogue).tolist()], 1)
+    yield Path(points, count, True, (Paint(stroke=LINE, width=1.4 * line),))
+    if dark.any():
+        # a light line within the dark one parts bricks of dark colours
+        points, count = plan_outlines(bricks.take(dark), catalogue)
+        yield Path(points, count, True, (Paint(stroke=LIGHT_LINE, width=0.6 * line),))
+
+
+def _marks(bricks: Bricks, lot: Ints, catalogue: Catalogue, frame: Frame) -> Iterator[Item]:
+    """Yield the letter of its lot on the first stud of each brick."""
+    size = 0.4 * frame.stud
+    if size < SMALLEST:
+        return
+    first, columns = stud_columns(bricks, catalogue)
+    _, rows = np.unique(first, return_index=True)
+    dark = [brightness(tuple(row)) < 0.5 for row in rgb_of(bricks, catalogue).tolist()]
+    for (x, y, _), one, on_dark in zip(columns[rows].tolist(), lot.tolist(), dark, strict=True):
+        across, down = frame.at(x + 0.5, y + 0.5)
+        letters = lettered(one)
+        high = size / max(1, 0.7 * len(letters))
+        yield Text(letters, across, down + 0.36 * high, high, anchor="middle", colour=WHITE if on_dark else LINE)

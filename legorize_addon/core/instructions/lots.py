@@ -1,0 +1,163 @@
+"""Bricks of one part and colour: how many, and the small picture by which a builder finds them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+
+from ..arrays import Ints
+from ..model import Bricks, Catalogue, Part
+from .canvas import Item, Rgb, Text, moved
+from .fonts import width
+from .lattice import FRONT, Cells, look
+from .picture import MM, Look, Picture, draw
+from .shades import mixed
+
+GREY: Final[Rgb] = (96, 98, 104)
+
+
+@dataclass(frozen=True, slots=True)
+class Lot:
+    """Bricks of one part in one colour.
+
+    Attributes
+    ----------
+    part : int
+        Row of the part in the catalogue.
+    colour : int
+        Row of the colour.
+    count : int
+        Bricks.
+    """
+
+    part: int
+    colour: int
+    count: int
+
+
+def lots_of(bricks: Bricks, catalogue: Catalogue) -> tuple[tuple[Lot, ...], Ints]:
+    """Sort bricks into lots.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        n rows.
+    catalogue : Catalogue
+
+    Returns
+    -------
+    lots : tuple of Lot
+        By colour, of each the greatest parts first.
+    lot : (n,) int64 array
+        Row of each brick's lot.
+    """
+    colour = np.searchsorted(catalogue.codes, bricks.colour).astype(np.int64)
+    studs = np.array([part.length * part.width * 16 + part.height for part in catalogue.parts])
+    rank = np.lexsort((np.arange(len(studs)), -studs))
+    place = np.argsort(rank)
+    keys, lot, count = np.unique(colour * len(studs) + place[bricks.part], return_inverse=True, return_counts=True)
+    row, place = np.divmod(keys, len(studs))
+    found = zip(rank[place].tolist(), row.tolist(), count.tolist(), strict=True)
+    return tuple(Lot(*each) for each in found), lot.reshape(-1).astype(np.int64)
+
+
+def rgb_of(bricks: Bricks, catalogue: Catalogue) -> Ints:
+    """Return the colours of bricks in sRGB bytes, (n, 3)."""
+    return catalogue.rgb[np.searchsorted(catalogue.codes, bricks.colour)].astype(np.int64)
+
+
+def size_of(part: Part) -> str:
+    """Return the size of a part in studs, and its height if it is tall, as "2 x 4"."""
+    text = f"{part.width} x {part.length}"
+    return f"{text} x {part.height // 3}" if part.height > 3 else text
+
+
+def picture_of(lot: Lot, catalogue: Catalogue) -> Picture:
+    """Return the picture of a brick of a lot."""
+    return _picture(lot.part, catalogue.colours[lot.colour].rgb, catalogue)
+
+
+@lru_cache(maxsize=1024)
+def _picture(part: int, rgb: Rgb, catalogue: Catalogue) -> Picture:
+    one = Bricks(
+        np.array([part], np.int16), np.zeros((1, 3), np.int32), np.zeros(1, np.uint8), np.zeros(1, np.int16),
+        np.zeros(1, np.uint8), np.zeros(1, np.int16), np.zeros(1, np.int32),
+    )  # fmt: skip
+    colour, new = np.array([rgb], dtype=np.int64), np.ones(1, dtype=bool)
+    return draw(look(Cells.of(one, catalogue, FRONT), 1), Look(colour, new))
+
+
+def placed(picture: Picture, x: float, y: float, scale: float) -> Item:
+    """Return a picture with its upper left corner at a point, a mm of the model as `scale` mm."""
+    unit = scale * MM
+    return moved(picture.items, x - picture.low[0] * unit, y - picture.low[1] * unit, unit)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Callout:
+    """A row of lots: pictures with the number and the size of each.
+
+    Attributes
+    ----------
+    items : tuple of Item
+        From (0, 0) on.
+    width, height : float
+        In mm.
+    """
+
+    items: tuple[Item, ...]
+    width: float
+    height: float
+
+
+def callout(lots: Sequence[Lot], catalogue: Catalogue, *, room: float, scale: float) -> Callout:
+    """Lay out lots in rows.
+
+    Parameters
+    ----------
+    lots : sequence of Lot
+    catalogue : Catalogue
+    room : float
+        Greatest width in mm.
+    scale : float
+        mm for a mm of the parts.
+
+    Returns
+    -------
+    Callout
+        A wide part has a row for itself if need be.
+    """
+    items: list[Item] = []
+    x = y = row_height = right = 0.0
+    for lot in lots:
+        one = _entry(lot, catalogue, scale)
+        if x and x + one.width > room:
+            x, y, row_height = 0.0, y + row_height + _GAP, 0.0
+        items.append(moved(one.items, x, y))
+        right = max(right, x + one.width)
+        x += one.width + _GAP
+        row_height = max(row_height, one.height)
+    return Callout(tuple(items), right, y + row_height)
+
+
+_GAP: Final = 3.5
+_LETTERS: Final = 3.6
+_SMALL: Final = 2.5
+
+
+def _entry(lot: Lot, catalogue: Catalogue, scale: float) -> Callout:
+    picture = picture_of(lot, catalogue)
+    wide, high = picture.size * scale * MM
+    count, size = f"{lot.count}x", size_of(catalogue.parts[lot.part])
+    step = width(count, _LETTERS, bold=True) + 1.2
+    base = high + _LETTERS
+    items = (
+        placed(picture, 0, 0, scale),
+        Text(count, 0, base, _LETTERS, bold=True),
+        Text(size, step, base, _SMALL, colour=mixed(GREY, (255, 255, 255), 0.1)),
+    )
+    return Callout(items, max(wide, step + width(size, _SMALL)), base + 0.4)

@@ -1,0 +1,134 @@
+"""Layer maps: every brick on one of them, on what it lies."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from legorize_addon.core.instructions.canvas import Group, Path, Text
+from legorize_addon.core.instructions.layer_maps import PAPERS, Frame, layer_files, layer_pages, layers_of
+from legorize_addon.core.instructions.shades import SUPPORT_TINT
+from legorize_addon.core.model.bricks import Role
+from legorize_addon.core.model.contacts import contact_graph
+from tests.core.any_bricks import CATALOGUE, any_bricks, table
+
+PART = {part.number: row for row, part in enumerate(CATALOGUE.parts)}
+BRICK, PLATE, TALL = PART["3001"], PART["3020"], PART["30144"]
+
+
+def tower():
+    """Return two bricks with plates and a support between them, and a tall one beside."""
+    return table(
+        [
+            (BRICK, 0, 0, 0, 0, 4, 0, 0, 0),
+            (PLATE, 0, 0, 3, 0, 1, 0, 0, 1),
+            (BRICK, 0, 0, 4, 0, 4, 0, 0, 2),
+            (TALL, 4, 0, 0, 0, 15, 0, 0, 0),
+            (BRICK, 8, 0, 0, 0, 15, int(Role.SUPPORT_OUTSIDE), 0, 0),
+        ]
+    )
+
+
+def texts(items):
+    """Yield all texts of a page."""
+    for item in items:
+        if isinstance(item, Group):
+            yield from texts(item.items)
+        elif isinstance(item, Text):
+            yield item.text
+
+
+def paths(items):
+    """Yield all paths of a page."""
+    for item in items:
+        if isinstance(item, Group):
+            yield from paths(item.items)
+        elif isinstance(item, Path):
+            yield item
+
+
+@settings(deadline=None, max_examples=50)
+@given(any_bricks())
+def test_every_brick_is_new_once(bricks):
+    """Each brick is laid on exactly one map, on bricks whose tops are where it begins."""
+    layers = layers_of(bricks, CATALOGUE)
+    assert sorted(row for layer in layers for row in layer.new.tolist()) == list(range(len(bricks)))
+    height = np.array([part.height for part in CATALOGUE.parts])[bricks.part]
+    for layer in layers:
+        [level] = set(bricks.corner[layer.new, 2].tolist())
+        [piece] = set(bricks.piece[layer.new].tolist())
+        assert (bricks.corner[layer.below, 2] + height[layer.below] == level).all()
+        assert (bricks.piece[np.concatenate([layer.below, layer.through])] == piece).all()
+
+
+def test_what_a_brick_lies_on_is_below_it():
+    """The contacts of a model are those between what is new and what is below."""
+    bricks = tower()
+    pairs = {tuple(pair) for pair in contact_graph(bricks, CATALOGUE).pairs.tolist()}
+    for lower, upper in pairs:
+        layer = next(each for each in layers_of(bricks, CATALOGUE) if upper in each.new)
+        assert lower in layer.below
+
+
+def test_titles_tell_layers_and_plates():
+    """Layers are counted from 1, what begins above them by plates."""
+    assert [layer.title for layer in layers_of(tower(), CATALOGUE)] == ["Layer 1", "Layer 2", "Layer 2, 1 plate up"]
+    pieces = table([(BRICK, 0, 0, 0, 0, 4, 0, 0, 0), (BRICK, 0, 0, 30, 0, 4, 0, 3, 0)])
+    assert [layer.title for layer in layers_of(pieces, CATALOGUE)] == ["Piece 1, Layer 1", "Piece 2, Layer 1"]
+
+
+def test_pages_name_lots_and_hatch_supports():
+    """A page lists part, colour and count, and hatches supports alone."""
+    bricks = tower()
+    temporary = bricks.role == Role.SUPPORT_OUTSIDE
+    pages = list(layer_pages(bricks, CATALOGUE, temporary=temporary, paper=PAPERS["A4"]))
+    assert len(pages) == 3
+    assert all((page.width, page.height) == (297.0, 210.0) for page in pages)
+    assert {"1x", "Brick 2 x 4", "Red", "A", "1", "FRONT"} <= set(texts(pages[0].items))
+    strokes = [{paint.stroke for path in paths(page.items) for paint in path.paints} for page in pages]
+    assert [SUPPORT_TINT in each for each in strokes] == [True, False, False]
+
+
+def test_actual_size_is_8_mm_a_stud():
+    """At actual size a stud is 8 mm on the page, which grows with the model."""
+    wide = table([(BRICK, x, 0, 0, 0, 4, 0, 0, 0) for x in range(0, 96, 4)])
+    page = next(layer_pages(wide, CATALOGUE, temporary=np.zeros(24, bool), paper=PAPERS["Letter"], actual_size=True))
+    assert page.width > 96 * 8
+    [plan] = [item for item in page.items if isinstance(item, Group) and abs(item.matrix[0]) == 8]
+    assert plan.matrix[3] == -8
+
+
+@pytest.mark.parametrize("paper", PAPERS.values())
+@pytest.mark.parametrize("turn", [0, 1])
+def test_maps_lie_on_the_paper(paper, turn):
+    """The corners of a map are within the page, whichever side is longer."""
+    row = table([(BRICK, *((0, 4 * n) if turn else (4 * n, 0)), 0, turn, 4, 0, 0, 0) for n in range(12)])
+    frame = Frame.of(row, CATALOGUE, 66.0, paper, actual_size=False)
+    for x in (frame.low[0], frame.high[0]):
+        for y in (frame.low[1], frame.high[1]):
+            across, down = frame.at(x, y)
+            assert 0 < across < paper.width - 66
+            assert 0 < down < paper.height
+
+
+def test_progress_rises():
+    """Each map is told before it is drawn."""
+    told = []
+
+    def watch(stage, share):
+        told.append(share)
+
+    bricks = tower()
+    pages = layer_pages(bricks, CATALOGUE, temporary=np.zeros(5, bool), paper=PAPERS["A4"], progress=watch)
+    assert len(list(pages)) == 3
+    assert told == sorted(told)
+    assert told[0] == 0.0
+
+
+def test_files_are_numbered():
+    """Maps are files by number from below, each an SVG of its own."""
+    pages = layer_pages(tower(), CATALOGUE, temporary=np.zeros(5, bool), paper=PAPERS["A4"])
+    files = dict(layer_files(pages))
+    assert list(files) == ["001.svg", "002.svg", "003.svg"]
+    assert all(text.startswith("<svg ") and text.endswith("</svg>\n") for text in files.values())
