@@ -21,6 +21,7 @@ ORDER: Final = (
     "core.errors",
     "core.safe_text",
     "core.progress",
+    "core.native",
     "core.settings",
     "core.geometry",
     "core.model",

@@ -103,3 +103,12 @@ def test_broken_rules_are_found(build, change, words: str):
     wrong = replace(build, bricks=change(build.bricks))
     assert any(words in fault for fault in faults_of_bricks(wrong, load_catalogue()))
     assert not same(build, replace(build, notes=(*build.notes, "more")))
+
+
+def test_cases_are_small():
+    """No body gets wider than 100 studs, however flat it is: what takes long is not what these cases look for."""
+    for number in range(60):
+        _, mesh, settings = case(0, number)
+        x, y, z = np.ptp(mesh.vertices, axis=0)
+        size = settings.width if settings.size_by == "width" else settings.height * 1.2 * max(x, y) / z
+        assert size <= 100, number

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import Field, fields
+from dataclasses import Field, fields, replace
 from typing import Any, Final
 
 import numpy as np
 
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.settings import Settings, choices, setting_type
+from legorize_addon.core.units import BRICK, STUD
 
 Body = tuple[np.ndarray, np.ndarray]
 """Vertices and faces."""
 
 _SIZES: Final = (3, 24)
 """Studs or bricks."""
+
+_WIDEST: Final = 100
+"""Studs."""
 
 _USUAL: Final = 0.65
 """Share of the settings that stay as they are by default."""
@@ -52,7 +56,8 @@ def case(seed: int, number: int) -> tuple[str, TriangleMesh, Settings]:
         if rng.random() < share:
             vertices, faces = change(rng, vertices, faces)
             name.append(change.__name__)
-    return " ".join(name), _textured(rng, vertices, faces), _settings(rng)
+    mesh = _textured(rng, vertices, faces)
+    return " ".join(name), mesh, _small(mesh, _settings(rng))
 
 
 def box(rng: np.random.Generator) -> Body:
@@ -233,6 +238,13 @@ def _textured(rng: np.random.Generator, vertices: np.ndarray, faces: np.ndarray)
         images=(image.astype(np.uint8),),
         image_clamp=rng.random(1) < 0.5,
     )
+
+
+def _small(mesh: TriangleMesh, settings: Settings) -> Settings:
+    """Size a body by its width if by its height it would get as wide as a hall."""
+    x, y, z = np.ptp(mesh.vertices, axis=0)
+    wide = settings.size_by == "height" and max(x, y) * settings.height * BRICK > _WIDEST * z * STUD
+    return replace(settings, size_by="width") if wide else settings
 
 
 def _settings(rng: np.random.Generator) -> Settings:

@@ -11,15 +11,16 @@ and this is the motion by which the model collapses (see ``collapse``).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Final, NamedTuple
 
 import numpy as np
 from scipy.sparse import csc_array, csr_array, eye_array
-from scipy.sparse.linalg import SuperLU, splu
 
 from ..arrays import Floats
 from ..model import NOBODY
-from ..progress import Progress, silent
+from ..progress import Progress, part, silent
+from .cholesky import Cholesky
 from .collapse import is_collapse
 from .forces import EQUATIONS, Statics
 
@@ -52,6 +53,10 @@ STAGNATION: Final = 0.9
 """Share of the distance between box and plane that is left after so many looks when the search is given up."""
 
 STAGNATION_LOOKS: Final = 5
+
+FACTORS: Final = 0.3
+"""Share of the work shown as done when the equations are factorised and the search begins: the half of bulky
+models, next to nothing of thin ones."""
 
 
 class Aim(NamedTuple):
@@ -109,24 +114,22 @@ class Plane:
     ----------
     statics : Statics
         The equations.
+    progress : Progress
+        Told how far they are factorised; may cancel it.
     """
 
-    def __init__(self, statics: Statics) -> None:
+    def __init__(self, statics: Statics, progress: Progress = silent) -> None:
         self.weight = _weights(statics)
         self._across = csr_array(statics.matrix.multiply(self.weight))
         self._along = csc_array(self._across.T).tocsr()
         self._loads = statics.loads
         n = len(self._loads)
         square = csc_array(self._across @ self._along + TINY * eye_array(n))
-        self._factor: SuperLU | None = None
-        if n:
-            self._factor = splu(
-                square, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0, options={"SymmetricMode": True}
-            )
+        self._factor = Cholesky(square, statics.middle, partial(progress, "stability"))
 
     def solve(self, sums: Floats) -> Floats:
         """Return the motion of the bricks that would balance sums of forces, shape (5 n,)."""
-        return sums.copy() if self._factor is None else np.asarray(self._factor.solve(sums))
+        return self._factor.solve(sums)
 
     def project(self, forces: Floats) -> Floats:
         """Return the nearest forces in balance, all divided by their weights."""
@@ -169,7 +172,7 @@ def balance(
         The forces, or the motion by which the model collapses, or neither.
     """
     progress("stability", 0.0)
-    plane = Plane(statics)
+    plane, progress = Plane(statics, part(progress, 0.0, FACTORS)), part(progress, FACTORS, 1.0)
     progress("stability", 0.0)
     near = plane.project(np.zeros(len(plane.weight)) if start is None else start / plane.weight)
     forces = near

@@ -16,6 +16,7 @@ from ..arrays import Floats, Ints
 from ..model import NOBODY, Bricks, Catalogue, ContactGraph
 from ..model import UNSUPPORTED as UNSUPPORTED
 from ..model import Verdict as Verdict
+from ..native import one_thread
 from ..progress import Progress, silent
 from .collapse import is_collapse, least_imbalance
 from .equilibrium import AIMS, Aim, Balance, Plane, balance, is_equilibrium, residual
@@ -122,6 +123,7 @@ class Stability:
         return True
 
 
+@one_thread()
 def stability(
     bricks: Bricks,
     catalogue: Catalogue,

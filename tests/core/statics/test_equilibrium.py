@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.errors import Cancelled
-from legorize_addon.core.statics.equilibrium import AIMS, Aim, balance, is_equilibrium, residual
+from legorize_addon.core.statics.equilibrium import AIMS, FACTORS, Aim, balance, is_equilibrium, residual
 from legorize_addon.core.statics.forces import HOLD, Ground
 from scripts.benchmarks.stablelego import CASES, Case, stair
 from tests.core.standing import CATALOGUE, equations, judged, table
@@ -59,10 +59,24 @@ def test_search_can_be_cancelled() -> None:
 
     def stop(stage: str, share: float) -> None:
         shares.append(share)
-        if len(shares) == 5:
+        if share > FACTORS:
             raise Cancelled
 
     with pytest.raises(Cancelled):
         judged(table(*stair(20)), ground=Ground.BASEPLATE, progress=stop)
     assert shares == sorted(shares)
-    assert 0 <= shares[0] < shares[-1] < 1
+    assert 0 <= shares[0] < FACTORS < shares[-1] < 1
+
+
+def test_factorisation_can_be_cancelled() -> None:
+    """Before the search begins, too, a callback is asked again and again."""
+    shares: list[float] = []
+
+    def stop(stage: str, share: float) -> None:
+        shares.append(share)
+        if share > 0:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        judged(table(*stair(60)), ground=Ground.BASEPLATE, progress=stop)
+    assert 0 < shares[-1] < FACTORS
