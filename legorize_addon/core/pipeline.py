@@ -111,7 +111,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     bricks, proof = supports.stays, None
     if settings.prove_steps:
         with stage("proof"):
-            proof = prove_steps(supports.moves, supports.bricks, catalogue, clutch=settings.clutch, progress=overall)
+            proof = prove_steps(supports.steps, supports.bricks, catalogue, clutch=settings.clutch, progress=overall)
     overall.finish()
     made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, bricks, graph, found)
     unseen = (*unseen, *remarks_on_dithering(mesh, settings.dithering))

@@ -12,9 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arrays import Floats, Mask
-from ..core.building import Action, Moves
+from ..core.building import MAIN, Action, Kind, Steps
 from ..core.model import CELL_SIZE, NOBODY, Bricks, Catalogue
 from .brick_points import sizes
+
+_SMALL: Final = (MAIN, Kind.SUBASSEMBLY)
+"""Where and what a sub-assembly of the first piece is."""
 
 Columns = Mapping[str, NDArray[np.generic]]
 
@@ -33,15 +36,15 @@ BACK: Final = 0.7
 """Studs to the back for each stud to the right: seen from the front right, no piece stands before another."""
 
 
-def assembly_columns(bricks: Bricks, moves: Moves, catalogue: Catalogue) -> dict[str, NDArray[np.generic]]:
+def assembly_columns(bricks: Bricks, steps: Steps, catalogue: Catalogue) -> dict[str, NDArray[np.generic]]:
     """Return what the points of a build know of how it is put together.
 
     Parameters
     ----------
     bricks : Bricks
         Model and supports, n rows.
-    moves : Moves
-        The building order, of the same rows.
+    steps : Steps
+        How they are built.
     catalogue : Catalogue
         Parts and colours.
 
@@ -51,27 +54,37 @@ def assembly_columns(bricks: Bricks, moves: Moves, catalogue: Catalogue) -> dict
         ``tier`` (n,) int32, the place of a brick's piece among the pieces from
         below, 0 for the first one; ``removed`` (n,) int32, the step in which a
         brick is taken out, ``NEVER`` for what stays; ``joined`` (n,) int32, the
-        step in which its piece is joined, ``NOBODY`` for the first one; ``aside``
-        (n, 3) float64, the way in mm from its place in the model to where its
-        piece stands on the table until then.
+        step in which its piece or sub-assembly is put onto the first piece,
+        ``NOBODY`` for what is placed there itself; ``aside`` (n, 3) float64, the
+        way in mm from its place in the model to where it stands on the table
+        until then.
     """
     pieces, row = np.unique(bricks.piece, return_inverse=True)
     row = row.reshape(-1)
     floor = np.full(len(pieces), NEVER)
     np.minimum.at(floor, row, bricks.corner[:, 2])
     order = np.lexsort((pieces, floor, pieces > 0))
-    joins = moves.action == Action.JOIN
-    joined = np.full(len(pieces), NOBODY, dtype=np.int32)
-    joined[np.searchsorted(pieces, moves.piece[joins])] = moves.step[joins]
-    removals = moves.action == Action.REMOVE
-    removed = np.full(len(bricks), NEVER, dtype=np.int32)
-    removed[moves.brick[removals]] = moves.step[removals]
     return {
         TIER: np.argsort(order).astype(np.int32)[row],
-        REMOVED: removed,
-        JOINED: joined[row],
-        ASIDE: _aside(bricks, row, order, floor, catalogue)[row],
+        REMOVED: _removed(steps, len(bricks)),
+        JOINED: _joined(steps, len(bricks)),
+        ASIDE: _aside(bricks, steps, pieces[order], catalogue),
     }
+
+
+def _removed(steps: Steps, n: int) -> NDArray[np.int32]:
+    """Return the step in which each brick is taken out."""
+    moves = steps.moves
+    removals = moves.action == Action.REMOVE
+    removed = np.full(n, NEVER, dtype=np.int32)
+    removed[moves.brick[removals]] = moves.step[removals]
+    return removed
+
+
+def _joined(steps: Steps, n: int) -> NDArray[np.int32]:
+    """Return the step in which each brick comes to the main model with others."""
+    alone = steps.submodel_of(n) == MAIN
+    return np.where(alone, NOBODY, steps.arrival(n)).astype(np.int32)
 
 
 def there_after(steps: int, step: NDArray[np.integer], removed: NDArray[np.generic]) -> Mask:
@@ -116,21 +129,23 @@ def way_after(steps: int, columns: Columns, lift: float) -> Floats:
     return np.where(alone[:, None], columns[ASIDE], raised)
 
 
-def _aside(
-    bricks: Bricks, row: NDArray[np.intp], order: NDArray[np.intp], floor: NDArray[np.integer], catalogue: Catalogue
-) -> Floats:
-    """Return the ways of the pieces to their places in a line beside the first one, (n_pieces, 3) in mm."""
+def _aside(bricks: Bricks, steps: Steps, pieces: NDArray[np.integer], catalogue: Catalogue) -> Floats:
+    """Return the ways of all bricks to their places in a line beside the first piece, (n, 3) in mm.
+
+    Each piece has a place of its own there; sub-assemblies of the first one are
+    put on soon after they are built, and share the last.
+    """
     left = bricks.corner[:, 0]
     right = left + sizes(bricks.part, bricks.turn, catalogue)[:, 0]
-    way = np.zeros((len(floor), 3))
-    free = 0
-    for turn, piece in enumerate(order.tolist()):
-        mine = row == piece
-        low, high = int(left[mine].min()), int(right[mine].max())
-        if turn == 0:
-            free = high + GAP
-            continue
+    way = np.zeros((len(bricks), 3))
+    first = bricks.piece == pieces[0]
+    ground, free = int(bricks.corner[first, 2].min()), int(right[first].max()) + GAP
+    of_piece = [np.flatnonzero(bricks.piece == piece) for piece in pieces[1:]]
+    small = [steps.all_rows(each.number) for each in steps.submodels if (each.parent, each.kind) == _SMALL]
+    for turn, rows in enumerate([*of_piece, *small]):
+        low, high = int(left[rows].min()), int(right[rows].max())
         right_by = free - low
-        way[piece] = (right_by, round(BACK * right_by), floor[order[0]] - floor[piece])
-        free += high - low + GAP
+        way[rows] = (right_by, round(BACK * right_by), ground - int(bricks.corner[rows, 2].min()))
+        if turn < len(of_piece):
+            free += high - low + GAP
     return way * CELL_SIZE

@@ -19,7 +19,7 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ..core.building import Moves
+from ..core.building import Steps
 from ..core.errors import BuildError
 from ..core.model import Bricks, Catalogue, Role
 from ..core.settings import Settings
@@ -67,7 +67,7 @@ def show_build(
     settings: Settings | None = None,
     notes: Sequence[str] = (),
     stability: Stability | None = None,
-    moves: Moves | None = None,
+    steps: Steps | None = None,
     detail: Detail = "high",
     replaces: Sequence[bpy.types.Collection] | None = None,
 ) -> bpy.types.Collection:
@@ -102,7 +102,7 @@ def show_build(
     stability : Stability, optional
         Whether these bricks stand, row by row, for the panel and the heat map;
         supports that are taken out again may be left out.
-    moves : Moves, optional
+    steps : Steps, optional
         The order in which these bricks are built, for the panel and the steps.
     detail : {"low", "high"}, optional
         Detail of the part meshes.
@@ -133,7 +133,7 @@ def show_build(
     root = _add_root(build, place.moved @ upright(origin, 1.0 / (scale * mm_per_unit)), place.parent)
     plane = _own(build, add_plane(build.name, root))
     parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, name)
-    _add_layers(build, bricks, variant.reshape(-1), _more(bricks, stability, moves, catalogue), catalogue, plane, parts)
+    _add_layers(build, bricks, variant.reshape(-1), _more(bricks, stability, steps, catalogue), catalogue, plane, parts)
     hidden = [as_before(scene, source) for source in sources]
     write_state(
         build,
@@ -148,7 +148,7 @@ def show_build(
         settings={} if settings is None else asdict(settings),
         notes=list(notes),
         **_table_facts(bricks, catalogue),
-        **figures(bricks, stability, moves, catalogue),
+        **figures(bricks, stability, steps, catalogue),
     )
     remember(scene, hidden)
     show_sources(build, visible=False)
@@ -277,9 +277,9 @@ def _table_facts(bricks: Bricks, catalogue: Catalogue) -> dict[str, Any]:
     }
 
 
-def _more(bricks: Bricks, stability: Stability | None, moves: Moves | None, catalogue: Catalogue) -> Columns:
+def _more(bricks: Bricks, stability: Stability | None, steps: Steps | None, catalogue: Catalogue) -> Columns:
     """Return what the points know beside the table of bricks."""
-    more = {} if moves is None else assembly_columns(bricks, moves, catalogue)
+    more = {} if steps is None else assembly_columns(bricks, steps, catalogue)
     if stability is not None:
         margin = np.full(len(bricks), NO_MARGIN)
         margin[: len(stability.margin)] = stability.margin

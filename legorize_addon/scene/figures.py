@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..core.building import Moves
+from ..core.building import Steps
 from ..core.model import Bricks, Catalogue, Role
 from ..core.units import PLATES_PER_BRICK
 from .brick_points import sizes
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def figures(
-    bricks: Bricks, stability: Stability | None, moves: Moves | None, catalogue: Catalogue
+    bricks: Bricks, stability: Stability | None, steps: Steps | None, catalogue: Catalogue
 ) -> dict[str, dict[str, Any]]:
     """Return what the panel says of a build.
 
@@ -27,7 +27,7 @@ def figures(
         Model and supports, supports that are taken out at the end.
     stability : Stability, optional
         Of the model, or of all bricks.
-    moves : Moves, optional
+    steps : Steps, optional
         The building order.
     catalogue : Catalogue
         Parts and colours.
@@ -42,7 +42,7 @@ def figures(
     return {
         "summary": summary(bricks, catalogue),
         "check": {} if stability is None else check_of(stability, bricks.take(np.arange(len(stability.margin)))),
-        "building": {} if moves is None else building_figures(bricks, moves, catalogue),
+        "building": {} if steps is None else building_figures(bricks, steps, catalogue),
     }
 
 
@@ -68,15 +68,15 @@ def summary(bricks: Bricks, catalogue: Catalogue) -> dict[str, int | float]:
     }
 
 
-def building_figures(bricks: Bricks, moves: Moves, catalogue: Catalogue) -> dict[str, int | float]:
+def building_figures(bricks: Bricks, steps: Steps, catalogue: Catalogue) -> dict[str, int | float]:
     """Return the figures of the supports and of the building.
 
     Parameters
     ----------
     bricks : Bricks
         Model and supports.
-    moves : Moves
-        The building order.
+    steps : Steps
+        How they are built.
     catalogue : Catalogue
         Parts and colours.
 
@@ -92,5 +92,5 @@ def building_figures(bricks: Bricks, moves: Moves, catalogue: Catalogue) -> dict
         "removed_mass": float(catalogue.mass[bricks.part[outside]].sum()),
         "kept": int(np.isin(bricks.role, (Role.SUPPORT_INSIDE, Role.SUPPORT_KEPT)).sum()),
         "pieces": len(np.unique(bricks.piece)),
-        "steps": int(moves.step.max()) + 1,
+        "steps": len(steps),
     }

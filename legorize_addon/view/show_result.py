@@ -77,7 +77,7 @@ def show_result(
         settings=build.settings,
         notes=notes,
         stability=build.stability,
-        moves=supports.moves,
+        steps=supports.steps,
         detail=detail,
         replaces=earlier,
     )

@@ -54,7 +54,9 @@ def _row(name: str, mesh: TriangleMesh, width: int, most: int) -> Row:
     build = legorize(mesh, Settings(width=width, split=most))
     total = time.process_time() - start
     supports = build.supports
-    faults, left = follow(build_order_csv(supports.moves, supports.bricks, catalogue), catalogue)
+    faults, left = follow(
+        build_order_csv(supports.steps, supports.bricks, catalogue, by_hand=supports.by_hand), catalogue
+    )
     removed = supports.removed
     return {
         "model": name,
@@ -74,6 +76,7 @@ def _row(name: str, mesh: TriangleMesh, width: int, most: int) -> Row:
         "in_air": faults.in_air,
         "overlapping": faults.overlapping,
         "squeezed": faults.squeezed,
+        "covered": faults.covered,
         "stuck": faults.stuck,
         "loose": faults.loose,
         "components": build.graph.n_components,

@@ -30,6 +30,8 @@ class Faults:
         Bricks placed into others.
     squeezed : int
         Bricks placed between studs below and above.
+    covered : int
+        Bricks placed from above though others lie over them.
     stuck : int
         Bricks taken out that others lie below.
     loose : int
@@ -39,12 +41,13 @@ class Faults:
     in_air: int = 0
     overlapping: int = 0
     squeezed: int = 0
+    covered: int = 0
     stuck: int = 0
     loose: int = 0
 
     def total(self) -> int:
         """Return the number of all faults."""
-        return self.in_air + self.overlapping + self.squeezed + self.stuck + self.loose
+        return self.in_air + self.overlapping + self.squeezed + self.covered + self.stuck + self.loose
 
 
 def follow(text: str, catalogue: Catalogue) -> tuple[Faults, Counter[str]]:
@@ -65,26 +68,34 @@ def follow(text: str, catalogue: Catalogue) -> tuple[Faults, Counter[str]]:
     """
     rows = list(csv.DictReader(io.StringIO(text)))
     places = _cells([row["ldraw"] for row in rows if row["action"] == "place"], catalogue)
-    floor: dict[str, int] = defaultdict(lambda: NEVER)
-    for row in rows:
-        if row["action"] == "place":
-            floor[row["piece"]] = min(floor[row["piece"]], min(z for _, _, z in places[row["ldraw"]]))
-    tables = {piece: _Table(level) for piece, level in floor.items()}
+    tables = {name: _Table(level) for name, level in _floors(rows, places).items()}
     faults, removing = Faults(), ""
     for row in rows:
         if removing and row["action"] != "remove":
             faults.in_air += tables[removing].in_the_air()
-        removing = row["piece"] if row["action"] == "remove" else ""
-        table = tables.get(row["piece"], _Table(0))
+        removing = row["assembly"] if row["action"] == "remove" else ""
+        table = tables[row["assembly"]]
         if row["action"] == "place":
-            table.place(row["ldraw"], places[row["ldraw"]], faults)
+            table.place(row["ldraw"], places[row["ldraw"]], faults, pressed=row["pressed"] == "1")
         elif row["action"] == "remove":
             table.remove(row["ldraw"], faults)
         else:
-            tables["0"].join(table, faults)
-            tables[row["piece"]] = tables["0"]
-    faults.in_air += tables["0"].in_the_air()
-    return faults, Counter(list(tables["0"].bricks))
+            tables[row["onto"]].join(table, faults)
+    faults.in_air += tables["model"].in_the_air()
+    return faults, Counter(list(tables["model"].bricks))
+
+
+def _floors(rows: list[dict[str, str]], places: dict[str, list[Cell]]) -> dict[str, int]:
+    """Return the plate on which each assembly stands; the lower end of a small one may be that of a piece."""
+    floor: dict[str, int] = defaultdict(lambda: NEVER)
+    piece = {row["assembly"]: row["piece"] for row in rows}
+    for row in rows:
+        name, onto = row["assembly"], row["onto"]
+        if row["action"] == "place":
+            floor[name] = min(floor[name], min(z for _, _, z in places[row["ldraw"]]))
+        elif onto and piece[onto] == row["piece"]:
+            floor[onto] = min(floor[onto], floor[name])
+    return floor
 
 
 def _cells(lines: list[str], catalogue: Catalogue) -> dict[str, list[Cell]]:
@@ -106,15 +117,18 @@ class _Table:
         self.floor = floor
         self.owner: dict[Cell, str] = {}
         self.bricks: dict[str, list[Cell]] = {}
+        self.high = -NEVER
 
-    def place(self, line: str, cells: list[Cell], faults: Faults) -> None:
+    def place(self, line: str, cells: list[Cell], faults: Faults, *, pressed: bool) -> None:
         faults.overlapping += any(cell in self.owner for cell in cells)
         below, above = self._touched(line, cells)
         standing = min(z for _, _, z in cells) == self.floor
         faults.in_air += not (below or above or standing)
         faults.squeezed += bool((below or standing) and above)
+        faults.covered += not pressed and self._covered(cells)
         self.bricks[line] = cells
         self.owner.update(dict.fromkeys(cells, line))
+        self.high = max(self.high, *(z for _, _, z in cells))
 
     def remove(self, line: str, faults: Faults) -> None:
         cells = self.bricks.pop(line)
@@ -126,12 +140,18 @@ class _Table:
 
     def join(self, other: _Table, faults: Faults) -> None:
         touching = sum(bool(set(self._touched(line, cells)[0])) for line, cells in other.bricks.items())
-        top: dict[tuple[int, int], int] = defaultdict(lambda: -NEVER)
-        for x, y, z in self.owner:
-            top[x, y] = max(top[x, y], z)
-        faults.loose += not touching or any(top[x, y] > z for x, y, z in other.owner)
+        standing = any(z == self.floor for _, _, z in other.owner)
+        faults.loose += not (touching or standing) or self._covered(list(other.owner))
+        self.high = max(self.high, other.high)
         self.bricks |= other.bricks
         self.owner |= other.owner
+
+    def _covered(self, cells: list[Cell]) -> bool:
+        """Whether something lies over cells that come from above."""
+        low: dict[tuple[int, int], int] = defaultdict(lambda: NEVER)
+        for x, y, z in cells:
+            low[x, y] = min(low[x, y], z)
+        return any((x, y, z) in self.owner for (x, y), start in low.items() for z in range(start, self.high + 1))
 
     def in_the_air(self) -> int:
         """Count the bricks from which no way over studs leads to the table."""

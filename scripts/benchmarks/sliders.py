@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from legorize_addon.core.building.moves import Action, Moves
+from legorize_addon.core.building.steps import Kind, Steps, Submodel
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.scene.collections import show_build
@@ -48,7 +49,7 @@ def measure(*, bricks: int) -> list[Table]:
     model = large_model(bricks)
     build = show_build(
         scene, model, load_catalogue(), origin=(0.0, 0.0, 0.0), scale=1.0, mm_per_unit=1.0, name="large",
-        moves=moves_of(model),
+        steps=steps_of(model),
     )  # fmt: skip
     bpy.context.view_layer.update()
     tops = [1 + move * 37 % LAYERS for move in range(MOVES)]
@@ -89,16 +90,21 @@ def large_model(n: int) -> Bricks:
     )
 
 
-def moves_of(model: Bricks) -> Moves:
-    """Return the order in which the bricks of a model are placed, by their steps."""
+def steps_of(model: Bricks) -> Steps:
+    """Return how the bricks of a model are placed, by their steps."""
     n = len(model)
-    return Moves(
+    moves = Moves(
         action=np.full(n, Action.PLACE, dtype=np.uint8),
         brick=np.arange(n, dtype=np.int32),
         piece=model.piece,
+        submodel=model.piece.astype(np.int32),
         pressed=np.zeros(n, dtype=bool),
         step=model.step,
     )
+    rows = [np.flatnonzero(model.piece == piece) for piece in range(int(model.piece.max()) + 1)]
+    kinds = [Kind.MAIN, *(Kind.PIECE for _ in rows[1:])]
+    found = (Submodel(turn, kinds[turn], min(turn, 1) - 1, turn, own, turn) for turn, own in enumerate(rows))
+    return Steps(moves, tuple(found))
 
 
 def milliseconds(move: Callable[[], None]) -> float:

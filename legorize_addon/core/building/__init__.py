@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 from ..on_demand import on_demand
 from .moves import Action, Moves
+from .steps import MAIN, Kind, Steps
 
 if TYPE_CHECKING:
     from .check import Walk, walk
     from .contacts import BuildingContacts, building_contacts
-    from .order import order_moves
+    from .order import plan_steps
     from .proof import Proof, prove_steps
     from .towers import STEADY, Tipping, no_prop, tipping
 else:
@@ -19,22 +20,25 @@ else:
         __name__,
         check=("Walk", "walk"),
         contacts=("BuildingContacts", "building_contacts"),
-        order=("order_moves",),
+        order=("plan_steps",),
         proof=("Proof", "prove_steps"),
         towers=("STEADY", "Tipping", "no_prop", "tipping"),
     )
 
 __all__ = [
+    "MAIN",
     "STEADY",
     "Action",
     "BuildingContacts",
+    "Kind",
     "Moves",
     "Proof",
+    "Steps",
     "Tipping",
     "Walk",
     "building_contacts",
     "no_prop",
-    "order_moves",
+    "plan_steps",
     "prove_steps",
     "tipping",
     "walk",

@@ -13,10 +13,18 @@ from ..arrays import Ints, Mask
 from ..model import NOBODY, Bricks, Catalogue, Rows, components, contact_graph, stacked, stud_columns
 from ..progress import Progress, silent
 from .contacts import BuildingContacts
-from .moves import Action, Moves
+from .moves import Action
+from .skyline import Skyline
+from .steps import Steps
 
 _PAUSE: Final = 256
 """Moves between two words of progress."""
+
+_FAULTS: Final = ("in_air", "squeezed", "covered", "cramped", "stuck", "loose_pieces")
+
+
+ROOM: Final = 9
+"""Plates that must be free below a brick that is pressed from below: three bricks, as much as fingers need."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,11 +38,15 @@ class Walk:
         stood in the air after a support was taken out.
     squeezed : int64 array
         Rows of bricks that had studs of others below and above when they were placed.
+    covered : int64 array
+        Rows of bricks that others lay over when they were pushed on from above.
+    cramped : int64 array
+        Rows of bricks pressed from below with less than ``ROOM`` plates below them.
     stuck : int64 array
         Rows of supports that could not be taken straight down, as bricks were
         left below them.
     loose_pieces : int64 array
-        Pieces that touched nothing when they were joined, or had bricks in their way.
+        Submodels that touched nothing when they were joined, or had bricks in their way.
     wrong_end : int64 array
         Rows of bricks that are there at the end but should not be, or the other way round.
     n_steps : int
@@ -45,6 +57,8 @@ class Walk:
 
     in_air: Ints
     squeezed: Ints
+    covered: Ints
+    cramped: Ints
     stuck: Ints
     loose_pieces: Ints
     wrong_end: Ints
@@ -58,10 +72,10 @@ class Walk:
 
 
 def walk(
-    moves: Moves,
+    steps: Steps,
     bricks: Bricks,
     catalogue: Catalogue,
-    found: BuildingContacts,
+    contacts: BuildingContacts,
     *,
     temporary: Mask,
     progress: Progress = silent,
@@ -70,12 +84,12 @@ def walk(
 
     Parameters
     ----------
-    moves : Moves
+    steps : Steps
         The order.
     bricks : Bricks
         Model and supports, n rows.
     catalogue : Catalogue
-    found : BuildingContacts
+    contacts : BuildingContacts
         Contacts of these bricks.
     temporary : (n,) bool array
         Bricks that must be gone at the end.
@@ -86,116 +100,131 @@ def walk(
     -------
     Walk
     """
-    site = _Walked(bricks, catalogue, found)
+    moves = steps.moves
+    site = _Walked(steps, bricks, catalogue, contacts)
     for action, run in groupby(range(len(moves)), key=moves.action.tolist().__getitem__):
         rows = list(run)
         if action == Action.REMOVE:
-            site.remove(moves.brick[rows], moves.step[rows])
+            for _, same in groupby(rows, key=moves.submodel.tolist().__getitem__):
+                taken = list(same)
+                site.remove(moves.brick[taken], moves.step[taken])
         elif action == Action.PLACE:
             for row in rows:
                 if row % _PAUSE == 0:
                     progress("supports", row / len(moves))
-                site.place(int(moves.brick[row]), int(moves.step[row]))
+                site.place(int(moves.brick[row]), int(moves.step[row]), pressed=bool(moves.pressed[row]))
         else:
             for row in rows:
-                site.join(int(moves.piece[row]), int(moves.step[row]))
-    return site.result(moves, temporary)
+                site.join(int(moves.submodel[row]), int(moves.step[row]))
+    return site.result(temporary)
 
 
 class _Walked:
-    """The bricks in place on the way; those of different assemblies do not touch each other."""
+    """The bricks in place on the way; those of different tables do not touch each other."""
 
-    def __init__(self, bricks: Bricks, catalogue: Catalogue, found: BuildingContacts) -> None:
+    def __init__(self, steps: Steps, bricks: Bricks, catalogue: Catalogue, contacts: BuildingContacts) -> None:
         n = len(bricks)
-        self.bricks, self.catalogue, self.links = bricks, catalogue, found
-        self.below, self.above = stacked(found.pairs, n)
-        level = bricks.corner[:, 2]
-        table = {int(piece): int(level[bricks.piece == piece].min()) for piece in np.unique(bricks.piece)}
-        self.on_table = [table[piece] == z for piece, z in zip(bricks.piece.tolist(), level.tolist(), strict=True)]
-        self.assembly = bricks.piece.astype(np.int64)
+        self.steps, self.bricks, self.catalogue, self.contacts = steps, bricks, catalogue, contacts
+        self.below, self.above = stacked(contacts.pairs, n)
+        self.level = bricks.corner[:, 2].tolist()
+        self.floor = [steps.floor(each.number, bricks) for each in steps.submodels]
+        self.assembly = steps.submodel_of(n).astype(np.int64)
         self.placed = np.zeros(n, dtype=bool)
-        self.in_air: list[int] = []
-        self.squeezed: list[int] = []
-        self.stuck: list[int] = []
-        self.loose: list[int] = []
+        self.skyline = Skyline(bricks, catalogue, len(steps.submodels))
+        self.faults: dict[str, list[int]] = {name: [] for name in _FAULTS}
         self.bad: list[int] = []
 
-    def place(self, brick: int, step: int) -> None:
-        """Put a brick in place; blame it if it finds no hold, or no room for its studs."""
+    def place(self, brick: int, step: int, *, pressed: bool) -> None:
+        """Put a brick in place; blame it if it finds no hold, or no way."""
         below, above = self._touches(self.below[brick], brick), self._touches(self.above[brick], brick)
-        standing = self.on_table[brick] and self.assembly[brick] == self.bricks.piece[brick]
+        standing = self._stands(brick)
         if not (below or above or standing):
-            self._blame(self.in_air, [brick], [step])
+            self._blame("in_air", [brick], [step])
         if (below or standing) and above:
-            self._blame(self.squeezed, [brick], [step])
+            self._blame("squeezed", [brick], [step])
+        table = int(self.assembly[brick])
+        if not pressed and self.skyline.covers(brick, table):
+            self._blame("covered", [brick], [step])
+        if pressed and self._room(brick) < ROOM:
+            self._blame("cramped", [brick], [step])
         self.placed[brick] = True
+        self.skyline.add(brick, table)
 
-    def join(self, piece: int, step: int) -> None:
-        """Put a piece onto the first one; blame it if they do not touch, or if something is in the way."""
-        mine = np.flatnonzero((self.assembly == piece) & self.placed)
-        if not self._contacts(mine) or self._in_the_way(mine):
-            self._blame(self.loose, [piece], [step])
-        self.assembly[self.assembly == piece] = 0
+    def join(self, number: int, step: int) -> None:
+        """Put a submodel onto the one it belongs to; blame it if they do not touch, or if something is in the way."""
+        parent = self.steps.submodels[number].parent
+        mine = np.flatnonzero((self.assembly == number) & self.placed)
+        in_the_way = any(self.skyline.covers(brick, parent) for brick in mine.tolist())
+        self.assembly[self.assembly == number] = parent
+        if in_the_way or not any(self._stands(brick) or self._rests(brick, parent, mine) for brick in mine.tolist()):
+            self._blame("loose_pieces", [number], [step])
+        for brick in mine.tolist():
+            self.skyline.add(brick, parent)
 
     def remove(self, rows: Rows, steps: Rows) -> None:
         """Take bricks out one after the other; looked at backwards, each one finds hold as it is put back."""
         stuck = self._blocked(rows)
+        table = int(self.assembly[rows[0]])
         self.placed[rows] = False
-        held = self._grounded(int(self.assembly[rows[0]]))
-        here = np.flatnonzero(self.placed & (self.assembly == self.assembly[rows[0]]))
-        self._blame(self.in_air, here[~held[here]], np.full(len(here), steps[-1]))
+        held = self._grounded(table)
+        here = np.flatnonzero(self.placed & (self.assembly == table))
+        self._blame("in_air", here[~held[here]], np.full(len(here), steps[-1]))
         for brick, step in zip(rows[::-1].tolist(), steps[::-1].tolist(), strict=True):
-            held[brick] = self.on_table[brick] or any(held[one] for one in (*self.below[brick], *self.above[brick]))
+            held[brick] = self._stands(brick) or any(held[one] for one in (*self.below[brick], *self.above[brick]))
             if not held[brick]:
-                self._blame(self.in_air, [brick], [step])
-        self._blame(self.stuck, rows[stuck], steps[stuck])
+                self._blame("in_air", [brick], [step])
+        self._blame("stuck", rows[stuck], steps[stuck])
+        self.skyline.renew(table, here)
 
-    def result(self, moves: Moves, temporary: Mask) -> Walk:
+    def result(self, temporary: Mask) -> Walk:
         """Return what was found."""
         return Walk(
-            in_air=np.array(self.in_air, dtype=np.int64),
-            squeezed=np.array(self.squeezed, dtype=np.int64),
-            stuck=np.array(self.stuck, dtype=np.int64),
-            loose_pieces=np.array(self.loose, dtype=np.int64),
+            **{name: np.array(rows, dtype=np.int64) for name, rows in self.faults.items()},
             wrong_end=np.flatnonzero(self.placed == temporary),
-            n_steps=int(moves.step.max(initial=NOBODY)) + 1,
+            n_steps=len(self.steps),
             bad_steps=np.unique(np.array(self.bad, dtype=np.int64)),
         )
 
-    def _blame(self, list_: list[int], rows: Iterable[int], steps: Iterable[int]) -> None:
+    def _blame(self, fault: str, rows: Iterable[int], steps: Iterable[int]) -> None:
         for row, step in zip(rows, steps, strict=False):
-            list_.append(int(row))
+            self.faults[fault].append(int(row))
             self.bad.append(int(step))
 
+    def _stands(self, brick: int) -> bool:
+        """Whether a brick stands on the table on which it is now."""
+        return bool(self.level[brick] == self.floor[self.assembly[brick]])
+
     def _touches(self, others: list[int], brick: int) -> bool:
-        """Whether one of a brick's neighbours is in place in the same assembly."""
+        """Whether one of a brick's neighbours is in place on the same table."""
         return any(self.placed[other] and self.assembly[other] == self.assembly[brick] for other in others)
 
-    def _contacts(self, mine: Ints) -> int:
-        """Count the studs between a piece and the first one."""
-        first = self.placed & (self.assembly == 0)
-        own = np.zeros(len(self.placed), dtype=bool)
-        own[mine] = True
-        lower, upper = self.links.pairs.T
-        between = (own[lower] & first[upper]) | (own[upper] & first[lower])
-        return int(self.links.studs[between].sum())
+    def _rests(self, brick: int, parent: int, mine: Ints) -> bool:
+        """Whether a brick of a submodel lies on one of those that were there before it was joined."""
+        own = set(mine.tolist())
+        return any(
+            self.placed[other] and self.assembly[other] == parent and other not in own for other in self.below[brick]
+        )
 
-    def _in_the_way(self, mine: Ints) -> bool:
-        """Whether a brick of the first piece lies above one of a piece, which then cannot come from above."""
-        first = np.flatnonzero(self.placed & (self.assembly == 0))
-        there = np.concatenate([mine, first])
-        owner = contact_graph(self.bricks.take(there), self.catalogue).owner
-        own = (owner != NOBODY) & (owner < len(mine))
-        return bool((np.logical_or.accumulate(own, axis=0) & (owner >= len(mine))).any())
+    def _room(self, brick: int) -> int:
+        """Return the plates that are free below a brick that is pressed."""
+        table = self.assembly[brick]
+        there = np.append(np.flatnonzero(self.placed & (self.assembly == table)), brick)
+        graph = contact_graph(self.bricks.take(there), self.catalogue)
+        own = graph.owner == len(there) - 1
+        bottom, top = self.level[brick] - int(graph.low[2]), 0
+        under = (graph.owner[:bottom] != NOBODY) & own.any(axis=0)
+        if under.any():
+            top = int(np.flatnonzero(under.any(axis=(1, 2)))[-1]) + 1
+        return int(bottom - max(top, int(self.floor[table]) - int(graph.low[2])))
 
-    def _grounded(self, assembly: int) -> Mask:
+    def _grounded(self, table: int) -> Mask:
         """Tell which bricks in place hang together with bricks on the table."""
         n = len(self.placed)
-        there = self.placed & (self.assembly == assembly)
-        pairs = self.links.pairs
+        there = self.placed & (self.assembly == table)
+        pairs = self.contacts.pairs
         pairs = pairs[there[pairs].all(axis=1)]
         component = components(pairs, n)
-        standing = there & np.array(self.on_table) & (self.bricks.piece == assembly)
+        standing = there & (np.array(self.level) == self.floor[table])
         found = np.zeros(n, dtype=bool)
         found[component[standing]] = True
         held: Mask = found[component] & there

@@ -21,7 +21,7 @@ class Action(IntEnum):
     """A brick of a support is taken out."""
 
     JOIN = 2
-    """A piece that was built on the table by itself is put onto the first piece."""
+    """A piece or sub-assembly that was built on the table by itself is put onto what it belongs to."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,6 +36,9 @@ class Moves:
         Row of the brick in the table of model and supports, ``NOBODY`` of a join.
     piece : (n_moves,) int16 array
         Piece that the move belongs to.
+    submodel : (n_moves,) int32 array
+        Number of the submodel that a brick is placed into or taken from, or that
+        is joined.
     pressed : (n_moves,) bool array
         Whether a brick is pressed from below.
     step : (n_moves,) int32 array
@@ -45,6 +48,7 @@ class Moves:
     action: NDArray[np.uint8]
     brick: NDArray[np.int32]
     piece: NDArray[np.int16]
+    submodel: NDArray[np.int32]
     pressed: NDArray[np.bool_]
     step: NDArray[np.int32]
 

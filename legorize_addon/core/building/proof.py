@@ -10,7 +10,8 @@ from ..arrays import Ints
 from ..model import Bricks, Catalogue, Verdict, contact_graph
 from ..progress import Progress, silent
 from ..statics import stability
-from .moves import Action, Moves
+from .moves import Action
+from .steps import Steps
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,16 +39,16 @@ class Proof:
 
 
 def prove_steps(
-    moves: Moves, bricks: Bricks, catalogue: Catalogue, *, clutch: float, progress: Progress = silent
+    steps: Steps, bricks: Bricks, catalogue: Catalogue, *, clutch: float, progress: Progress = silent
 ) -> Proof:
     """Test the bricks in place after every step by forces.
 
-    Each piece is tested on its own table; what others have built there is not
+    Each submodel is tested on its own table; what others have built there is not
     looked at again until it is joined.
 
     Parameters
     ----------
-    moves : Moves
+    steps : Steps
         The order.
     bricks : Bricks
         Model and supports.
@@ -61,23 +62,18 @@ def prove_steps(
     -------
     Proof
     """
-    ends = np.flatnonzero(np.diff(moves.step, append=-1))
-    assembly = bricks.piece.astype(np.int64)
+    assembly = steps.submodel_of(len(bricks))
     placed = np.zeros(len(bricks), dtype=bool)
-    verdicts, start = [], 0
-    for end in ends.tolist():
-        progress("proof", end / len(moves))
-        piece = int(moves.piece[end])
-        for row in range(start, end + 1):
-            if moves.action[row] == Action.JOIN:
-                assembly[assembly == piece] = 0
-                piece = 0
-            else:
-                placed[moves.brick[row]] = moves.action[row] == Action.PLACE
-        start = end + 1
-        there = bricks.take(placed & (assembly == piece))
+    verdicts, numbers = [], []
+    for step in steps:
+        progress("proof", step.number / len(steps))
+        placed[step.bricks] = step.action != Action.REMOVE
+        for each in step.joined:
+            assembly[assembly == each] = step.submodel
+        there = bricks.take(placed & (assembly == step.submodel))
         found = stability(there, catalogue, contact_graph(there, catalogue), clutch=clutch)
         verdicts.append(found.verdict)
-    steps = moves.step[ends].astype(np.int64)
+        numbers.append(step.number)
+    tested = np.array(numbers, dtype=np.int64)
     bad = [[verdict is each for verdict in verdicts] for each in (Verdict.COLLAPSES, Verdict.UNDECIDED)]
-    return Proof(steps, steps[bad[0]], steps[bad[1]])
+    return Proof(tested, tested[bad[0]], tested[bad[1]])

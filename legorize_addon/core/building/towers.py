@@ -6,7 +6,7 @@ the bricks come that hold it in the finished model.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -16,7 +16,8 @@ from ..arrays import Floats, Ints
 from ..geometry import beyond, corners, hull
 from ..model import Bricks, Catalogue, Rows, middles, stud_columns
 from ..progress import Progress, silent
-from .moves import Action, Moves
+from .moves import Action
+from .steps import MAIN, Steps
 
 STEADY: Final = 0.1
 """Studs that the middle of the weight must lie within the feet of a tower."""
@@ -57,26 +58,29 @@ def no_prop(_: Tipping) -> None:
 
 
 def tipping(
-    moves: Moves,
+    steps: Steps,
     bricks: Bricks,
     catalogue: Catalogue,
     pairs: Rows,
     *,
+    table: int = MAIN,
     prop: Prop = no_prop,
     progress: Progress = silent,
 ) -> list[Tipping]:
-    """Find the towers that fall over while a model is built.
+    """Find the towers that fall over while a submodel is built.
 
     Parameters
     ----------
-    moves : Moves
-        Building order of one piece; what comes after its first removal is not
-        looked at, because then it is whole.
+    steps : Steps
+        How all is built.
     bricks : Bricks
         Model and supports, n rows.
     catalogue : Catalogue
     pairs : (n_pairs, 2) int32 array
         Lower and upper brick of each contact.
+    table : int
+        Number of the submodel; what comes after its first removal is not looked
+        at, because then it is whole.
     prop : function
         Asked for each tower that falls: the stud square (x, y) that is put under
         it from then on, or None, with which it falls.
@@ -89,33 +93,47 @@ def tipping(
         Of each tower that falls the first time, by step. A tower that grows
         together with one that falls is not named again.
     """
-    towers = _Towers(bricks, catalogue, pairs)
+    towers = _Towers(bricks, catalogue, pairs, steps.floor(table, bricks))
     found = []
-    removal = np.flatnonzero(moves.action == Action.REMOVE)
-    end = int(removal[0]) if len(removal) else len(moves)
-    rows, steps = moves.brick[:end].tolist(), moves.step[:end].tolist()
     changed: set[int] = set()
-    for number, (row, step) in enumerate(zip(rows, steps, strict=True)):
+    arrivals = list(_arrivals(steps, table))
+    for number, (step, rows) in enumerate(arrivals):
         if number % _PAUSE == 0:
-            progress("supports", number / end)
-        changed.add(towers.place(row))
-        if number + 1 == end or steps[number + 1] != step:
+            progress("supports", number / len(arrivals))
+        changed.update([towers.place(row) for row in rows])
+        if number + 1 == len(arrivals) or arrivals[number + 1][0] != step:
             for tower in sorted({towers.root(each) for each in changed}):
                 found += towers.fallen_or_propped(tower, step, prop)
             changed = set()
     return found
 
 
+def _arrivals(steps: Steps, table: int) -> Iterator[tuple[int, list[int]]]:
+    """Yield which bricks come to a table in which step, until the first is taken out there."""
+    moves = steps.moves
+    gone: set[int] = set()
+    columns = (moves.action, moves.brick, moves.submodel, moves.step)
+    for action, brick, submodel, step in zip(*(column.tolist() for column in columns), strict=True):
+        if action == Action.REMOVE:
+            if submodel == table:
+                return
+            gone.add(brick)
+        elif action == Action.JOIN and steps.submodels[submodel].parent == table:
+            yield step, [row for row in steps.all_rows(submodel).tolist() if row not in gone]
+        elif action == Action.PLACE and submodel == table:
+            yield step, [brick]
+
+
 class _Towers:
     """Bricks in place, as trees of a union-find; the root of each knows weight, moments and feet."""
 
-    def __init__(self, bricks: Bricks, catalogue: Catalogue, pairs: Rows) -> None:
+    def __init__(self, bricks: Bricks, catalogue: Catalogue, pairs: Rows, floor: int) -> None:
         n = len(bricks)
         brick, columns = stud_columns(bricks, catalogue)
         mass = catalogue.mass[bricks.part]
         self.mass = mass.tolist()
         self.moment = (middles(bricks, catalogue) * mass[:, None]).tolist()
-        standing = columns[:, 2] == bricks.corner[:, 2].min()
+        standing = columns[:, 2] == floor
         self.feet: list[list[tuple[int, int]]] = [[] for _ in range(n)]
         for row, x, y in zip(brick[standing].tolist(), *columns[standing, :2].T.tolist(), strict=True):
             self.feet[row].append((x, y))

@@ -116,6 +116,8 @@ def _faults(supports: AssemblyPlan, catalogue: Catalogue) -> Iterator[str]:
     for rows, what in (
         (found.in_air, "without hold when placed: let supports stand under the model"),
         (found.squeezed, "between others that are in place already: put them together with those above first"),
+        (found.covered, "under others that are in place already: put them in from the side"),
+        (found.cramped, "pressed from below where less than three bricks of room are left: put them in from the side"),
         (found.stuck, "of supports that cannot be pulled out: take them apart by hand"),
     ):
         if len(rows):

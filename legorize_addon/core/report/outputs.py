@@ -33,12 +33,17 @@ def output_texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], titl
     return {
         "model.ldr": write_ldr(build.bricks, catalogue, name="model.ldr", title=title),
         "model.mpd": write_mpd(build.supports.bricks, catalogue, name="model.ldr", title=title),
-        "build_order.csv": build_order_csv(build.supports.moves, build.supports.bricks, catalogue),
+        "build_order.csv": _order(build, catalogue),
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
         **_lists("", parts, catalogue),
         **_lists("support-", supports, catalogue),
         **{f"tables/{name}": table for name, table in paper_tables(build, catalogue, name=title).items()},
     }
+
+
+def _order(build: Build, catalogue: Catalogue) -> str:
+    supports = build.supports
+    return build_order_csv(supports.steps, supports.bricks, catalogue, by_hand=supports.by_hand)
 
 
 def _lists(prefix: str, parts: PartsList, catalogue: Catalogue) -> dict[str, str]:

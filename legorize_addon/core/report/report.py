@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arrays import Floats, Mask
 from ..build import Build, Cut
+from ..building import Kind
 from ..errors import enough_memory
 from ..files import PartsList, count_parts, ldraw_matrix, masses, not_made, pick_a_brick_csv
 from ..measures import corner_windings, lower_bound, pass_through_types
@@ -272,6 +273,9 @@ def _building(build: Build) -> dict[str, Any]:
         "pressed_from_below": int(supports.moves.pressed.sum()),
         "in_air": len(found.in_air),
         "squeezed_in": len(found.squeezed),
+        "covered": len(found.covered),
+        "pressed_without_room": len(found.cramped),
+        "sub_assemblies": sum(each.kind == Kind.SUBASSEMBLY for each in supports.steps.submodels),
         "loose_pieces": len(found.loose_pieces),
         "held_by_hand": len(supports.unsteady),
         "ends_as_model": len(found.wrong_end) == 0,

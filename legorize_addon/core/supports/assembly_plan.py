@@ -9,7 +9,19 @@ from typing import Final, Literal
 import numpy as np
 
 from ..arrays import Ints, Mask
-from ..building import BuildingContacts, Moves, Tipping, Walk, building_contacts, order_moves, walk
+from ..building import (
+    Action,
+    BuildingContacts,
+    Kind,
+    Moves,
+    Steps,
+    Tipping,
+    Walk,
+    building_contacts,
+    plan_steps,
+    tipping,
+    walk,
+)
 from ..model import Bricks, Catalogue, Role, concatenate, contact_graph
 from ..progress import Progress, part, silent
 from ..statics import HOLD
@@ -60,17 +72,25 @@ class AssemblyPlan:
         What touches what while it is built.
     pieces : tuple of Piece
         By ascending number.
-    moves : Moves
-        Order in which all is built.
+    steps : Steps
+        Order and steps in which all is built, and the submodels that are built by themselves.
     walk : Walk
         What the check of the order found.
+    unsteady : tuple of Tipping
+        Towers that have to be held by hand while they grow, by step.
     """
 
     bricks: Bricks
     contacts: BuildingContacts
     pieces: tuple[Piece, ...]
-    moves: Moves
+    steps: Steps
     walk: Walk
+    unsteady: tuple[Tipping, ...]
+
+    @property
+    def moves(self) -> Moves:
+        """The moves of all steps, one after the other."""
+        return self.steps.moves
 
     @property
     def temporary(self) -> Mask:
@@ -103,9 +123,20 @@ class AssemblyPlan:
         return np.flatnonzero((support > 0) & (model <= support) & ~temporary)
 
     @property
-    def unsteady(self) -> tuple[Tipping, ...]:
-        """Towers that have to be held by hand while they grow."""
-        return tuple(tower for piece in self.pieces for tower in piece.plan.unsteady)
+    def by_hand(self) -> Mask:
+        """Which moves need a hand that holds, (n_moves,) bool.
+
+        Bricks of a tower in the step in which it would fall over, and supports
+        that are pulled off bricks that cling to them.
+        """
+        moves = self.moves
+        held = np.zeros(len(moves), dtype=bool)
+        for tower in self.unsteady:
+            held |= (moves.step == tower.step) & np.isin(moves.brick, tower.bricks)
+        lower, upper = self.contacts.pairs.T
+        under = lower[np.isin(upper, self.clinging) & self.temporary[lower]]
+        held |= (moves.action == Action.REMOVE) & np.isin(moves.brick, under)
+        return held
 
 
 def plan_assembly(
@@ -153,10 +184,18 @@ def plan_assembly(
     everything = concatenate([bricks, *pillars, *added])
     temporary = everything.role == Role.SUPPORT_OUTSIDE
     contacts = building_contacts(everything, catalogue, temporary=temporary)
-    moves = order_moves(everything, contacts.pairs, temporary=temporary, progress=part(progress, 0.8, 0.9))
-    everything = replace(everything, step=moves.step_of(len(everything)))
-    found = walk(moves, everything, catalogue, contacts, temporary=temporary, progress=part(progress, 0.9, 1.0))
-    return AssemblyPlan(everything, contacts, tuple(pieces), moves, found)
+    steps = plan_steps(everything, catalogue, contacts.pairs, temporary=temporary, progress=part(progress, 0.8, 0.9))
+    everything = replace(everything, step=steps.moves.step_of(len(everything)))
+    found = walk(steps, everything, catalogue, contacts, temporary=temporary, progress=part(progress, 0.9, 1.0))
+    unsteady = _unsteady(steps, everything, catalogue, contacts)
+    return AssemblyPlan(everything, contacts, tuple(pieces), steps, found, unsteady)
+
+
+def _unsteady(steps: Steps, bricks: Bricks, catalogue: Catalogue, contacts: BuildingContacts) -> tuple[Tipping, ...]:
+    """Return the towers that fall over on the tables of the model and its pieces, by step."""
+    tables = [each.number for each in steps.submodels if each.kind != Kind.SUBASSEMBLY]
+    found = [tower for table in tables for tower in tipping(steps, bricks, catalogue, contacts.pairs, table=table)]
+    return tuple(sorted(found, key=lambda tower: tower.step))
 
 
 def _worth_trying(need: Demand) -> tuple[Way, ...]:

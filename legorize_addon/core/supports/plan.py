@@ -13,7 +13,7 @@ from typing import Final, Literal
 import numpy as np
 
 from ..arrays import Floats, Ints, Mask
-from ..building import STEADY, Tipping, no_prop, order_moves, tipping
+from ..building import STEADY, Tipping, no_prop, plan_steps, tipping
 from ..geometry import corners, inside
 from ..model import Bricks, Catalogue, ContactGraph, Role, Rows, Verdict, concatenate, contact_graph
 from ..progress import Progress, part, silent
@@ -196,7 +196,7 @@ def _falling(
     everything = concatenate([bricks, supports])
     pairs = contact_graph(everything, catalogue).pairs
     temporary = np.arange(len(everything)) >= len(bricks)
-    moves = order_moves(everything, pairs, temporary=temporary, progress=part(progress, 0.0, 0.5))
+    steps = plan_steps(everything, catalogue, pairs, temporary=temporary, progress=part(progress, 0.0, 0.5))
     braces: list[int] = []
 
     def prop(tower: Tipping) -> tuple[int, int] | None:
@@ -209,7 +209,7 @@ def _falling(
         return x, y
 
     watched = part(progress, 0.5, 1.0)
-    return tipping(moves, everything, catalogue, pairs, prop=prop if add else no_prop, progress=watched), braces
+    return tipping(steps, everything, catalogue, pairs, prop=prop if add else no_prop, progress=watched), braces
 
 
 def _laid(contacts: SupportContacts, need: Demand, catalogue: Catalogue, way: Way) -> Bricks:

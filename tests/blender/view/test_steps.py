@@ -14,7 +14,8 @@ import pytest
 import legorize_addon
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action, Moves
-from legorize_addon.core.building.order import order_moves
+from legorize_addon.core.building.order import plan_steps
+from legorize_addon.core.building.steps import Steps
 from legorize_addon.core.errors import BuildError
 from legorize_addon.core.model.bricks import NOBODY, Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
@@ -69,18 +70,19 @@ def storeys(*pieces: int) -> list[tuple[int, ...]]:
     return model + supports
 
 
-def with_moves(rows: list[tuple[int, ...]]) -> tuple[Bricks, Moves]:
+def with_steps(rows: list[tuple[int, ...]]) -> tuple[Bricks, Steps]:
     """Return bricks and the order in which they are built."""
     bricks = table(rows)
     outside = bricks.role == Role.SUPPORT_OUTSIDE
-    moves = order_moves(bricks, building_contacts(bricks, CATALOGUE, temporary=outside).pairs, temporary=outside)
-    return replace(bricks, step=moves.step_of(len(bricks))), moves
+    pairs = building_contacts(bricks, CATALOGUE, temporary=outside).pairs
+    steps = plan_steps(bricks, CATALOGUE, pairs, temporary=outside)
+    return replace(bricks, step=steps.moves.step_of(len(bricks))), steps
 
 
-def show_storeys(*pieces: int, **changes) -> tuple[bpy.types.Collection, Bricks, Moves]:
+def show_storeys(*pieces: int, **changes) -> tuple[bpy.types.Collection, Bricks, Steps]:
     """Show arms on posts with their building order."""
-    bricks, moves = with_moves(storeys(*pieces))
-    return show(bricks, moves=moves, **changes), bricks, moves
+    bricks, steps = with_steps(storeys(*pieces))
+    return show(bricks, steps=steps, **changes), bricks, steps
 
 
 def seen() -> list[list[float]]:
@@ -111,13 +113,13 @@ def walked(moves: Moves, steps: int) -> tuple[list[int], set[int]]:
 @pytest.mark.parametrize("pieces", [(0,), (0, 1), (0, 2, 1)])
 def test_steps_show_what_the_moves_say(pieces: tuple[int, ...]) -> None:
     """After each number of steps, bricks placed and not taken out are seen: joined ones in place, others aside."""
-    build, bricks, moves = show_storeys(*pieces)
-    aside = assembly_columns(bricks, moves, CATALOGUE)["aside"]
-    assert n_steps(build) == moves.step.max() + 1
+    build, bricks, building = show_storeys(*pieces)
+    aside = assembly_columns(bricks, building, CATALOGUE)["aside"]
+    assert n_steps(build) == len(building)
     # back and forth: only what changes is evaluated again
     for steps in [*range(1, n_steps(build) + 1), 3, n_steps(build), 1, 2]:
         show_steps(build, steps)
-        rows, joined = walked(moves, steps)
+        rows, joined = walked(building.moves, steps)
         there = bricks.take(np.array(rows))
         way = np.where(np.isin(there.piece, list(joined))[:, None], 0.0, aside[rows])
         assert seen() == feet(there, way)
@@ -138,8 +140,8 @@ def test_after_the_last_step_the_model_is_finished() -> None:
 
 def test_pieces_stand_on_the_table_side_by_side() -> None:
     """Until they are joined, pieces stand on the ground, and no two of them overlap."""
-    bricks, moves = with_moves(storeys(0, 2, 1))
-    columns = assembly_columns(bricks, moves, CATALOGUE)
+    bricks, building = with_steps(storeys(0, 2, 1))
+    columns = assembly_columns(bricks, building, CATALOGUE)
     corners = (box_corners(bricks, CATALOGUE) + np.repeat(columns["aside"], 8, axis=0)).reshape(-1, 8, 3)
     boxes = [corners[bricks.piece == piece].reshape(-1, 3) for piece in (0, 2, 1)]
     assert [box[:, 2].min() for box in boxes] == [0.0, 0.0, 0.0]
@@ -151,12 +153,13 @@ def test_pieces_stand_on_the_table_side_by_side() -> None:
 
 def test_columns_follow_the_moves() -> None:
     """Tiers go by height, not by number; supports are removed and pieces joined when the moves say so."""
-    bricks, moves = with_moves(storeys(0, 2, 1))
-    columns = assembly_columns(bricks, moves, CATALOGUE)
+    bricks, building = with_steps(storeys(0, 2, 1))
+    columns = assembly_columns(bricks, building, CATALOGUE)
     assert columns[TIER].tolist() == [{0: 0, 2: 1, 1: 2}[piece] for piece in bricks.piece.tolist()]
     assert ((columns[REMOVED] == NEVER) == (bricks.role != Role.SUPPORT_OUTSIDE)).all()
     assert (columns[REMOVED] > bricks.step).all()
     assert ((columns[JOINED] == NOBODY) == (bricks.piece == 0)).all()
+    moves = building.moves
     joins = np.flatnonzero(moves.action == Action.JOIN)
     for join in joins.tolist():
         assert set(columns[JOINED][bricks.piece == moves.piece[join]].tolist()) == {int(moves.step[join])}
@@ -165,8 +168,8 @@ def test_columns_follow_the_moves() -> None:
 @pytest.mark.parametrize("share", [0.25, 1.0])
 def test_pieces_are_lifted_by_their_tier(share: float) -> None:
     """Each piece is lifted by a share of the height for each piece below it; at 0 all are in place again."""
-    build, bricks, moves = show_storeys(0, 2, 1)
-    tier = assembly_columns(bricks, moves, CATALOGUE)[TIER]
+    build, bricks, building = show_storeys(0, 2, 1)
+    tier = assembly_columns(bricks, building, CATALOGUE)[TIER]
     way = np.outer(tier, (0, 0, share * 6 * BRICK))
     assert n_pieces(build) == 3
     explode(build, share)
@@ -192,13 +195,13 @@ def test_camera_has_room_for_all_steps() -> None:
 
 def test_steps_go_with_layers_roles_and_cut() -> None:
     """Shown is what the steps, the layers, the roles and the cut all show; a cut goes by places in the model."""
-    build, bricks, moves = show_storeys(0, 1)
+    build, bricks, building = show_storeys(0, 1)
     explode(build, 1.0)
     show_steps(build, n_steps(build) - 2)
     show_layers(bpy.context.scene, build, 3)
     show_role(build, Role.SUPPORT_OUTSIDE, visible=False)
     cut_away(build, Section("x", 0.25))
-    rows, _ = walked(moves, n_steps(build) - 2)
+    rows, _ = walked(building.moves, n_steps(build) - 2)
     there = bricks.take(np.array(rows))
     kept = (there.corner[:, 2] < 9) & (there.role != Role.SUPPORT_OUTSIDE) & (there.part == ONE)
     assert 0 < kept.sum() < len(there)
@@ -276,7 +279,7 @@ def test_sliders_keep_to_the_panels_build(addon: None) -> None:
     view.by_steps = True
     assert len(instances()) == (bricks.role != Role.SUPPORT_OUTSIDE).sum()
     view.step = 1
-    assert (view.step, len(instances())) == (1, len(walked(with_moves(storeys(0, 1))[1], 1)[0]))
+    assert (view.step, len(instances())) == (1, len(walked(with_steps(storeys(0, 1))[1].moves, 1)[0]))
     view.step = 999
     assert view.step == whole
     view.by_steps = False
@@ -287,10 +290,10 @@ def test_sliders_keep_to_the_panels_build(addon: None) -> None:
 
 def test_margins_are_those_of_the_model() -> None:
     """A proof of the model alone goes with its rows: supports are grey on the heat map, and no one's weakest brick."""
-    bricks, moves = with_moves(storeys(0))
+    bricks, building = with_steps(storeys(0))
     model = bricks.take(bricks.role != Role.SUPPORT_OUTSIDE)
     found = stability(model, CATALOGUE, contact_graph(model, CATALOGUE))
-    build = show(bricks, moves=moves, stability=found)
+    build = show(bricks, steps=building, stability=found)
     alone = show(model, stability=found, name="alone")
     assert check_lines(build[BUILD_KEY]["check"]) == check_lines(alone[BUILD_KEY]["check"])
     clear_build(bpy.context.scene, alone)
@@ -305,14 +308,14 @@ def test_margins_are_those_of_the_model() -> None:
 
 def test_summary_is_that_of_the_finished_model() -> None:
     """Bricks, mass and size leave out what is taken out again, which is counted by itself."""
-    build, bricks, moves = show_storeys(0, 1)
+    build, bricks, building = show_storeys(0, 1)
     model = bricks.take(bricks.role != Role.SUPPORT_OUTSIDE)
     alone = show(model, name="alone")[BUILD_KEY]["summary"].to_dict()
     assert build[BUILD_KEY]["summary"].to_dict() == alone
     figures = build[BUILD_KEY]["building"].to_dict()
     mass = CATALOGUE.mass[bricks.part].sum() - alone["mass"]
     assert figures.pop("removed_mass") == pytest.approx(mass)
-    assert figures == {"removed": 2, "kept": 0, "pieces": 2, "steps": int(moves.step.max()) + 1}
+    assert figures == {"removed": 2, "kept": 0, "pieces": 2, "steps": len(building)}
 
 
 @pytest.mark.parametrize(("n", "pictures", "expected"), [(10, 5, [2, 4, 6, 8, 10]), (3, 9, [1, 2, 3]), (78, 1, [78])])
@@ -332,7 +335,7 @@ def test_tiles_go_row_by_row() -> None:
 
 def test_contact_sheet(tmp_path: Path) -> None:
     """The sheet has a picture for each step asked for, with more and more bricks; the build is as it was before."""
-    build, _, _ = show_storeys(0)
+    build, _, _ = show_storeys(0, 1)
     show_role(build, Role.SUPPORT_OUTSIDE, visible=False)
     before, whole = content(), seen()
     path = tmp_path / "sheet.png"

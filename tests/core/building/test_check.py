@@ -10,6 +10,7 @@ import pytest
 from legorize_addon.core.building.check import walk
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action, Moves
+from legorize_addon.core.building.steps import Kind, Steps, Submodel
 from legorize_addon.core.model.bricks import NOBODY
 from tests.core.standing import CATALOGUE, table
 
@@ -17,22 +18,34 @@ TOWER = (("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 6))
 GATE = (("3005", 0, 0, 0), ("3005", 5, 0, 0), ("3009", 0, 0, 3), ("3005", 2, 0, 0))
 
 
-def moves_of(*rows, pieces=None):
-    """Return moves from (action, brick), each a step of its own."""
+def moves_of(*rows, pieces=None, pressed=()):
+    """Return moves from (action, brick), each a step of its own; each piece is a submodel."""
     n = len(rows)
     return Moves(
         action=np.array([Action[action.upper()] for action, _ in rows], np.uint8),
         brick=np.array([brick for _, brick in rows], np.int32),
         piece=np.array(pieces or [0] * n, np.int16),
-        pressed=np.zeros(n, bool),
+        submodel=np.array(pieces or [0] * n, np.int32),
+        pressed=np.isin([brick for _, brick in rows], pressed),
         step=np.arange(n, dtype=np.int32),
     )
+
+
+def steps_of(moves, bricks):
+    """Return moves as the steps of a model and its pieces."""
+    numbers = range(int(bricks.piece.max()) + 1)
+    kinds = [Kind.PIECE if number else Kind.MAIN for number in numbers]
+    rows = [np.flatnonzero(bricks.piece == number) for number in numbers]
+    made = (Submodel(number, kinds[number], min(number, 1) - 1, number, rows[number], number) for number in numbers)
+    return Steps(moves, tuple(made))
 
 
 def walked(bricks, moves, temporary=()):
     """Return what the check finds."""
     gone = np.isin(np.arange(len(bricks)), temporary)
-    return walk(moves, bricks, CATALOGUE, building_contacts(bricks, CATALOGUE, temporary=gone), temporary=gone)
+    return walk(
+        steps_of(moves, bricks), bricks, CATALOGUE, building_contacts(bricks, CATALOGUE, temporary=gone), temporary=gone
+    )
 
 
 def test_tower_can_be_built():

@@ -14,6 +14,7 @@ def test_step_of_a_brick_is_that_of_its_placing():
         action=np.array([Action.PLACE, Action.PLACE, Action.JOIN, Action.REMOVE], np.uint8),
         brick=np.array([2, 0, NOBODY, 2], np.int32),
         piece=np.zeros(4, np.int16),
+        submodel=np.zeros(4, np.int32),
         pressed=np.zeros(4, bool),
         step=np.array([0, 1, 2, 3], np.int32),
     )

@@ -1,4 +1,4 @@
-"""The building order: every brick on something that holds, none squeezed in, supports out at the end."""
+"""The building order: every brick pushed on from above, what hangs with what it hangs from, supports out at the end."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.building.check import walk
 from legorize_addon.core.building.contacts import building_contacts
+from legorize_addon.core.building.grouping import MOST
 from legorize_addon.core.building.moves import Action
-from legorize_addon.core.building.order import order_moves
-from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.building.order import plan_steps
+from legorize_addon.core.building.steps import Kind
 from legorize_addon.core.model.contacts import contact_graph
 from tests.core.standing import CATALOGUE, table
 
@@ -20,78 +21,107 @@ FOOT_BEAM_HANGER = (("3004", 0, 0, 0), ("3009", 0, 0, 3), ("3024", 5, 0, 2))
 """A foot, a beam on it, and a plate under the beam's free end."""
 
 
-def order(bricks, temporary=None):
-    """Return the moves of bricks, and which are taken out."""
+def planned(bricks, temporary=None):
+    """Return the steps of bricks, and what the check finds."""
     gone = np.zeros(len(bricks), bool) if temporary is None else np.asarray(temporary, bool)
-    found = building_contacts(bricks, CATALOGUE, temporary=gone)
-    return order_moves(bricks, found.pairs, temporary=gone), found, gone
+    contacts = building_contacts(bricks, CATALOGUE, temporary=gone)
+    steps = plan_steps(bricks, CATALOGUE, contacts.pairs, temporary=gone)
+    return steps, walk(steps, bricks, CATALOGUE, contacts, temporary=gone)
 
 
-def sequence(moves):
-    """Return the moves as (action, brick)."""
-    return [
-        (Action(action).name, brick) for action, brick in zip(moves.action.tolist(), moves.brick.tolist(), strict=True)
-    ]
+def sequence(steps):
+    """Return the moves as (action, brick, submodel)."""
+    moves = steps.moves
+    columns = (moves.action.tolist(), moves.brick.tolist(), moves.submodel.tolist())
+    return [(Action(action).name, brick, submodel) for action, brick, submodel in zip(*columns, strict=True)]
 
 
-def test_levels_from_below():
-    """A tower is built from the ground, whatever the order of its table."""
-    moves, _, _ = order(table(("3003", 0, 0, 6), ("3003", 0, 0, 0), ("3003", 0, 0, 3)))
-    assert moves.brick.tolist() == [1, 2, 0]
-    assert not moves.pressed.any()
-    assert moves.step.tolist() == [0, 1, 2]
+def test_towers_grow_from_the_ground():
+    """A tower is built from below, whatever the order of its table, in one picture as it is small."""
+    steps, found = planned(table(("3003", 0, 0, 6), ("3003", 0, 0, 0), ("3003", 0, 0, 3)))
+    assert steps.moves.brick.tolist() == [1, 2, 0]
+    assert len(steps) == 1
+    assert found.buildable
 
 
-def test_what_hangs_is_pressed_from_below():
-    """A plate under a beam comes after the beam, and is marked."""
-    moves, _, _ = order(table(*FOOT_BEAM_HANGER))
-    assert moves.brick.tolist() == [0, 1, 2]
-    assert moves.pressed.tolist() == [False, False, True]
+def test_what_hangs_is_put_on_with_what_it_hangs_from():
+    """The plate goes under its beam on the table, and both go onto the foot: nothing is pressed from below."""
+    steps, found = planned(table(*FOOT_BEAM_HANGER))
+    assert [each.kind for each in steps.submodels] == [Kind.MAIN, Kind.SUBASSEMBLY]
+    assert sorted(steps.submodels[1].rows.tolist()) == [1, 2]
+    told = sequence(steps)
+    assert told[:2] == [("PLACE", 2, 1), ("PLACE", 1, 1)]
+    assert told.index(("PLACE", 0, 0)) < told.index(("JOIN", -1, 1))
+    assert not steps.moves.pressed.any()
+    assert found.buildable
 
 
-def test_nothing_is_squeezed_in():
-    """Of a pillar under a beam that is wide open below, the lower plate goes onto the upper one, never between two."""
-    bricks = table(("3009", 0, 0, 3), ("3004", 0, 0, 0), ("3024", 5, 0, 2), ("3024", 5, 0, 1), ("3005", 5, 0, 6))
-    moves, found, gone = order(bricks)
-    assert walk(moves, bricks, CATALOGUE, found, temporary=gone).buildable
+def test_what_hangs_on_what_hangs_is_a_sub_assembly_of_its_own():
+    """A chain that steps down twice is built on the table from its lowest plate."""
+    bricks = table(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3010", 0, 0, 6), ("3023", 3, 0, 5), ("3024", 4, 0, 4))
+    steps, found = planned(bricks)
+    [small] = steps.submodels[1:]
+    assert small.rows.tolist() == [4, 3, 2]
+    assert found.buildable
 
 
-def test_a_gap_of_several_bricks_is_closed_from_one_end():
-    """A plate under a tall brick would close the column beside it from below: it comes after all of the column."""
-    pillar = [("3005", 0, 0, 3 * k) for k in range(4)]
-    column = [("3024", 3, 0, 11), ("3024", 3, 0, 10), ("3005", 3, 0, 7), ("3005", 3, 0, 4), ("3024", 3, 0, 3)]
-    bricks = table(*pillar, ("3010", 0, 0, 12), ("14716", 2, 0, 3), *column, ("3023", 2, 0, 2))
-    moves, found, gone = order(bricks)
-    assert moves.brick.tolist()[-5:] == [7, 8, 9, 10, 11]
-    assert walk(moves, bricks, CATALOGUE, found, temporary=gone).buildable
+def test_two_ends_that_hang_at_two_heights_nest():
+    """In a sub-assembly that stands on its lower end, what hangs at the other end is one again."""
+    mast = [("3003", 0, 0, 3 * k) for k in range(4)]
+    bricks = table(*mast, ("3008", 0, 0, 12), ("3005", 7, 0, 9), ("3005", 7, 0, 6), ("3024", 4, 0, 11))
+    steps, found = planned(bricks)
+    assert found.buildable
+    assert not steps.moves.pressed.any()
+    assert sorted(steps.all_rows(1).tolist()) == [4, 5, 6, 7]
+
+
+def test_pressed_where_a_piece_alone_holds_it():
+    """A piece is whole when it is joined: what hangs from it alone is pressed under it, and marked."""
+    bricks = table(("3003", 0, 0, 0), ("3003", 0, 0, 12), ("3003", 0, 0, 9), ("3001", 0, 0, 15), ("3024", 3, 0, 14))
+    bricks = replace(bricks, piece=np.array([0, 1, 1, 1, 0], np.int16))
+    high = [("3003", 0, 0, 3), ("3003", 0, 0, 6)]
+    more = table(*high)
+    together = type(bricks)(*(np.concatenate([getattr(bricks, k), getattr(more, k)]) for k in bricks.__slots__))
+    steps, found = planned(together)
+    assert together.part[steps.moves.brick[steps.moves.pressed]].tolist() == [CATALOGUE.part_row("3024")]
+    assert found.buildable
+
+
+def test_pressing_without_room_is_told():
+    """With the ground two bricks below, no finger gets under the plate."""
+    bricks = table(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3001", 0, 0, 6), ("3024", 3, 0, 5))
+    bricks = replace(bricks, piece=np.array([0, 1, 1, 0], np.int16))
+    _, found = planned(bricks)
+    assert found.cramped.tolist() == [3]
 
 
 def test_support_stands_before_its_brick_and_goes_last():
     """The support under the free end is placed before the beam and taken out at the end, lowest brick first."""
     bricks = table(("3004", 0, 0, 0), ("3009", 0, 0, 6), ("3004", 0, 0, 3), ("3005", 5, 0, 0), ("3005", 5, 0, 3))
-    moves, found, gone = order(bricks, [False, False, False, True, True])
-    told = sequence(moves)
-    assert told.index(("PLACE", 4)) < told.index(("PLACE", 1))
-    assert told[-2:] == [("REMOVE", 3), ("REMOVE", 4)]
-    assert walk(moves, bricks, CATALOGUE, found, temporary=gone).buildable
+    steps, found = planned(bricks, [False, False, False, True, True])
+    told = sequence(steps)
+    assert told.index(("PLACE", 4, 0)) < told.index(("PLACE", 1, 0))
+    assert told[-2:] == [("REMOVE", 3, 0), ("REMOVE", 4, 0)]
+    assert found.buildable
 
 
-def test_pieces_are_built_first_and_joined_in_their_turn():
-    """The upper piece is built on the table, then the first up to it; then it is joined, and the rest follows."""
-    bricks = table(("3003", 0, 0, 0), ("3001", 0, 0, 3), ("3003", 0, 0, 6), ("3005", 5, 0, 0), ("3004", 4, 0, 6))
-    # the last brick hangs on nothing but the upper piece, on which it lies
+def test_pieces_are_joined_before_what_comes_over_them():
+    """The upper piece is built on the table and put on when the first has grown up to it; then the rest follows."""
+    bricks = table(("3003", 0, 0, 0), ("3001", 0, 0, 3), ("3003", 0, 0, 6), ("3005", 5, 0, 0), ("3004", 0, 0, 9))
     bricks = replace(bricks, piece=np.array([0, 1, 1, 0, 0], np.int16))
-    moves, _, _ = order(bricks)
-    told = sequence(moves)
-    joint = told.index(("JOIN", NOBODY))
-    assert {brick for _, brick in told[:2]} == {1, 2}
-    assert {brick for action, brick in told[2:joint] if action == "PLACE"} == {0, 3}
+    steps, found = planned(bricks)
+    told = sequence(steps)
+    joint = told.index(("JOIN", -1, 1))
+    assert told.index(("PLACE", 0, 0)) < joint < told.index(("PLACE", 4, 0))
+    assert found.buildable
+    assert steps.arrival(len(bricks))[[1, 2]].tolist() == [steps.moves.step[joint]] * 2
 
 
 def test_floating_bricks_come_last():
     """What nothing holds is placed at the end of the order, all the same once."""
-    moves, _, _ = order(table(("3005", 9, 9, 9), ("3003", 0, 0, 0), ("3003", 0, 0, 3)))
-    assert moves.brick.tolist() == [1, 2, 0]
+    steps, found = planned(table(("3005", 9, 9, 9), ("3003", 0, 0, 0), ("3003", 0, 0, 3)))
+    assert steps.moves.brick.tolist() == [1, 2, 0]
+    assert found.in_air.tolist() == [0]
 
 
 @st.composite
@@ -120,11 +150,13 @@ def heaps(draw):
 @settings(deadline=None, max_examples=150)
 @given(heaps())
 def test_every_brick_once_and_only_loose_ones_in_the_air(bricks):
-    """All bricks are placed once; those in the air at their time are in components that do not reach the ground."""
-    moves, found, gone = order(bricks)
-    assert sorted(moves.brick.tolist()) == list(range(len(bricks)))
-    assert (np.diff(moves.step) >= 0).all()
-    told = walk(moves, bricks, CATALOGUE, found, temporary=gone)
+    """All bricks are placed once, few a step; those in the air are in components that do not reach the ground."""
+    steps, found = planned(bricks)
+    moves = steps.moves
+    assert sorted(moves.brick[moves.action == Action.PLACE].tolist()) == list(range(len(bricks)))
+    assert np.isin(np.diff(moves.step), (0, 1)).all()
+    assert np.bincount(moves.step).max() <= MOST
     floating = np.flatnonzero(~contact_graph(bricks, CATALOGUE).grounded)
-    assert np.isin(told.in_air, floating).all()
-    assert len(told.squeezed) == len(told.wrong_end) == 0
+    assert np.isin(found.in_air, floating).all()
+    assert np.isin(found.covered, floating).all()
+    assert len(found.squeezed) == len(found.wrong_end) == len(found.loose_pieces) == 0

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.building.contacts import building_contacts
-from legorize_addon.core.building.order import order_moves
+from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.proof import prove_steps
 from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.report.building_remarks import remarks_on_proof
@@ -20,10 +20,11 @@ BRIDGE = (("3005", 0, 0, 0), ("3010", 0, 0, 3), ("3005", 7, 0, 0), ("3010", 4, 0
 
 
 def proof(bricks, temporary=None, **options):
-    """Return the proof of bricks in their order."""
+    """Return the proof of bricks in their order, one a step."""
     gone = np.zeros(len(bricks), bool) if temporary is None else temporary
-    moves = order_moves(bricks, building_contacts(bricks, CATALOGUE, temporary=gone).pairs, temporary=gone)
-    return prove_steps(moves, bricks, CATALOGUE, clutch=0.98, **options)
+    steps = plan_steps(bricks, CATALOGUE, building_contacts(bricks, CATALOGUE, temporary=gone).pairs, temporary=gone)
+    moves = replace(steps.moves, step=np.arange(len(steps.moves), dtype=np.int32))
+    return prove_steps(replace(steps, moves=moves), bricks, CATALOGUE, clutch=0.98, **options)
 
 
 def test_tower_stands_at_every_step():
@@ -35,18 +36,18 @@ def test_tower_stands_at_every_step():
 
 
 def test_step_that_falls_is_named():
-    """The halves of a bridge fall in the step before the last, though the whole stands."""
+    """The halves of a bridge fall in the steps before the last, though the whole stands."""
     found = proof(table(*BRIDGE))
-    assert found.collapsing.tolist() == [1]
+    assert found.collapsing.tolist() == [2, 3]
     assert len(found.undecided) == 0
     [sentence] = remarks_on_proof(found)
-    assert "1 step (2) fall" in sentence
+    assert "2 steps (3, 4) fall" in sentence
 
 
 def test_supports_make_all_steps_stand():
     """With what the supports add, the same bridge is proven at every step, and when they are gone."""
     built = plan_assembly(table(*BRIDGE), CATALOGUE, deepest=3)
-    assert prove_steps(built.moves, built.bricks, CATALOGUE, clutch=0.98).stands
+    assert prove_steps(built.steps, built.bricks, CATALOGUE, clutch=0.98).stands
 
 
 def test_pieces_are_tested_on_their_own_tables():

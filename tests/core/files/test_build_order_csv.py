@@ -28,7 +28,9 @@ def followed(text):
             assert left[row["ldraw"]] >= 0
         else:
             assert row["action"] == "join"
-            assert row["ldraw"] == ""
+            assert (row["ldraw"], row["onto"]) == ("", "model")
+        assert row["pressed"] in "01"
+        assert row["by_hand"] in "01"
     return rows, +left
 
 
@@ -36,7 +38,7 @@ def test_end_of_the_table_is_the_model():
     """Placed less removed is exactly the file of the model, supports named by their role."""
     bricks = table(("3004", 0, 0, 0), ("3004", 0, 0, 3), ("3004", 0, 0, 6), ("3008", 4, 0, 6), ("3008", 0, 0, 9))
     found = plan_assembly(bricks, CATALOGUE, wish="tree", deepest=3)
-    rows, left = followed(build_order_csv(found.moves, found.bricks, CATALOGUE))
+    rows, left = followed(build_order_csv(found.steps, found.bricks, CATALOGUE, by_hand=found.by_hand))
     model = write_ldr(found.stays, CATALOGUE, name="m.ldr", title="m")
     assert left == Counter(line for line in model.splitlines() if line.startswith("1 "))
     assert tuple(rows[0]) == COLUMNS
@@ -50,7 +52,7 @@ def test_joins_name_the_piece():
     """A piece that is joined has a row of its own after all its bricks."""
     bricks = table(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 6))
     found = plan_assembly(replace(bricks, piece=np.array([0, 1, 1], np.int16)), CATALOGUE, deepest=3)
-    rows, _ = followed(build_order_csv(found.moves, found.bricks, CATALOGUE))
+    rows, _ = followed(build_order_csv(found.steps, found.bricks, CATALOGUE, by_hand=found.by_hand))
     assert [(row["action"], row["piece"]) for row in rows] == [
         ("place", "1"),
         ("place", "1"),

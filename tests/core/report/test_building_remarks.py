@@ -56,9 +56,9 @@ def test_piece_without_hold_is_told():
 
 
 def test_tower_to_hold_is_told_with_its_step():
-    """A stair that falls over as its second beam comes, with nothing put under it."""
+    """A beam that tips its foot over, with nothing put under it."""
     [sentence] = told(("3005", 0, 0, 0), ("3008", 0, 0, 3), wish="none")
-    assert sentence == "1 tower has to be held by hand on the way, the first in step 2."
+    assert sentence == "1 tower has to be held by hand on the way, the first in step 1."
 
 
 def test_deep_hanging_is_told():

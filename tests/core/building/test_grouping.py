@@ -1,0 +1,136 @@
+"""Steps that hands can follow."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from legorize_addon.core.building.grouping import FEW, LOTS, MANY, MOST, REACH, TILE_MOST, Items, group, span
+from legorize_addon.core.building.tiles import tiles_of
+from legorize_addon.core.model.bricks import NOBODY
+
+
+def items(box, level, *, lot=None, image=None, temporary=None, tile=None, size=None):
+    """Return items of given places, all alike where nothing else is said."""
+    n = len(level)
+    return Items(
+        box=np.array(box, np.int64).reshape(-1, 4),
+        level=np.array(level, np.int64),
+        size=np.ones(n, np.int64) if size is None else np.array(size, np.int64),
+        lot=np.zeros(n, np.int64) if lot is None else np.array(lot, np.int64),
+        temporary=np.zeros(n, bool) if temporary is None else np.array(temporary, bool),
+        image=np.full(n, NOBODY) if image is None else np.array(image, np.int64),
+        tile=np.zeros(n, np.int64) if tile is None else tile,
+    )
+
+
+def floor(wide, deep, side=2):
+    """Return the boxes of square parts that cover a floor."""
+    y, x = (each.ravel() * side for each in np.meshgrid(np.arange(deep), np.arange(wide), indexing="ij"))
+    return np.stack([x, x + side - 1, y, y + side - 1], axis=1)
+
+
+NONE = np.zeros((0, 2), np.int32)
+
+
+def test_a_large_layer_is_laid_in_small_steps_near_each_other():
+    """A floor of 24 x 16 parts is laid in steps of five to ten, none wider than 16 studs."""
+    box = floor(24, 16)
+    found = group(items(box, np.zeros(len(box))), NONE)
+    sizes = np.array([len(step) for step in found])
+    assert sorted(item for step in found for item in step) == list(range(len(box)))
+    assert np.mean((sizes >= FEW) & (sizes <= MANY)) > 0.9
+    assert sizes.min() > 1
+    assert max(span(box[step]) for step in found) <= REACH
+
+
+def test_few_kinds_in_a_step():
+    """Of parts in 40 kinds spread at random, a step holds few."""
+    rng = np.random.default_rng(2)
+    box = floor(20, 20)
+    lot = rng.integers(0, 40, len(box))
+    found = group(items(box, np.zeros(len(box)), lot=lot), NONE)
+    assert np.median([len(set(lot[step].tolist())) for step in found]) <= LOTS
+
+
+def test_order_is_kept():
+    """Each item comes after those that must be before it, within a step and from step to step."""
+    box = np.concatenate([floor(6, 6)] * 5)
+    level = np.repeat(np.arange(5) * 3, 36)
+    before = np.array([[36 * z + k, 36 * (z + 1) + k] for z in range(4) for k in range(36)], np.int32)
+    found = [item for step in group(items(box, level), before) for item in step]
+    turn = np.argsort(found)
+    assert (turn[before[:, 0]] < turn[before[:, 1]]).all()
+
+
+def test_mirrored_parts_come_together_or_one_after_the_other():
+    """Near ones share a step; far ones are built in steps that follow each other."""
+    left = floor(6, 4)
+    right = left.copy()
+    for gap in (2, 30):
+        right[:, :2] = 22 + gap - left[:, 1::-1]
+        box = np.concatenate([left, right])
+        image = np.concatenate([np.arange(24) + 24, np.arange(24)])
+        found = group(items(box, np.zeros(48), image=image), NONE)
+        step_of = np.zeros(48, int)
+        for number, step in enumerate(found):
+            step_of[step] = number
+        apart = np.abs(step_of - step_of[image])
+        assert (apart <= 1).mean() >= 0.9
+        assert max(map(len, found)) <= MOST
+
+
+def test_supports_and_bricks_are_not_mixed():
+    """Supports have steps of their own where there are enough of them."""
+    box = floor(6, 4)
+    temporary = np.arange(24) % 2 == 0
+    for step in group(items(box, np.zeros(24), temporary=temporary), NONE):
+        assert len(set(temporary[step].tolist())) == 1
+
+
+def test_a_brick_left_alone_moves_to_others():
+    """A single part of a kind at the edge is put with its neighbours, not into a picture of its own."""
+    box = floor(11, 1)
+    lot = np.zeros(11)
+    lot[-1] = 1
+    assert min(map(len, group(items(box, np.zeros(11), lot=lot), NONE))) > 1
+
+
+def test_mosaics_go_tile_by_tile():
+    """A picture of 48 x 32 studs is laid in steps of 16 within its tiles, one tile after the other."""
+    box = floor(48, 32, side=1)
+    level = np.zeros(len(box), np.int64)
+    tile = tiles_of(box, level)
+    found = group(items(box, level, tile=tile), NONE)
+    assert {len(step) for step in found} == {TILE_MOST}
+    order = [set(tile[step].tolist()) for step in found]
+    assert all(len(each) == 1 for each in order)
+    assert [min(each) for each in order] == sorted(min(each) for each in order)
+
+
+def test_nothing_gives_no_steps():
+    """No items, no steps."""
+    assert group(items([], []), NONE) == []
+
+
+@settings(deadline=None, max_examples=80)
+@given(st.integers(0, 10**6))
+def test_all_items_once_in_an_order_that_holds(seed):
+    """Whatever comes, every item is in one step, within the limits, and after all that must be before it."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 60))
+    low = rng.integers(0, 40, (n, 2))
+    high = low + rng.integers(0, 6, (n, 2))
+    box = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1)
+    level = rng.integers(0, 5, n) * 3
+    pairs = rng.integers(0, n, (2 * n, 2))
+    before = pairs[level[pairs[:, 0]] < level[pairs[:, 1]]].astype(np.int32)
+    made = items(box, level, lot=rng.integers(0, 9, n), temporary=rng.random(n) < 0.2)
+    found = group(made, before)
+    flat = [item for step in found for item in step]
+    assert sorted(flat) == list(range(n))
+    turn = np.argsort(flat)
+    assert (turn[before[:, 0]] < turn[before[:, 1]]).all()
+    assert max(map(len, found)) <= MOST
+    assert max(span(box[step]) for step in found) <= REACH

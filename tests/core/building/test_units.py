@@ -1,0 +1,69 @@
+"""What goes on together."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from legorize_addon.core.building.blocking import blocking
+from legorize_addon.core.building.units import find_units
+from legorize_addon.core.model.contacts import contact_graph
+from tests.core.standing import CATALOGUE, table
+
+
+def units(*rows, node=None, ground=None):
+    """Return the units of bricks."""
+    bricks = table(*rows)
+    level = bricks.corner[:, 2].astype(np.int64)
+    node = np.arange(len(bricks)) if node is None else np.array(node)
+    ground = level == level.min() if ground is None else np.array(ground)
+    pairs = contact_graph(bricks, CATALOGUE).pairs
+    return find_units(node, level, pairs, blocking(bricks, CATALOGUE), ground=ground)
+
+
+def groups(found):
+    """Return the bricks of each unit."""
+    return sorted(np.flatnonzero(found.unit == unit).tolist() for unit in np.unique(found.unit))
+
+
+def test_standing_bricks_are_units_of_their_own():
+    """A tower has one unit a brick, each before the next."""
+    found = units(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 6))
+    assert groups(found) == [[0], [1], [2]]
+    assert found.before.tolist() == [[0, 1], [1, 2]]
+
+
+def test_what_rests_on_a_unit_comes_after_it():
+    """Two beams over one hanging plate: one of them takes it along, the other is put onto both later."""
+    found = units(("3003", 0, 0, 0), ("3003", 6, 0, 0), ("3010", 0, 0, 3), ("3010", 4, 0, 3), ("3023", 3, 0, 2))
+    assert groups(found) == [[0], [1], [2, 4], [3]]
+    assert [found.unit[2], found.unit[3]] in found.before.tolist()
+    assert not found.pressed.any()
+
+
+def test_units_that_each_wait_for_the_other_become_one():
+    """Two hooks that reach under each other's beams can only be put on together, if they hang together."""
+    found = units(
+        ("3003", 0, 0, 0),
+        ("3003", 0, 0, 3),
+        ("3003", 0, 0, 6),
+        ("3010", 0, 0, 9),
+        ("3024", 3, 0, 8),
+        ("3010", 0, 1, 9),
+        ("3024", 3, 1, 8),
+        *(("3003", 0, 6, 3 * k) for k in range(3)),
+    )
+    assert not found.loose.any()
+    assert {frozenset((3, 4)), frozenset((5, 6))} <= {frozenset(group) for group in groups(found)}
+
+
+def test_under_a_piece_it_is_pressed():
+    """A piece takes nothing along: what hangs from it alone is pressed, after it was joined."""
+    bricks = (("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3010", 0, 0, 6), ("3024", 3, 0, 5))
+    found = units(*bricks, node=[0, 1, 1, 2], ground=[True, False, False, False])
+    assert found.pressed.tolist() == [False, False, False, True]
+    assert [found.unit[2], found.unit[3]] in found.before.tolist()
+
+
+def test_what_nothing_holds_is_loose():
+    """A brick in the air is named."""
+    assert units(("3003", 0, 0, 0), ("3003", 9, 0, 3)).loose.tolist() == [False, True]
