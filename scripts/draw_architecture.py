@@ -27,7 +27,7 @@ ROOT: Final = Path(__file__).resolve().parents[1]
 PACKAGE: Final = ROOT / "legorize_addon"
 PICTURES: Final = ROOT / "docs" / "pictures"
 
-ALONE: Final = ("core.build", "core.pipeline")
+ALONE: Final = ("core.build", "core.stages", "core.pipeline")
 """Modules that the picture shows like packages: they join the stages."""
 
 Graph = Mapping[str, frozenset[str]]
@@ -117,15 +117,17 @@ def reduced(graph: Graph) -> dict[str, frozenset[str]]:
 
 def stages() -> list[tuple[str, tuple[str, ...]]]:
     """Return (name, packages) of each stage of the pipeline in order; a name that comes again is left out."""
-    tree = ast.parse((PACKAGE / "core" / "pipeline.py").read_text(encoding="utf-8"))
+    # the pipeline has their order, and the module of the stages what each of them calls
+    trees = [ast.parse((PACKAGE / "core" / name).read_text(encoding="utf-8")) for name in ("pipeline.py", "stages.py")]
     source = {
         name.asname or name.name: node.module
+        for tree in trees
         for node in ast.walk(tree)
         if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module
         for name in node.names
     }
     known = {name.removeprefix("core.") for name in packages() if name not in ALONE}
-    functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+    functions = {node.name: node for tree in trees for node in tree.body if isinstance(node, ast.FunctionDef)}
     [main] = [node for name, node in functions.items() if name == "legorize"]
     found: dict[str, dict[str, None]] = {}
     for name, block in stage_blocks(main):
@@ -135,11 +137,11 @@ def stages() -> list[tuple[str, tuple[str, ...]]]:
 
 
 def stage_blocks(function: ast.FunctionDef) -> Iterator[tuple[str, ast.With]]:
-    """Yield (name, block) of every ``with stage(name)`` in the order of the text."""
+    """Yield (name, block) of every ``with run.stage(name)`` in the order of the text."""
     for node in ast.walk(function):
         if isinstance(node, ast.With):
             call = node.items[0].context_expr
-            if isinstance(call, ast.Call) and ast.unparse(call.func) == "stage":
+            if isinstance(call, ast.Call) and ast.unparse(call.func) == "run.stage":
                 yield ast.literal_eval(call.args[0]), node
 
 

@@ -46,6 +46,7 @@ ORDER: Final = (
     "core.estimate",
     "core.build",
     "core.report",
+    "core.stages",
     "core.pipeline",
     "core",
     "scene",
@@ -146,7 +147,7 @@ def test_imports_are_found() -> None:
     graph = between_rooms()
     assert len(IMPORTS) > 500
     assert "core.layout.problem" in graph["core.layout.solvers"]
-    assert {"core.mesh", "core.supports", "core.report"} <= graph["core.pipeline"]
+    assert {"core.mesh", "core.supports", "core.report"} <= graph["core.pipeline"] | graph["core.stages"]
     assert "scene" in graph["ui"]
 
 

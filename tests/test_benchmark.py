@@ -177,7 +177,7 @@ def test_pipeline_command(box: Path, tmp_path: Path) -> None:
             row[name]
             for name in (
                 *("mesh", "colours", "slicing", "trajectories", "unit bricks"),
-                *("overhangs", "hollowing", "layout", "stability", "supports"),
+                *("overhangs", "hollowing", "layout", "ties", "stability", "bracing", "pieces", "supports"),
             )
         ]
         assert sum(stages) == pytest.approx(row["total_s"])
@@ -420,7 +420,7 @@ def test_goals_command(tmp_path: Path) -> None:
         assert (row["at_0.98"], row["by_itself"]) == ("stable", "collapses")
         assert row["pillars"] > 0
     for row in tables["goals_costs"]:
-        assert row["layout_us"] == pytest.approx(1e6 * row["layout"] / row["must"])
+        assert row["layout_us"] == pytest.approx(1e6 * (row["layout"] + row["ties"]) / row["must"])
         assert row["memory_mb"] > 50
     assert [row["model"] for row in tables["goals_fallen"]] == ["arm", "arm"]
     assert all("tips over" in row["reason"] for row in tables["goals_fallen"])

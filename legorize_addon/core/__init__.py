@@ -24,6 +24,7 @@ above it in this table.
 ===================  =======================================================================
 
 ``arrays``, ``units``, ``errors``, ``safe_text``, ``progress`` and ``settings`` lie
-below all of them; ``estimate``, ``build`` (the result of every stage) and
-``pipeline`` (the stages in order) above. Nothing in this folder imports ``bpy``.
+below all of them; ``estimate``, ``build`` (the result of every stage), ``stages``
+(what the settings mean for each stage) and ``pipeline`` (the stages in order)
+above. Nothing in this folder imports ``bpy``.
 """

@@ -12,7 +12,7 @@ from .arrays import Floats
 from .building import Proof
 from .colours import SurfaceColours
 from .mesh import Repairs, TriangleMesh
-from .model import Bricks, ContactGraph, UnitGrid
+from .model import Assembly, Bricks, ContactGraph, UnitGrid
 from .settings import Settings
 from .slicing import Marks, Slices, Trajectories
 from .statics import Stability
@@ -69,11 +69,9 @@ class Build:
         All unit bricks, before hollowing.
     hollow : UnitGrid
         What must and what may be built.
-    bricks : Bricks
+    assembly : Assembly
         The layout, with the pillars that stay in it, and the step in which each
         brick is placed.
-    graph : ContactGraph
-        How the bricks hold together.
     stability : Stability
         Whether they stand, and the proof.
     supports : AssemblyPlan
@@ -99,11 +97,20 @@ class Build:
     offsets: Offsets
     grid: UnitGrid
     hollow: UnitGrid
-    bricks: Bricks
-    graph: ContactGraph
+    assembly: Assembly
     stability: Stability
     supports: AssemblyPlan
     joints: tuple[Joint, ...]
     proof: Proof | None
     notes: tuple[str, ...]
     timings: Mapping[str, float]
+
+    @property
+    def bricks(self) -> Bricks:
+        """The bricks of the finished model."""
+        return self.assembly.bricks
+
+    @property
+    def graph(self) -> ContactGraph:
+        """How they touch."""
+        return self.assembly.graph

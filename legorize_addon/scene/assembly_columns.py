@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..core.arrays import Floats, Mask
 from ..core.building import MAIN, Action, Kind, Steps
-from ..core.model import CELL_SIZE, NOBODY, Bricks, Catalogue
+from ..core.model import CELL_SIZE, NOBODY, Assembly, Bricks, Catalogue
 from .brick_points import sizes
 
 _SMALL: Final = (MAIN, Kind.SUBASSEMBLY)
@@ -36,17 +36,15 @@ BACK: Final = 0.7
 """Studs to the back for each stud to the right: seen from the front right, no piece stands before another."""
 
 
-def assembly_columns(bricks: Bricks, steps: Steps, catalogue: Catalogue) -> dict[str, NDArray[np.generic]]:
+def assembly_columns(assembly: Assembly, steps: Steps) -> dict[str, NDArray[np.generic]]:
     """Return what the points of a build know of how it is put together.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         Model and supports, n rows.
     steps : Steps
         How they are built.
-    catalogue : Catalogue
-        Parts and colours.
 
     Returns
     -------
@@ -59,16 +57,16 @@ def assembly_columns(bricks: Bricks, steps: Steps, catalogue: Catalogue) -> dict
         way in mm from its place in the model to where it stands on the table
         until then.
     """
-    pieces, row = np.unique(bricks.piece, return_inverse=True)
+    pieces, row = np.unique(assembly.bricks.piece, return_inverse=True)
     row = row.reshape(-1)
     floor = np.full(len(pieces), NEVER)
-    np.minimum.at(floor, row, bricks.corner[:, 2])
+    np.minimum.at(floor, row, assembly.bricks.corner[:, 2])
     order = np.lexsort((pieces, floor, pieces > 0))
     return {
         TIER: np.argsort(order).astype(np.int32)[row],
-        REMOVED: _removed(steps, len(bricks)),
-        JOINED: _joined(steps, len(bricks)),
-        ASIDE: _aside(bricks, steps, pieces[order], catalogue),
+        REMOVED: _removed(steps, len(assembly.bricks)),
+        JOINED: _joined(steps, len(assembly.bricks)),
+        ASIDE: _aside(assembly.bricks, steps, pieces[order], assembly.catalogue),
     }
 
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ..core.building import Steps
 from ..core.errors import BuildError
-from ..core.model import Bricks, Catalogue, Role
+from ..core.model import Assembly, Bricks, Catalogue, Role
 from ..core.settings import Settings
 from ..core.units import PLATES_PER_BRICK, STUD
 from .assembly_columns import Columns, assembly_columns
@@ -49,6 +49,7 @@ from .section import Section, add_plane
 from .shared_parts import POINTS_KEY, leave_plane, sweep
 from .state import BUILD_KEY as BUILD_KEY
 from .state import state_of, write_state
+from .verdict import judged_rows
 
 if TYPE_CHECKING:
     from ..core.statics import Stability
@@ -148,7 +149,7 @@ def show_build(
         settings={} if settings is None else asdict(settings),
         notes=list(notes),
         **_table_facts(bricks, catalogue),
-        **figures(bricks, stability, steps, catalogue),
+        **figures(Assembly(bricks, catalogue), stability, steps),
     )
     remember(scene, hidden)
     show_sources(build, visible=False)
@@ -279,10 +280,10 @@ def _table_facts(bricks: Bricks, catalogue: Catalogue) -> dict[str, Any]:
 
 def _more(bricks: Bricks, stability: Stability | None, steps: Steps | None, catalogue: Catalogue) -> Columns:
     """Return what the points know beside the table of bricks."""
-    more = {} if steps is None else assembly_columns(bricks, steps, catalogue)
+    more = {} if steps is None else assembly_columns(Assembly(bricks, catalogue), steps)
     if stability is not None:
         margin = np.full(len(bricks), NO_MARGIN)
-        margin[: len(stability.margin)] = stability.margin
+        margin[judged_rows(stability, bricks)] = stability.margin
         more[MARGIN] = margin
     return more
 

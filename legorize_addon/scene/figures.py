@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.building import Steps
-from ..core.model import Bricks, Catalogue, Role
+from ..core.model import Assembly, Bricks, Role
 from ..core.units import PLATES_PER_BRICK
 from .brick_points import sizes
 from .verdict import check_of
@@ -16,21 +16,17 @@ if TYPE_CHECKING:
     from ..core.statics import Stability
 
 
-def figures(
-    bricks: Bricks, stability: Stability | None, steps: Steps | None, catalogue: Catalogue
-) -> dict[str, dict[str, Any]]:
+def figures(assembly: Assembly, stability: Stability | None, steps: Steps | None) -> dict[str, dict[str, Any]]:
     """Return what the panel says of a build.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         Model and supports, supports that are taken out at the end.
     stability : Stability, optional
         Of the model, or of all bricks.
     steps : Steps, optional
         The building order.
-    catalogue : Catalogue
-        Parts and colours.
 
     Returns
     -------
@@ -40,9 +36,9 @@ def figures(
         :func:`building_figures`, empty where nothing is known.
     """
     return {
-        "summary": summary(bricks, catalogue),
-        "check": {} if stability is None else check_of(stability, bricks.take(np.arange(len(stability.margin)))),
-        "building": {} if steps is None else building_figures(bricks, steps, catalogue),
+        "summary": summary(assembly),
+        "check": {} if stability is None else check_of(stability, assembly.bricks),
+        "building": {} if steps is None else building_figures(assembly, steps),
     }
 
 
@@ -51,8 +47,9 @@ def n_layers(bricks: Bricks) -> int:
     return int(bricks.corner[:, 2].max()) // PLATES_PER_BRICK + 1
 
 
-def summary(bricks: Bricks, catalogue: Catalogue) -> dict[str, int | float]:
+def summary(assembly: Assembly) -> dict[str, int | float]:
     """Return the figures of the finished model: bricks, parts, colours, size in studs, mass in grams."""
+    bricks, catalogue = assembly.bricks, assembly.catalogue
     finished = bricks.role != Role.SUPPORT_OUTSIDE
     bricks = bricks.take(finished) if finished.any() else bricks
     low = bricks.corner[:, :2]
@@ -68,17 +65,15 @@ def summary(bricks: Bricks, catalogue: Catalogue) -> dict[str, int | float]:
     }
 
 
-def building_figures(bricks: Bricks, steps: Steps, catalogue: Catalogue) -> dict[str, int | float]:
+def building_figures(assembly: Assembly, steps: Steps) -> dict[str, int | float]:
     """Return the figures of the supports and of the building.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         Model and supports.
     steps : Steps
         How they are built.
-    catalogue : Catalogue
-        Parts and colours.
 
     Returns
     -------
@@ -86,11 +81,11 @@ def building_figures(bricks: Bricks, steps: Steps, catalogue: Catalogue) -> dict
         ``removed`` and ``removed_mass``, the bricks of supports that are taken
         out and their grams; ``kept``, those that stay; ``pieces``; ``steps``.
     """
-    outside = bricks.role == Role.SUPPORT_OUTSIDE
+    outside = assembly.bricks.role == Role.SUPPORT_OUTSIDE
     return {
         "removed": int(outside.sum()),
-        "removed_mass": float(catalogue.mass[bricks.part[outside]].sum()),
-        "kept": int(np.isin(bricks.role, (Role.SUPPORT_INSIDE, Role.SUPPORT_KEPT)).sum()),
-        "pieces": len(np.unique(bricks.piece)),
+        "removed_mass": float(assembly.catalogue.mass[assembly.bricks.part[outside]].sum()),
+        "kept": int(np.isin(assembly.bricks.role, (Role.SUPPORT_INSIDE, Role.SUPPORT_KEPT)).sum()),
+        "pieces": len(np.unique(assembly.bricks.piece)),
         "steps": len(steps),
     }

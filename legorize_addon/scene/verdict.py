@@ -7,13 +7,21 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from ..core.model import Bricks, Verdict, load_catalogue
+from ..core.arrays import Ints
+from ..core.model import Assembly, Bricks, Role, Verdict, load_catalogue
 
 if TYPE_CHECKING:
     from ..core.statics import Stability
 
 ICONS: Final = {"stable": "CHECKMARK", "collapses": "CANCEL", "undecided": "QUESTION"}
 UNCHECKED: Final = "Not checked: legorize the object again to find out whether the model stands."
+
+
+def judged_rows(stability: Stability, bricks: Bricks) -> Ints:
+    """Return the rows of the bricks that a proof is about: all, or those that are not taken out again."""
+    if len(stability.margin) == len(bricks):
+        return np.arange(len(bricks))
+    return np.flatnonzero(bricks.role != Role.SUPPORT_OUTSIDE)
 
 
 def check_of(stability: Stability, bricks: Bricks) -> dict[str, Any]:
@@ -24,7 +32,7 @@ def check_of(stability: Stability, bricks: Bricks) -> dict[str, Any]:
     stability : Stability
         Verdict and margins.
     bricks : Bricks
-        The same bricks, n rows.
+        These bricks, maybe with supports that are taken out again.
 
     Returns
     -------
@@ -36,15 +44,16 @@ def check_of(stability: Stability, bricks: Bricks) -> dict[str, Any]:
     """
     from ..core.report import brick_name, layer_of
 
-    standing = np.setdiff1d(np.arange(len(bricks)), stability.unsupported)
+    rows = judged_rows(stability, bricks)
+    standing = np.setdiff1d(np.arange(len(rows)), stability.unsupported)
     weakest = int(standing[stability.margin[standing].argmin()])
-    left = float(stability.margin[weakest])
+    left, weakest = float(stability.margin[weakest]), int(rows[weakest])
     return {
         "verdict": stability.verdict.value,
-        "sentence": _sentence(stability, bricks, left),
+        "sentence": _sentence(stability, bricks.take(rows), left),
         "floating": len(stability.unsupported),
         "weakest": weakest,
-        "name": brick_name(bricks, weakest, load_catalogue()),
+        "name": brick_name(Assembly(bricks, load_catalogue()), weakest),
         "layer": layer_of(bricks, weakest),
         "left": left,
     }
@@ -90,7 +99,7 @@ def _how(stability: Stability, bricks: Bricks) -> str:
     from ..core.report import brick_name, layer_of
 
     first = int(stability.torn[0].max())
-    return f"first at the {brick_name(bricks, first, load_catalogue())} in layer {layer_of(bricks, first)}"
+    return f"first at the {brick_name(Assembly(bricks, load_catalogue()), first)} in layer {layer_of(bricks, first)}"
 
 
 def _left(margin: float) -> str:

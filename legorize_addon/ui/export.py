@@ -10,7 +10,7 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..core.errors import BuildError
-from ..core.model import Role, load_catalogue
+from ..core.model import Assembly, Role, load_catalogue
 from ..render import AZIMUTH, render_still
 from ..scene import read_bricks
 from .build import OnBuild
@@ -41,7 +41,7 @@ class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
 
         path, bricks = chosen_path(self), read_bricks(build)
         finished = bricks.take(bricks.role != Role.SUPPORT_OUTSIDE)
-        write_whole(path, write_ldr(finished, load_catalogue(), name=path.name, title=build.name))
+        write_whole(path, write_ldr(Assembly(finished, load_catalogue()), name=path.name, title=build.name))
         self.report({"INFO"}, f"Wrote {path}.")
         return {"FINISHED"}
 
@@ -68,7 +68,7 @@ class LEGORIZE_OT_export_mpd(OnBuild, bpy.types.Operator, ExportHelper):
 
         path = chosen_path(self)
         name = path.with_suffix(".ldr").name
-        write_whole(path, write_mpd(read_bricks(build), load_catalogue(), name=name, title=build.name))
+        write_whole(path, write_mpd(Assembly(read_bricks(build), load_catalogue()), name=name, title=build.name))
         self.report({"INFO"}, f"Wrote {path}.")
         return {"FINISHED"}
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from legorize_addon.core.files.build_order_csv import build_order_csv
 from legorize_addon.core.files.ldraw import write_ldr
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
 from legorize_addon.core.pipeline import legorize
@@ -55,7 +56,7 @@ def _row(name: str, mesh: TriangleMesh, width: int, most: int) -> Row:
     total = time.process_time() - start
     supports = build.supports
     faults, left = follow(
-        build_order_csv(supports.steps, supports.bricks, catalogue, by_hand=supports.by_hand), catalogue
+        build_order_csv(supports.steps, Assembly(supports.bricks, catalogue), by_hand=supports.by_hand), catalogue
     )
     removed = supports.removed
     return {
@@ -89,5 +90,5 @@ def _row(name: str, mesh: TriangleMesh, width: int, most: int) -> Row:
 
 def _lines(bricks: Bricks, catalogue: Catalogue) -> Counter[str]:
     """Return the lines of the model's own file."""
-    text = write_ldr(bricks, catalogue, name="model.ldr", title="model")
+    text = write_ldr(Assembly(bricks, catalogue), name="model.ldr", title="model")
     return Counter(line for line in text.splitlines() if line.startswith("1 "))

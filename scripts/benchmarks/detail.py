@@ -11,6 +11,7 @@ import numpy as np
 
 from legorize_addon.core.build import Build
 from legorize_addon.core.files.ldraw import write_ldr
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
@@ -84,7 +85,7 @@ def _judged(builds: Mapping[str, Build], judge: Path, path: Path, width: int, fo
     found = {}
     for way, build in builds.items():
         bricks = folder / f"{path.stem}-{width}-{way}.ldr"
-        text = write_ldr(build.bricks, load_catalogue(), name=bricks.name, title=bricks.stem)
+        text = write_ldr(Assembly(build.bricks, load_catalogue()), name=bricks.name, title=bricks.stem)
         bricks.write_text(text, encoding="utf-8", newline="")
         said = judged(judge, path, bricks, width, bricks.with_suffix(".json"))
         found[way] = {

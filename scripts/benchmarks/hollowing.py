@@ -16,6 +16,7 @@ from legorize_addon.core.build import Build
 from legorize_addon.core.files.shopping import count_parts, masses
 from legorize_addon.core.geometry.neighbourhoods import outer_air
 from legorize_addon.core.layout.lay import FILLER, lay
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill, UnitGrid
@@ -103,7 +104,7 @@ def _cells(build: Build) -> Row:
 
 def _saved(build: Build, fixed: Bricks, catalogue: Catalogue) -> Row:
     facts = report(build, catalogue, version="", mm_per_unit=1.0)
-    mass = float(masses(count_parts(fixed, catalogue), catalogue).sum())
+    mass = float(masses(count_parts(Assembly(fixed, catalogue)), catalogue).sum())
     fewer, lighter = 1 - len(build.bricks) / len(fixed), 1 - facts["mass_g"] / mass
     return {
         "hollow_ratio": facts["hollow_ratio"],

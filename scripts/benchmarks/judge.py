@@ -19,6 +19,7 @@ from typing import Any, Final
 from legorize_addon.core.errors import BuildError
 from legorize_addon.core.files.ldraw import write_ldr
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, repair
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
@@ -90,7 +91,7 @@ def found_bricks(folder: Path, name: str) -> Path:
 def _written(mesh: TriangleMesh, bricks: Path, width: int) -> Path:
     """Legorize a mesh with the core alone, into a file."""
     build = legorize(mesh, Settings(width=width))
-    text = write_ldr(build.bricks, load_catalogue(), name=bricks.name, title=bricks.stem)
+    text = write_ldr(Assembly(build.bricks, load_catalogue()), name=bricks.name, title=bricks.stem)
     bricks.write_text(text, encoding="utf-8", newline="")
     return bricks
 

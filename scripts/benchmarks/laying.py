@@ -8,6 +8,7 @@ import numpy as np
 
 from legorize_addon.core.files.shopping import count_parts, not_made
 from legorize_addon.core.layout.problem.problem import owners, with_margins
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import Catalogue
 from legorize_addon.core.model.contacts import ContactGraph, contact_graph
@@ -91,7 +92,7 @@ def faults(shell: UnitGrid, bricks: Bricks, links: ContactGraph, catalogue: Cata
     built = owners(links, solid.shape) != NOBODY
     required = with_margins(shell.cover == Fill.REQUIRED, False)
     _, wrong = colours_lost(with_colour_where_built(shell), bricks, links)
-    pairs = int(not_made(count_parts(bricks, catalogue), catalogue).count.sum())
+    pairs = int(not_made(count_parts(Assembly(bricks, catalogue)), catalogue).count.sum())
     return links.collisions + int((required & ~built).sum()) + int((built & ~solid).sum()) + wrong + pairs
 
 

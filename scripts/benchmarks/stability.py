@@ -10,9 +10,9 @@ from typing import Final
 import numpy as np
 from scipy.optimize import linprog
 
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
@@ -74,22 +74,22 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int], repeats: int, progr
 def judged(bricks: Bricks, *, repeats: int, programme: int) -> Row:
     """Return verdicts, proof and times of one model."""
     catalogue = load_catalogue()
-    links = contact_graph(bricks, catalogue)
-    found = stability(bricks, catalogue, links)
-    [taken] = least_seconds(lambda: stability(bricks, catalogue, links), repeats=repeats)
+    assembly = Assembly(bricks, catalogue)
+    found = stability(assembly)
+    [taken] = least_seconds(lambda: stability(Assembly(bricks, catalogue)), repeats=repeats)
     limit = next((limit for count, limit in LIMITS if len(bricks) <= count), None)
     highs = None
     if len(bricks) <= programme:
-        highs = seconds(lambda: solved(statics(bricks, catalogue, links)))
+        highs = seconds(lambda: solved(statics(assembly)))
     faster = None if highs is None else highs / taken
     return {
         "bricks": len(bricks),
         "floating": len(found.unsupported),
         "verdict": found.verdict.value,
         "standing": found.standing.value,
-        "cautious": stability(bricks, catalogue, links, clutch=CAUTIOUS_HOLD).standing.value,
+        "cautious": stability(Assembly(bricks, catalogue), clutch=CAUTIOUS_HOLD).standing.value,
         "check_met": found.check(),
-        "worst_margin": float(found.margin[links.grounded].min()),
+        "worst_margin": float(found.margin[assembly.graph.grounded].min()),
         "failing": int(np.count_nonzero(found.margin < 0)),
         "tipping_mm": float(np.nanmin(found.tipping)),
         "residual": found.residual,
@@ -114,8 +114,7 @@ def case_row(case: Case) -> Row:
     """Return the article's verdict on a case and ours."""
     catalogue = load_catalogue()
     bricks, loads = case.bricks(catalogue), case.loads(catalogue)
-    links = contact_graph(bricks, catalogue)
-    found = stability(bricks, catalogue, links, ground=Ground.BASEPLATE, loads=loads)
+    found = stability(Assembly(bricks, catalogue), ground=Ground.BASEPLATE, loads=loads)
     expected = Verdict.STABLE if case.stands else Verdict.COLLAPSES
     return {
         "case": case.name,
@@ -134,9 +133,9 @@ def stair_row(levels: int) -> Row:
     """Return the verdicts on a stair."""
     catalogue = load_catalogue()
     bricks = placed(stair(levels), catalogue)
-    links = contact_graph(bricks, catalogue)
     verdicts = [
-        stability(bricks, catalogue, links, ground=Ground.BASEPLATE, clutch=clutch) for clutch in (HOLD, CAUTIOUS_HOLD)
+        stability(Assembly(bricks, catalogue), ground=Ground.BASEPLATE, clutch=clutch)
+        for clutch in (HOLD, CAUTIOUS_HOLD)
     ]
     return {
         "levels": levels,

@@ -16,6 +16,7 @@ from typing import Final
 import numpy as np
 
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
 from legorize_addon.core.pipeline import legorize
@@ -117,7 +118,7 @@ def supported(name: str, mesh: TriangleMesh, *, width: int, repeats: int, catalo
     Supported
     """
     build = legorize(mesh, Settings(width=width, supports="tree"))
-    need = support_demand(build.bricks, catalogue, build.graph, deepest=build.settings.hanging)
+    need = support_demand(Assembly(build.bricks, catalogue), deepest=build.settings.hanging)
     ways = _ways(need, catalogue)
     taken = least_seconds(*ways.values(), repeats=repeats)
     made = {way: (_white(make(), catalogue), s) for (way, make), s in zip(ways.items(), taken, strict=True)}

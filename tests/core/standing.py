@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.statics.forces import GRAVITY, statics
 from legorize_addon.core.statics.stability import stability
 from scripts.benchmarks.stablelego import placed
@@ -20,12 +20,12 @@ def table(*rows):
 
 def equations(bricks, **options):
     """Return the balance of bricks."""
-    return statics(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), **options)
+    return statics(Assembly(bricks, CATALOGUE), **options)
 
 
 def judged(bricks, **options):
     """Return whether bricks stand."""
-    return stability(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), **options)
+    return stability(Assembly(bricks, CATALOGUE), **options)
 
 
 def weight(*numbers):

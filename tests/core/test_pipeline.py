@@ -30,7 +30,10 @@ STAGES = [
     "overhangs",
     "hollowing",
     "layout",
+    "ties",
     "stability",
+    "bracing",
+    "pieces",
     "supports",
 ]
 """The stages in the order of the paper."""

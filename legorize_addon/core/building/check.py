@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Ints, Mask
-from ..model import NOBODY, Bricks, Catalogue, Rows, components, contact_graph, stacked, stud_columns
+from ..model import NOBODY, Assembly, Bricks, Catalogue, Rows, components, contact_graph, stacked, stud_columns
 from ..progress import Progress, silent
 from .contacts import BuildingContacts
 from .moves import Action
@@ -73,8 +73,7 @@ class Walk:
 
 def walk(
     steps: Steps,
-    bricks: Bricks,
-    catalogue: Catalogue,
+    assembly: Assembly,
     contacts: BuildingContacts,
     *,
     temporary: Mask,
@@ -86,9 +85,8 @@ def walk(
     ----------
     steps : Steps
         The order.
-    bricks : Bricks
+    assembly : Assembly
         Model and supports, n rows.
-    catalogue : Catalogue
     contacts : BuildingContacts
         Contacts of these bricks.
     temporary : (n,) bool array
@@ -101,7 +99,7 @@ def walk(
     Walk
     """
     moves = steps.moves
-    site = _Walked(steps, bricks, catalogue, contacts)
+    site = _Walked(steps, assembly.bricks, assembly.catalogue, contacts)
     for action, run in groupby(range(len(moves)), key=moves.action.tolist().__getitem__):
         rows = list(run)
         if action == Action.REMOVE:

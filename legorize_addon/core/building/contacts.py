@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Ints, Mask
-from ..model import Bricks, Catalogue, ContactGraph, Rows, contact_graph
+from ..model import Assembly, Bricks, Catalogue, ContactGraph, Rows, contact_graph
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,15 +29,14 @@ class BuildingContacts:
     collisions: int
 
 
-def building_contacts(bricks: Bricks, catalogue: Catalogue, *, temporary: Mask) -> BuildingContacts:
+def building_contacts(assembly: Assembly, *, temporary: Mask) -> BuildingContacts:
     """Find the contacts of a model in pieces, each with its supports.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         Model and supports, n rows. The supports of a piece above 0 may lie in
         cells of other pieces, which they never meet.
-    catalogue : Catalogue
     temporary : (n,) bool array
         Bricks of supports.
 
@@ -46,12 +45,12 @@ def building_contacts(bricks: Bricks, catalogue: Catalogue, *, temporary: Mask) 
     BuildingContacts
     """
     stays = np.flatnonzero(~temporary)
-    found = [_among(bricks, catalogue, stays, np.ones(len(stays), dtype=bool))]
-    for number in np.unique(bricks.piece[temporary]).tolist():
+    found = [_among(assembly.bricks, assembly.catalogue, stays, np.ones(len(stays), dtype=bool))]
+    for number in np.unique(assembly.bricks.piece[temporary]).tolist():
         # those of the first piece are still there when the others are joined
-        with_it = ~temporary if number == 0 else ~temporary & (bricks.piece == number)
-        rows = np.flatnonzero(with_it | (temporary & (bricks.piece == number)))
-        found.append(_among(bricks, catalogue, rows, temporary[rows]))
+        with_it = ~temporary if number == 0 else ~temporary & (assembly.bricks.piece == number)
+        rows = np.flatnonzero(with_it | (temporary & (assembly.bricks.piece == number)))
+        found.append(_among(assembly.bricks, assembly.catalogue, rows, temporary[rows]))
     return BuildingContacts(
         pairs=np.concatenate([each.pairs for each in found]),
         studs=np.concatenate([each.studs for each in found]),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Ints
-from ..model import Bricks, Catalogue, Verdict, contact_graph
+from ..model import Assembly, Verdict
 from ..progress import Progress, silent
 from ..statics import stability
 from .moves import Action
@@ -38,9 +38,7 @@ class Proof:
         return len(self.collapsing) == len(self.undecided) == 0
 
 
-def prove_steps(
-    steps: Steps, bricks: Bricks, catalogue: Catalogue, *, clutch: float, progress: Progress = silent
-) -> Proof:
+def prove_steps(steps: Steps, assembly: Assembly, *, clutch: float, progress: Progress = silent) -> Proof:
     """Test the bricks in place after every step by forces.
 
     Each submodel is tested on its own table; what others have built there is not
@@ -50,9 +48,8 @@ def prove_steps(
     ----------
     steps : Steps
         The order.
-    bricks : Bricks
+    assembly : Assembly
         Model and supports.
-    catalogue : Catalogue
     clutch : float
         Pull in N that one contact point bears.
     progress : Progress
@@ -62,16 +59,15 @@ def prove_steps(
     -------
     Proof
     """
-    assembly = steps.submodel_of(len(bricks))
-    placed = np.zeros(len(bricks), dtype=bool)
+    group = steps.submodel_of(len(assembly))
+    placed = np.zeros(len(assembly.bricks), dtype=bool)
     verdicts, numbers = [], []
     for step in steps:
         progress("proof", step.number / len(steps))
         placed[step.bricks] = step.action != Action.REMOVE
         for each in step.joined:
-            assembly[assembly == each] = step.submodel
-        there = bricks.take(placed & (assembly == step.submodel))
-        found = stability(there, catalogue, contact_graph(there, catalogue), clutch=clutch)
+            group[group == each] = step.submodel
+        found = stability(assembly.take(placed & (group == step.submodel)), clutch=clutch)
         verdicts.append(found.verdict)
         numbers.append(step.number)
     tested = np.array(numbers, dtype=np.int64)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..geometry import beyond, corners, hull
-from ..model import Bricks, Catalogue, Rows, middles, stud_columns
+from ..model import Assembly, Bricks, Catalogue, Rows, middles, stud_columns
 from ..progress import Progress, silent
 from .moves import Action
 from .steps import MAIN, Steps
@@ -59,8 +59,7 @@ def no_prop(_: Tipping) -> None:
 
 def tipping(
     steps: Steps,
-    bricks: Bricks,
-    catalogue: Catalogue,
+    assembly: Assembly,
     pairs: Rows,
     *,
     table: int = MAIN,
@@ -73,9 +72,8 @@ def tipping(
     ----------
     steps : Steps
         How all is built.
-    bricks : Bricks
+    assembly : Assembly
         Model and supports, n rows.
-    catalogue : Catalogue
     pairs : (n_pairs, 2) int32 array
         Lower and upper brick of each contact.
     table : int
@@ -93,7 +91,7 @@ def tipping(
         Of each tower that falls the first time, by step. A tower that grows
         together with one that falls is not named again.
     """
-    towers = _Towers(bricks, catalogue, pairs, steps.floor(table, bricks))
+    towers = _Towers(assembly.bricks, assembly.catalogue, pairs, steps.floor(table, assembly.bricks))
     found = []
     changed: set[int] = set()
     arrivals = list(_arrivals(steps, table))

@@ -8,23 +8,22 @@ import numpy as np
 
 from ..arrays import Mask
 from ..building import Action, Steps
-from ..model import Bricks, Catalogue, Role
+from ..model import Assembly, Role
 from ..safe_text import csv_text
 from .ldraw import brick_lines
 
 COLUMNS: Final = ("step", "action", "piece", "role", "ldraw", "pressed", "by_hand", "assembly", "onto")
 
 
-def build_order_csv(steps: Steps, bricks: Bricks, catalogue: Catalogue, *, by_hand: Mask) -> str:
+def build_order_csv(steps: Steps, assembly: Assembly, *, by_hand: Mask) -> str:
     """Write the moves of a model down, one a row.
 
     Parameters
     ----------
     steps : Steps
         The order.
-    bricks : Bricks
+    assembly : Assembly
         Model and supports that its rows mean.
-    catalogue : Catalogue
     by_hand : (n_moves,) bool array
         Moves at which something has to be held by hand.
 
@@ -41,8 +40,8 @@ def build_order_csv(steps: Steps, bricks: Bricks, catalogue: Catalogue, *, by_ha
         finished model.
     """
     moves = steps.moves
-    lines = brick_lines(bricks, catalogue)
-    roles = [Role(role).name.lower() for role in bricks.role.tolist()]
+    lines = brick_lines(assembly)
+    roles = [Role(role).name.lower() for role in assembly.bricks.role.tolist()]
     rows = []
     columns = (moves.step + 1, moves.action, moves.piece, moves.brick, moves.pressed, by_hand, moves.submodel)
     for step, action, piece, row, *told, number in zip(*(np.asarray(each).tolist() for each in columns), strict=True):

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Floats
 from ..errors import BuildError
-from ..model import MISSING_CELL, Bricks, Catalogue, Part, Role
+from ..model import MISSING_CELL, Assembly, Bricks, Catalogue, Part, Role
 from ..safe_text import one_line, title_line
 from ..units import LDU_PER_MM, PLATE_LDU, STUD_LDU
 
@@ -37,15 +37,13 @@ SNAP: Final = 0.01
 LINE_END: Final = "\r\n"
 
 
-def write_ldr(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) -> str:
+def write_ldr(assembly: Assembly, *, name: str, title: str) -> str:
     """Write bricks as one LDraw model.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The bricks, in any order.
-    catalogue : Catalogue
-        What their part rows mean.
     name : str
         File name, "model.ldr".
     title : str
@@ -59,7 +57,7 @@ def write_ldr(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) ->
         reduced by the part's own symmetry; ``0 !LEGORIZE`` lines keep role and
         piece.
     """
-    return LINE_END.join([*header(name, title), *body(bricks, catalogue), ""])
+    return LINE_END.join([*header(name, title), *body(assembly), ""])
 
 
 def ldraw_matrix(origin: Floats, scale: float, mm_per_unit: float) -> Floats:
@@ -133,15 +131,13 @@ def header(name: str, title: str) -> list[str]:
     return [f"0 {title_line(title)}", f"0 Name: {one_line(name)}", "0 Author: Legorize"]
 
 
-def brick_lines(bricks: Bricks, catalogue: Catalogue) -> list[str]:
+def brick_lines(assembly: Assembly) -> list[str]:
     """Return the line of each brick, row by row: colour, place, rotation, part.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The bricks.
-    catalogue : Catalogue
-        What their part rows mean.
 
     Returns
     -------
@@ -149,21 +145,31 @@ def brick_lines(bricks: Bricks, catalogue: Catalogue) -> list[str]:
         Lines of type 1, without line ends; turns are reduced by the part's own
         symmetry.
     """
-    turn, origin = _places(bricks, catalogue)
-    table = np.column_stack([bricks.part, bricks.colour, turn, origin]).tolist()
+    turn, origin = _places(assembly.bricks, assembly.catalogue)
+    table = np.column_stack([assembly.bricks.part, assembly.bricks.colour, turn, origin]).tolist()
     return [
-        f"1 {colour} {x} {y} {z} {MATRICES[quarter]} {catalogue.parts[part].number}.dat"
+        f"1 {colour} {x} {y} {z} {MATRICES[quarter]} {assembly.catalogue.parts[part].number}.dat"
         for part, colour, quarter, x, y, z in table
     ]
 
 
-def body(bricks: Bricks, catalogue: Catalogue) -> Iterator[str]:
+def body(assembly: Assembly) -> Iterator[str]:
     """Yield the lines of bricks step by step, with roles, pieces and ends of steps between."""
-    turn, _ = _places(bricks, catalogue)
-    lines = brick_lines(bricks, catalogue)
-    order = np.lexsort((bricks.colour, turn, bricks.part, *bricks.corner.T, bricks.role, bricks.piece, bricks.step))
-    table = np.column_stack([order, bricks.role[order], bricks.piece[order]])
-    step_ends = np.diff(bricks.step[order], append=-1) != 0
+    turn, _ = _places(assembly.bricks, assembly.catalogue)
+    lines = brick_lines(assembly)
+    order = np.lexsort(
+        (
+            assembly.bricks.colour,
+            turn,
+            assembly.bricks.part,
+            *assembly.bricks.corner.T,
+            assembly.bricks.role,
+            assembly.bricks.piece,
+            assembly.bricks.step,
+        )
+    )
+    table = np.column_stack([order, assembly.bricks.role[order], assembly.bricks.piece[order]])
+    step_ends = np.diff(assembly.bricks.step[order], append=-1) != 0
     kind = None
     for (row, role, piece), ends in zip(table.tolist(), step_ends.tolist(), strict=True):
         if kind != (role, piece):

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import Bricks, Catalogue, Role
+from ..model import Assembly, Bricks, Role
 from ..safe_text import one_line
 from .ldraw import LINE_END, MAIN_COLOUR, MATRICES, body, header
 
@@ -21,7 +21,7 @@ _REMOVED: Final = "support-outside"
 _SUPPORTS: Final = (Role.SUPPORT_OUTSIDE, Role.SUPPORT_INSIDE)
 
 
-def write_mpd(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) -> str:
+def write_mpd(assembly: Assembly, *, name: str, title: str) -> str:
     """Write bricks as a multi-part document in assembly order.
 
     The supports of a piece come before the piece, pieces by their number, each
@@ -32,9 +32,8 @@ def write_mpd(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) ->
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The model and its supports, in any order.
-    catalogue : Catalogue
     name : str
         Name of the main model, "model.ldr"; "model-" is put before one that a
         sub-model has.
@@ -46,15 +45,15 @@ def write_mpd(bricks: Bricks, catalogue: Catalogue, *, name: str, title: str) ->
     str
         The text with CRLF line ends.
     """
-    groups = _groups(bricks)
+    groups = _groups(assembly.bricks)
     name = _main_name(name, groups)
     if len(groups) <= 1:
-        return LINE_END.join([f"0 FILE {name}", *header(name, title), *body(bricks, catalogue), "0 NOFILE", ""])
+        return LINE_END.join([f"0 FILE {name}", *header(name, title), *body(assembly), "0 NOFILE", ""])
     aside = [group for group in groups if group.startswith(_REMOVED) and group != f"{_REMOVED}-0"]
     lines = [f"0 FILE {name}", *header(name, title), *_calls(group for group in groups if group not in aside)]
     for group, rows in groups.items():
         lines += _file(group, title)
-        lines += body(bricks.take(rows), catalogue)
+        lines += body(assembly.take(rows))
     for removed in aside:
         piece = removed.removeprefix(_REMOVED)
         lines += _file(f"on-table{piece}", title)

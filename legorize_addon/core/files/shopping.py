@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats, Mask
-from ..model import Bricks, Catalogue, Colour, Part
+from ..model import Assembly, Catalogue, Colour, Part
 from ..safe_text import csv_text
 
 
@@ -51,15 +51,13 @@ class PartsList:
         return [(catalogue.parts[part], catalogue.colours[colour], count) for part, colour, count in rows]
 
 
-def count_parts(bricks: Bricks, catalogue: Catalogue) -> PartsList:
+def count_parts(assembly: Assembly) -> PartsList:
     """Count the bricks of each part in each colour.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         What is to be bought.
-    catalogue : Catalogue
-        Its parts and colours.
 
     Returns
     -------
@@ -71,11 +69,11 @@ def count_parts(bricks: Bricks, catalogue: Catalogue) -> PartsList:
     BuildError
         A brick has a colour that is not in the catalogue.
     """
-    codes, column = np.unique(bricks.colour, return_inverse=True)
-    colours = np.array([catalogue.colour_row(int(code)) for code in codes], np.int64)
-    pairs = bricks.part.astype(np.int64) * len(catalogue.colours) + colours[column]
+    codes, column = np.unique(assembly.bricks.colour, return_inverse=True)
+    colours = np.array([assembly.catalogue.colour_row(int(code)) for code in codes], np.int64)
+    pairs = assembly.bricks.part.astype(np.int64) * len(assembly.catalogue.colours) + colours[column]
     pair, count = np.unique(pairs, return_counts=True)
-    part, colour = np.divmod(pair, len(catalogue.colours))
+    part, colour = np.divmod(pair, len(assembly.catalogue.colours))
     return PartsList(part, colour, count.astype(np.int64))
 
 

@@ -12,11 +12,13 @@ from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, grou
 from .verdict import UNSUPPORTED, Verdict
 
 if TYPE_CHECKING:
+    from .assembly import Assembly
     from .contacts import ContactGraph, Rows, components, contact_graph, middles, stacked, stud_columns
 else:
     # the graphs of scipy
     __getattr__ = on_demand(
         __name__,
+        assembly=("Assembly",),
         contacts=("ContactGraph", "Rows", "components", "contact_graph", "middles", "stacked", "stud_columns"),
     )
 
@@ -29,6 +31,7 @@ __all__ = [
     "NOBODY",
     "SUPPORTS",
     "UNSUPPORTED",
+    "Assembly",
     "Bricks",
     "Catalogue",
     "Colour",

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from ..building import Proof
-from ..model import Catalogue, Role
+from ..model import Role
 from ..supports import SAVING, AssemblyPlan
 from .remarks import brick_name, count_of, layer_of
 
@@ -16,15 +16,13 @@ SHOWN: Final = 5
 """Steps that a sentence names."""
 
 
-def remarks_on_building(supports: AssemblyPlan, catalogue: Catalogue) -> tuple[str, ...]:
+def remarks_on_building(supports: AssemblyPlan) -> tuple[str, ...]:
     """Name what a builder has to know of the supports, and what cannot be built.
 
     Parameters
     ----------
     supports : AssemblyPlan
         The model with its supports and its order.
-    catalogue : Catalogue
-        Whose parts and colours the bricks are.
 
     Returns
     -------
@@ -32,7 +30,7 @@ def remarks_on_building(supports: AssemblyPlan, catalogue: Catalogue) -> tuple[s
         A sentence each; empty if every brick finds hold, every support comes
         out, and nothing has to stay or to be held.
     """
-    return (*_staying(supports), *_by_hand(supports), *_faults(supports, catalogue))
+    return (*_staying(supports), *_by_hand(supports), *_faults(supports))
 
 
 def remarks_on_split(supports: AssemblyPlan, *, most: int) -> tuple[str, ...]:
@@ -87,7 +85,7 @@ def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
 
 def _staying(supports: AssemblyPlan) -> Iterator[str]:
     """Count the supports that are never taken out."""
-    outside = int(np.count_nonzero(supports.stays.role == Role.SUPPORT_KEPT))
+    outside = int(np.count_nonzero(supports.final.bricks.role == Role.SUPPORT_KEPT))
     inside = sum(len(piece.pillars) for piece in supports.pieces)
     for number, where in (
         (outside, "in the model, under parts of it that would fall without them"),
@@ -110,7 +108,7 @@ def _by_hand(supports: AssemblyPlan) -> Iterator[str]:
         yield f"{towers} to be held by hand on the way, the first in step {supports.unsteady[0].step + 1}."
 
 
-def _faults(supports: AssemblyPlan, catalogue: Catalogue) -> Iterator[str]:
+def _faults(supports: AssemblyPlan) -> Iterator[str]:
     """Name what the check of the order found."""
     found = supports.walk
     for rows, what in (
@@ -124,7 +122,7 @@ def _faults(supports: AssemblyPlan, catalogue: Catalogue) -> Iterator[str]:
             first = int(rows[0])
             yield (
                 f"The building order has {count_of(len(rows), 'brick', 'bricks')} {what}; the first is the "
-                f"{brick_name(supports.bricks, first, catalogue)} in layer {layer_of(supports.bricks, first)}."
+                f"{brick_name(supports.assembly, first)} in layer {layer_of(supports.bricks, first)}."
             )
     if loose := len(found.loose_pieces):
         pieces = count_of(loose, "piece that finds", "pieces that find")

@@ -18,7 +18,7 @@ from ..files import (
     write_ldr,
     write_mpd,
 )
-from ..model import Catalogue
+from ..model import Assembly, Catalogue
 from .paper_tables import paper_tables
 
 
@@ -29,10 +29,10 @@ def output_texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], titl
     Lists of supports are there only if there are supports to buy, and a list
     that a shop reads only if it has something in it.
     """
-    parts, supports = (count_parts(bricks, catalogue) for bricks in (build.bricks, build.supports.removed))
+    parts, supports = (count_parts(Assembly(bricks, catalogue)) for bricks in (build.bricks, build.supports.removed))
     return {
-        "model.ldr": write_ldr(build.bricks, catalogue, name="model.ldr", title=title),
-        "model.mpd": write_mpd(build.supports.bricks, catalogue, name="model.ldr", title=title),
+        "model.ldr": write_ldr(Assembly(build.bricks, catalogue), name="model.ldr", title=title),
+        "model.mpd": write_mpd(Assembly(build.supports.bricks, catalogue), name="model.ldr", title=title),
         "build_order.csv": _order(build, catalogue),
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
         **_lists("", parts, catalogue),
@@ -43,7 +43,7 @@ def output_texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], titl
 
 def _order(build: Build, catalogue: Catalogue) -> str:
     supports = build.supports
-    return build_order_csv(supports.steps, supports.bricks, catalogue, by_hand=supports.by_hand)
+    return build_order_csv(supports.steps, Assembly(supports.bricks, catalogue), by_hand=supports.by_hand)
 
 
 def _lists(prefix: str, parts: PartsList, catalogue: Catalogue) -> dict[str, str]:

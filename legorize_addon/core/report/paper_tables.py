@@ -16,7 +16,7 @@ import numpy as np
 from ..arrays import Floats
 from ..build import Build
 from ..files import count_parts
-from ..model import SUPPORTS, Bricks, Catalogue, concatenate, footprint
+from ..model import SUPPORTS, Assembly, Bricks, Catalogue, concatenate, footprint
 from ..safe_text import csv_text, one_line
 from .report import hollow_ratio
 
@@ -44,7 +44,7 @@ def paper_tables(build: Build, catalogue: Catalogue, *, name: str) -> dict[str, 
     """
     support = np.isin(build.bricks.role, SUPPORTS)
     supports = concatenate([build.bricks.take(support), build.supports.removed])
-    seconds = sum(build.timings.get(stage, 0.0) for stage in ("layout", "stability"))
+    seconds = sum(build.timings.get(stage, 0.0) for stage in ("layout", "ties", "stability", "bracing"))
     ways = " ".join(dict.fromkeys(piece.plan.way for piece in build.supports.pieces))
     return {
         "table_1.csv": _volumes(build.bricks.take(~support), catalogue),
@@ -70,7 +70,7 @@ def paper_tables(build: Build, catalogue: Catalogue, *, name: str) -> dict[str, 
 
 def _volumes(bricks: Bricks, catalogue: Catalogue) -> str:
     """Return the number of each part in each colour, and its share of the volume in percent."""
-    parts = count_parts(bricks, catalogue)
+    parts = count_parts(Assembly(bricks, catalogue))
     volume = _volume(catalogue)[parts.part] * parts.count
     percent = 100 * volume / max(volume.sum(), 1)
     rows = [

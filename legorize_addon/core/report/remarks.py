@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..arrays import Ints
-from ..model import NOBODY, Bricks, Catalogue, Verdict
+from ..model import NOBODY, Assembly, Bricks, Verdict
 from ..units import PLATES_PER_BRICK
 from .separation import reasons
 
@@ -17,17 +17,15 @@ if TYPE_CHECKING:
     from ..statics import Stability
 
 
-def remarks(bricks: Bricks, found: Stability, catalogue: Catalogue) -> tuple[str, ...]:
+def remarks(assembly: Assembly, found: Stability) -> tuple[str, ...]:
     """Name what does not hold or stand, with the reason.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The model.
     found : Stability
         Whether they stand.
-    catalogue : Catalogue
-        Whose parts and colours the bricks are.
 
     Returns
     -------
@@ -36,34 +34,32 @@ def remarks(bricks: Bricks, found: Stability, catalogue: Catalogue) -> tuple[str
         over, what tears, what is not decided. Empty if the model stands in one
         piece.
     """
-    why = _why(bricks, catalogue) if len(np.unique(found.component)) > 1 else ""
-    sentences = [*_hanging(bricks, found, why), *_apart(found, why)]
+    why = _why(assembly) if len(np.unique(found.component)) > 1 else ""
+    sentences = [*_hanging(assembly.bricks, found, why), *_apart(found, why)]
     if found.standing is Verdict.COLLAPSES:
-        sentences += _reasons(bricks, found, catalogue)
+        sentences += _reasons(assembly, found)
     if found.standing is Verdict.UNDECIDED:
-        sentences.append(_undecided(bricks, found, catalogue))
+        sentences.append(_undecided(assembly, found))
     return tuple(sentences)
 
 
-def brick_name(bricks: Bricks, row: int, catalogue: Catalogue) -> str:
+def brick_name(assembly: Assembly, row: int) -> str:
     """Return what people see of a brick: colour and part.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The model.
     row : int
         The brick.
-    catalogue : Catalogue
-        Whose parts and colours the bricks are.
 
     Returns
     -------
     str
         As "Red Brick 2 x 4".
     """
-    colour = catalogue.colours[catalogue.colour_row(int(bricks.colour[row]))]
-    return f"{colour.name} {catalogue.parts[bricks.part[row]].title}"
+    colour = assembly.catalogue.colours[assembly.catalogue.colour_row(int(assembly.bricks.colour[row]))]
+    return f"{colour.name} {assembly.catalogue.parts[assembly.bricks.part[row]].title}"
 
 
 def layer_of(bricks: Bricks, row: int) -> int:
@@ -71,20 +67,20 @@ def layer_of(bricks: Bricks, row: int) -> int:
     return int(bricks.corner[row, 2]) // PLATES_PER_BRICK + 1
 
 
-def _reasons(bricks: Bricks, found: Stability, catalogue: Catalogue) -> list[str]:
+def _reasons(assembly: Assembly, found: Stability) -> list[str]:
     """Return why what stands on the ground collapses: a sentence a body that tips over, and one on joints."""
-    sentences = list(_tipping(bricks, found, catalogue))
+    sentences = list(_tipping(assembly, found))
     if len(found.torn):
-        sentences.append(_torn(bricks, found.torn, catalogue))
+        sentences.append(_torn(assembly, found.torn))
     return sentences or ["The model collapses under its own weight: make it thicker where the heat map is red."]
 
 
-def _why(bricks: Bricks, catalogue: Catalogue) -> str:
+def _why(assembly: Assembly) -> str:
     """Return why the components are not one."""
     # what this imports takes long to load, and the names above are asked for without it
     from ..model import contact_graph
 
-    links = contact_graph(bricks, catalogue)
+    links = contact_graph(assembly.bricks, assembly.catalogue)
     return reasons(links.owner, links.component)
 
 
@@ -110,38 +106,38 @@ def _apart(found: Stability, why: str) -> Iterator[str]:
         )
 
 
-def _tipping(bricks: Bricks, found: Stability, catalogue: Catalogue) -> Iterator[str]:
+def _tipping(assembly: Assembly, found: Stability) -> Iterator[str]:
     """Name each body whose weight meets the ground outside of its feet."""
     several = np.count_nonzero(~np.isnan(found.tipping)) > 1
     for body in np.flatnonzero(found.tipping < 0):
         rows = np.flatnonzero(found.component == body)
-        feet = rows[bricks.corner[rows, 2] == bricks.corner[rows, 2].min()]
+        feet = rows[assembly.bricks.corner[rows, 2] == assembly.bricks.corner[rows, 2].min()]
         what = f"The piece of {count_of(len(rows), 'brick', 'bricks')}" if several else "The model"
-        on = f"{len(feet)} bricks" if len(feet) > 1 else f"one {brick_name(bricks, int(feet[0]), catalogue)}"
+        on = f"{len(feet)} bricks" if len(feet) > 1 else f"one {brick_name(assembly, int(feet[0]))}"
         yield (
             f"{what} tips over: it stands on {on}, and its centre of mass lies {-found.tipping[body]:.1f} mm outside "
             "of these feet; make them wider, turn the mesh, or put it on a base."
         )
 
 
-def _torn(bricks: Bricks, torn: Ints, catalogue: Catalogue) -> str:
+def _torn(assembly: Assembly, torn: Ints) -> str:
     """Name the joint that opens widest, and count the others."""
     lower, upper = (int(row) for row in torn[0])
-    below = "the ground" if lower == NOBODY else f"the {brick_name(bricks, lower, catalogue)} below it"
+    below = "the ground" if lower == NOBODY else f"the {brick_name(assembly, lower)} below it"
     others = f", the first of {len(torn)} joints" if len(torn) > 1 else ""
     return (
-        f"The model collapses under its own weight: in layer {layer_of(bricks, upper)} the "
-        f"{brick_name(bricks, upper, catalogue)} tears off {below}{others}; make the model thicker there, or lighter "
+        f"The model collapses under its own weight: in layer {layer_of(assembly.bricks, upper)} the "
+        f"{brick_name(assembly, upper)} tears off {below}{others}; make the model thicker there, or lighter "
         "above."
     )
 
 
-def _undecided(bricks: Bricks, found: Stability, catalogue: Catalogue) -> str:
+def _undecided(assembly: Assembly, found: Stability) -> str:
     """Name the brick in doubt."""
     weakest = int(found.statics.rows[found.margin[found.statics.rows].argmin()])
     return (
         "Whether the model stands could not be decided: there is no proof that it does, and none that it collapses; in "
-        f"doubt is first the {brick_name(bricks, weakest, catalogue)} in layer {layer_of(bricks, weakest)}; try the "
+        f"doubt is first the {brick_name(assembly, weakest)} in layer {layer_of(assembly.bricks, weakest)}; try the "
         "exact layout, or make the model thicker there."
     )
 

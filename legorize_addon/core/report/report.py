@@ -13,7 +13,7 @@ from ..building import Kind
 from ..errors import enough_memory
 from ..files import PartsList, count_parts, ldraw_matrix, masses, not_made, pick_a_brick_csv
 from ..measures import corner_windings, lower_bound, pass_through_types
-from ..model import NOBODY, SUPPORTS, Catalogue, ContactGraph, Fill, Role, UnitGrid, brick_columns
+from ..model import NOBODY, SUPPORTS, Assembly, Catalogue, ContactGraph, Fill, Role, UnitGrid, brick_columns
 from ..progress import Progress, silent
 from ..shell import free_bodies, tally_cases
 from ..slicing import cut_at_grid
@@ -72,7 +72,7 @@ def report(
     BuildError
         A brick has a colour that is not in the catalogue.
     """
-    parts = count_parts(build.bricks, catalogue)
+    parts = count_parts(Assembly(build.bricks, catalogue))
     levels, supports = _levels(build), build.supports
     _, no_element = pick_a_brick_csv(parts, catalogue)
     return {
@@ -251,7 +251,7 @@ def _stability(build: Build, catalogue: Catalogue) -> dict[str, Any]:
     return {
         "verdict": found.verdict.value,
         "stable": found.stable,
-        "reasons": list(remarks(build.bricks, found, catalogue)),
+        "reasons": list(remarks(Assembly(build.bricks, catalogue), found)),
         "components": build.graph.n_components,
         "worst_margin": round(float(found.margin.min(initial=1.0)), 4),
         "failing": int((found.margin < 0).sum()),
@@ -293,7 +293,7 @@ def _building(build: Build) -> dict[str, Any]:
 
 def _supports(supports: AssemblyPlan, catalogue: Catalogue) -> dict[str, Any]:
     """Return the figures of the supports: those that are taken out, and those that stay."""
-    removed, stays = supports.removed, supports.stays
+    removed, stays = supports.removed, supports.final.bricks
     return {
         "ways": [piece.plan.way for piece in supports.pieces],
         "removed": len(removed),

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from ..arrays import Floats, Ints, Mask
-from ..model import NOBODY, Bricks, Catalogue, ContactGraph, Rows, middles, stud_columns
+from ..model import NOBODY, Assembly, Bricks, Catalogue, ContactGraph, Rows, middles, stud_columns
 from ..units import PLATE, STUD
 
 GRAVITY: Final = 9.81
@@ -112,9 +112,7 @@ class Statics:
 
 
 def statics(
-    bricks: Bricks,
-    catalogue: Catalogue,
-    graph: ContactGraph,
+    assembly: Assembly,
     *,
     clutch: float = HOLD,
     ground: Ground = Ground.TABLE,
@@ -124,10 +122,8 @@ def statics(
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The model. Its lowest plate is the ground.
-    catalogue : Catalogue
-        Whose parts the bricks are.
     graph : ContactGraph
         Cells and components of the bricks.
     clutch : float
@@ -142,19 +138,19 @@ def statics(
     Statics
         The equations. Bricks that float are not in them.
     """
-    squares = stud_columns(bricks, catalogue)
-    middle, rows = _centres(bricks, catalogue), np.flatnonzero(graph.grounded)
-    narrow = np.array([part.width < 2 for part in catalogue.parts])[bricks.part]
+    squares = stud_columns(assembly.bricks, assembly.catalogue)
+    middle, rows = _centres(assembly.bricks, assembly.catalogue), np.flatnonzero(assembly.graph.grounded)
+    narrow = np.array([part.width < 2 for part in assembly.catalogue.parts])[assembly.bricks.part]
     standing = squares[1][:, 2] == squares[1][:, 2].min(initial=np.iinfo(np.int32).max)
     feet = squares[0][standing], squares[1][standing]
     contacts = _joined(
-        *_studs(bricks, graph, *squares, narrow, clutch),
-        *_sides(graph),
+        *_studs(assembly.bricks, assembly.graph, *squares, narrow, clutch),
+        *_sides(assembly.graph),
         *(_table(*feet) if ground is Ground.TABLE else _baseplate(*feet, narrow, clutch)),
     )
-    contacts = _among(contacts, rows, len(bricks))
-    weight = np.zeros((len(bricks), EQUATIONS))
-    weight[:, 2] = -GRAVITY * catalogue.mass[bricks.part] / 1000
+    contacts = _among(contacts, rows, len(assembly.bricks))
+    weight = np.zeros((len(assembly.bricks), EQUATIONS))
+    weight[:, 2] = -GRAVITY * assembly.catalogue.mass[assembly.bricks.part] / 1000
     if loads is not None:
         weight[:, :3] += loads
     return Statics(_matrix(contacts, middle[rows]), weight[rows].reshape(-1), contacts, rows, middle[rows], clutch)

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..model import NOBODY, Bricks, Catalogue, ContactGraph
+from ..model import NOBODY, Assembly, ContactGraph
 from ..model import UNSUPPORTED as UNSUPPORTED
 from ..model import Verdict as Verdict
 from ..native import one_thread
@@ -125,9 +125,7 @@ class Stability:
 
 @one_thread()
 def stability(
-    bricks: Bricks,
-    catalogue: Catalogue,
-    graph: ContactGraph,
+    assembly: Assembly,
     *,
     clutch: float = HOLD,
     ground: Ground = Ground.TABLE,
@@ -141,10 +139,8 @@ def stability(
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The model.
-    catalogue : Catalogue
-        Whose parts the bricks are.
     graph : ContactGraph
         Cells and components of the bricks.
     clutch : float
@@ -170,27 +166,27 @@ def stability(
         Verdict, proof and margins.
     """
     progress("stability", 0.0)
-    equations = statics(bricks, catalogue, graph, clutch=clutch, ground=ground, loads=loads)
+    equations = statics(assembly, clutch=clutch, ground=ground, loads=loads)
     found = balance(equations, aims=aims, start=start, progress=progress)
     if not found.found and not found.collapse:
-        found = _toppled(equations, found, graph)
+        found = _toppled(equations, found, assembly.graph)
     if programme and not found.found and not found.collapse:
         progress("stability", 1.0)
         found = _programmed(equations, found, programme)
-    yielding = np.zeros((len(bricks), EQUATIONS))
+    yielding = np.zeros((len(assembly.bricks), EQUATIONS))
     if found.motion.any():
         yielding[equations.rows] = found.motion.reshape(-1, EQUATIONS) / np.abs(found.motion).max()
     return Stability(
-        component=graph.component.astype(np.int64),
-        margin=_margins(equations, found.forces, len(bricks)),
+        component=assembly.graph.component.astype(np.int64),
+        margin=_margins(equations, found.forces, len(assembly.bricks)),
         standing=_verdict(equations, found),
-        unsupported=np.flatnonzero(~graph.grounded),
+        unsupported=np.flatnonzero(~assembly.graph.grounded),
         forces=found.forces,
         yielding=yielding,
         torn=torn_by(equations, yielding if found.collapse else np.zeros_like(yielding)),
         residual=float(np.abs(residual(equations, found.forces)).max(initial=0)),
         iterations=found.turns,
-        tipping=tipping(equations, graph),
+        tipping=tipping(equations, assembly.graph),
         statics=equations,
     )
 

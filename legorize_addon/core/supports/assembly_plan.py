@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Final, Literal
@@ -22,7 +23,7 @@ from ..building import (
     tipping,
     walk,
 )
-from ..model import Bricks, Catalogue, Role, concatenate, contact_graph
+from ..model import Assembly, Bricks, Role, concatenate
 from ..progress import Progress, part, silent
 from ..statics import HOLD
 from .clearance import Clearance, clearance_around
@@ -66,7 +67,7 @@ class AssemblyPlan:
 
     Attributes
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The model with all that stays in it, then the supports that are taken out.
     contacts : BuildingContacts
         What touches what while it is built.
@@ -80,12 +81,17 @@ class AssemblyPlan:
         Towers that have to be held by hand while they grow, by step.
     """
 
-    bricks: Bricks
+    assembly: Assembly
     contacts: BuildingContacts
     pieces: tuple[Piece, ...]
     steps: Steps
     walk: Walk
     unsteady: tuple[Tipping, ...]
+
+    @property
+    def bricks(self) -> Bricks:
+        """The bricks of the model and its supports."""
+        return self.assembly.bricks
 
     @property
     def moves(self) -> Moves:
@@ -99,9 +105,9 @@ class AssemblyPlan:
         return taken
 
     @property
-    def stays(self) -> Bricks:
+    def final(self) -> Assembly:
         """The model that is there in the end, each brick with the step in which it is placed."""
-        return self.bricks.take(~self.temporary)
+        return self.assembly.take(~self.temporary)
 
     @property
     def removed(self) -> Bricks:
@@ -140,8 +146,7 @@ class AssemblyPlan:
 
 
 def plan_assembly(
-    bricks: Bricks,
-    catalogue: Catalogue,
+    assembly: Assembly,
     *,
     wish: Wish = "best",
     deepest: int,
@@ -152,9 +157,8 @@ def plan_assembly(
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The model. Its pieces stand on the table each by itself.
-    catalogue : Catalogue
     wish : {"best", "tree", "columns", "beams", "none"}
         Kind of the supports that are taken out again; "best" is for each piece
         the lightest of those that fail least, beams only where they are low;
@@ -169,32 +173,32 @@ def plan_assembly(
     -------
     AssemblyPlan
     """
-    numbers = np.unique(bricks.piece).tolist()
+    numbers = np.unique(assembly.bricks.piece).tolist()
     pieces = []
     for turn, number in enumerate(numbers):
         here = part(progress, 0.8 * turn / len(numbers), 0.8 * (turn + 1) / len(numbers))
         here("supports", 0.0)
         # supports of the first piece are still there when the others are joined to it
-        room = clearance_around(contact_graph(bricks, catalogue)) if number == 0 and len(numbers) > 1 else None
-        pieces.append(
-            _piece(bricks, np.flatnonzero(bricks.piece == number), catalogue, room, wish, deepest, clutch, here)
-        )
+        room = clearance_around(assembly.graph) if number == 0 and len(numbers) > 1 else None
+        rows = np.flatnonzero(assembly.bricks.piece == number)
+        pieces.append(_piece(assembly, rows, room, wish, deepest, partial(plan_supports, clutch=clutch, progress=here)))
     pillars = [_numbered(piece.pillars, number) for piece, number in zip(pieces, numbers, strict=True)]
     added = [_numbered(piece.plan.supports, number) for piece, number in zip(pieces, numbers, strict=True)]
-    everything = concatenate([bricks, *pillars, *added])
+    everything = concatenate([assembly.bricks, *pillars, *added])
     temporary = everything.role == Role.SUPPORT_OUTSIDE
-    contacts = building_contacts(everything, catalogue, temporary=temporary)
-    steps = plan_steps(everything, catalogue, contacts.pairs, temporary=temporary, progress=part(progress, 0.8, 0.9))
-    everything = replace(everything, step=steps.moves.step_of(len(everything)))
-    found = walk(steps, everything, catalogue, contacts, temporary=temporary, progress=part(progress, 0.9, 1.0))
-    unsteady = _unsteady(steps, everything, catalogue, contacts)
-    return AssemblyPlan(everything, contacts, tuple(pieces), steps, found, unsteady)
+    catalogue, ordering = assembly.catalogue, part(progress, 0.8, 0.9)
+    contacts = building_contacts(Assembly(everything, catalogue), temporary=temporary)
+    steps = plan_steps(everything, catalogue, contacts.pairs, temporary=temporary, progress=ordering)
+    planned = Assembly(replace(everything, step=steps.moves.step_of(len(everything))), catalogue)
+    found = walk(steps, planned, contacts, temporary=temporary, progress=part(progress, 0.9, 1.0))
+    unsteady = _unsteady(steps, planned, contacts)
+    return AssemblyPlan(planned, contacts, tuple(pieces), steps, found, unsteady)
 
 
-def _unsteady(steps: Steps, bricks: Bricks, catalogue: Catalogue, contacts: BuildingContacts) -> tuple[Tipping, ...]:
+def _unsteady(steps: Steps, assembly: Assembly, contacts: BuildingContacts) -> tuple[Tipping, ...]:
     """Return the towers that fall over on the tables of the model and its pieces, by step."""
     tables = [each.number for each in steps.submodels if each.kind != Kind.SUBASSEMBLY]
-    found = [tower for table in tables for tower in tipping(steps, bricks, catalogue, contacts.pairs, table=table)]
+    found = [tower for table in tables for tower in tipping(steps, assembly, contacts.pairs, table=table)]
     return tuple(sorted(found, key=lambda tower: tower.step))
 
 
@@ -209,24 +213,20 @@ def _numbered(bricks: Bricks, number: int) -> Bricks:
 
 
 def _piece(
-    model: Bricks,
+    model: Assembly,
     rows: Ints,
-    catalogue: Catalogue,
     room: Clearance | None,
     wish: Wish,
     deepest: int,
-    clutch: float,
-    progress: Progress,
+    plan: Callable[..., Plan],
 ) -> Piece:
     """Support one piece."""
-    bricks = _numbered(model.take(rows), 0)
-    graph = contact_graph(bricks, catalogue)
-    need = support_demand(bricks, catalogue, graph, deepest=deepest, room=room)
-    plan = partial(plan_supports, clutch=clutch, progress=progress)
+    piece = Assembly(_numbered(model.bricks.take(rows), 0), model.catalogue)
+    need = support_demand(piece, deepest=deepest, room=room)
     if wish == "none":
-        return Piece(rows, bricks.take(rows[:0]), need, plan(bricks, catalogue, need, ways=()))
+        return Piece(rows, piece.bricks.take(rows[:0]), need, plan(piece, need, ways=()))
     if len(need.enclosed):
-        bricks, graph = add_inner_pillars(bricks, catalogue, graph, need.enclosed)
-        need = support_demand(bricks, catalogue, graph, deepest=deepest, room=room)
-    found = plan(bricks, catalogue, need, ways=_worth_trying(need) if wish == "best" else (wish,))
-    return Piece(rows, bricks.take(np.arange(len(rows), len(bricks))), need, found)
+        piece = add_inner_pillars(piece, need.enclosed)
+        need = support_demand(piece, deepest=deepest, room=room)
+    found = plan(piece, need, ways=_worth_trying(need) if wish == "best" else (wish,))
+    return Piece(rows, piece.bricks.take(np.arange(len(rows), len(piece))), need, found)

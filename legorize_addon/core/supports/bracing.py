@@ -19,18 +19,16 @@ from ..arrays import Floats, Ints
 from ..geometry import corners, inside
 from ..model import (
     NOBODY,
+    Assembly,
     Bricks,
-    Catalogue,
     ContactGraph,
     Verdict,
     components,
-    concatenate,
-    contact_graph,
     stud_columns,
 )
 from ..progress import Progress, silent
 from ..statics import AIMS, Aim, Stability, Statics, stability, torn_by
-from .pillars import Places, centre_of_mass, kept_pillar, places_below
+from .pillars import Places, kept_pillar, places_below
 
 ROUNDS: Final = 8
 """Times that pillars are added before a model is given up."""
@@ -61,28 +59,23 @@ PATIENCE: Final = 60
 STEADY: Final = 1.0
 """Studs that the weight of what tips over shall come to lie inside of its feet."""
 
-Propped = tuple[Bricks, ContactGraph, Stability]
-"""Bricks with pillars behind them, their connection, and how they stand."""
+Propped = tuple[Assembly, Stability]
+"""Bricks with pillars behind them, and how they stand."""
 
 
 def add_bracing(
-    bricks: Bricks,
-    catalogue: Catalogue,
-    graph: ContactGraph,
+    assembly: Assembly,
     found: Stability,
     *,
     clutch: float,
     progress: Progress = silent,
-) -> tuple[Bricks, ContactGraph, Stability]:
+) -> tuple[Assembly, Stability]:
     """Put pillars under what falls, if it is proven to stand with them.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         A model in which nothing floats.
-    catalogue : Catalogue
-    graph : ContactGraph
-        Of these bricks.
     found : Stability
         How they stand.
     clutch : float
@@ -92,55 +85,50 @@ def add_bracing(
 
     Returns
     -------
-    bricks : Bricks
+    assembly : Assembly
         All that came in, in their order, and then the pillars, ``SUPPORT_KEPT``;
         as they came where no pillars are found with which the model stands.
-    graph : ContactGraph
-        Of those.
     found : Stability
         How they stand.
     """
-    tested = partial(_tested, bricks, catalogue=catalogue, clutch=clutch, progress=progress)
+    tested = partial(_tested, assembly, clutch=clutch, progress=progress)
     pillars: list[Bricks] = []
-    propped = bricks, graph, found
-    for turn in range(min(ROUNDS, WORK // max(len(bricks), 1))):
-        if propped[2].standing is Verdict.STABLE:
+    propped = assembly, found
+    for turn in range(min(ROUNDS, WORK // max(len(assembly), 1))):
+        if propped[1].standing is Verdict.STABLE:
             break
-        places = _chosen(*propped, catalogue, fast=FAST / SOONER**turn)
+        places = _chosen(*propped, fast=FAST / SOONER**turn)
         if not len(places):
             break
-        pillars += [kept_pillar(propped[0], propped[1], catalogue, places, number) for number in range(len(places))]
+        pillars += [kept_pillar(propped[0], places, number) for number in range(len(places))]
         propped = tested(pillars)
-    if not propped[2].stable:
-        return bricks, graph, found
+    if not propped[1].stable:
+        return assembly, found
     return _with_fewer(propped, pillars, tested)
 
 
 def _tested(
-    bricks: Bricks,
+    assembly: Assembly,
     pillars: Sequence[Bricks],
     *,
-    catalogue: Catalogue,
     clutch: float,
     progress: Progress,
     aims: tuple[Aim, ...] = AIMS,
     start: Floats | None = None,
 ) -> Propped:
     """Return bricks with pillars behind them, and how they stand."""
-    more = concatenate([bricks, *pillars])
-    graph = contact_graph(more, catalogue)
-    found = stability(more, catalogue, graph, clutch=clutch, aims=aims, start=start, programme=0, progress=progress)
-    return more, graph, found
+    more = assembly.with_more(pillars)
+    return more, stability(more, clutch=clutch, aims=aims, start=start, programme=0, progress=progress)
 
 
 def _with_fewer(propped: Propped, pillars: Sequence[Bricks], tested: Callable[..., Propped]) -> Propped:
     """Leave out what bears least: half of the pillars, and ever fewer of them where the model would not stand."""
-    aims = (AIMS[-1]._replace(turns=PATIENCE + propped[2].iterations),)
+    aims = (AIMS[-1]._replace(turns=PATIENCE + propped[1].iterations),)
     n_bricks = len(propped[0])
     share, needed = len(pillars) // 2, np.zeros(len(pillars), dtype=bool)
     for number in range(min(max(SPARING, SPARED // n_bricks), WORK // n_bricks)):
         pillar = _pillar_of(propped, pillars)
-        order = np.lexsort((_loads(propped[2], pillar, len(pillars)), needed))
+        order = np.lexsort((_loads(propped[1], pillar, len(pillars)), needed))
         share = min(share, int(np.count_nonzero(~needed)))
         if not share or (needed.any() and number * n_bricks > SPARED):
             break
@@ -148,9 +136,9 @@ def _with_fewer(propped: Propped, pillars: Sequence[Bricks], tested: Callable[..
         left[order[:share]] = False
         fewer = [each for each, stays in zip(pillars, left, strict=False) if stays]
         # with the pillars left out, the forces of the proof are nearly in balance
-        near = propped[2].forces[left[pillar].all(axis=0)]
+        near = propped[1].forces[left[pillar].all(axis=0)]
         without = tested(fewer, aims=aims, start=near)
-        if without[2].stable:
+        if without[1].stable:
             propped, pillars, needed = without, fewer, needed[left[:-1]]
             share = min(share, len(fewer) // 2)
         elif share == 1:
@@ -162,7 +150,7 @@ def _with_fewer(propped: Propped, pillars: Sequence[Bricks], tested: Callable[..
 
 def _pillar_of(propped: Propped, pillars: Sequence[Bricks]) -> Ints:
     """Return in which pillar the two bricks of each contact lie, (2, k); behind the last for bricks of the model."""
-    bricks, _, found = propped
+    bricks, found = propped
     lengths = [len(each) for each in pillars]
     pillar = np.full(len(bricks) + 1, len(pillars))
     pillar[len(bricks) - sum(lengths) : -1] = np.repeat(np.arange(len(pillars)), lengths)
@@ -179,15 +167,15 @@ def _loads(found: Stability, pillar: Ints, n_pillars: int) -> Floats:
     return np.bincount(by, upward, n_pillars + 1)[:-1]
 
 
-def _chosen(bricks: Bricks, graph: ContactGraph, found: Stability, catalogue: Catalogue, *, fast: float) -> Places:
+def _chosen(assembly: Assembly, found: Stability, *, fast: float) -> Places:
     """Return where pillars go next: under each piece that tips over, or else under each part that sinks."""
     tipping = np.flatnonzero(found.tipping < 0).tolist()
-    under = places_below(bricks, catalogue, graph, np.abs(found.yielding).max(axis=1) > MOVING)
+    under = places_below(assembly, np.abs(found.yielding).max(axis=1) > MOVING)
     if tipping:
-        chosen = [place for body in tipping for place in _steadying(bricks, graph, catalogue, body, under)]
+        chosen = [place for body in tipping for place in _steadying(assembly, body, under)]
         return under.take(np.array(chosen, dtype=np.int64))
-    sinking = _sinking(graph, found.statics, found.yielding, under)
-    part = _parts(graph, found)[under.brick]
+    sinking = _sinking(assembly.graph, found.statics, found.yielding, under)
+    part = _parts(assembly.graph, found)[under.brick]
     fastest: list[int] = []
     for number in np.unique(part[sinking > fast * sinking.max(initial=MOVING)]):
         rows = np.flatnonzero(part == number)
@@ -196,14 +184,14 @@ def _chosen(bricks: Bricks, graph: ContactGraph, found: Stability, catalogue: Ca
     return under.take(_apart(under, np.array(fastest, dtype=np.int64)))
 
 
-def _steadying(bricks: Bricks, graph: ContactGraph, catalogue: Catalogue, body: int, under: Places) -> Iterator[int]:
+def _steadying(assembly: Assembly, body: int, under: Places) -> Iterator[int]:
     """Yield places at which pillars to the ground keep a piece that tips over upright, one after the other."""
-    mine = graph.component == body
-    brick, columns = stud_columns(bricks, catalogue)
-    feet = columns[mine[brick] & (columns[:, 2] == bricks.corner[:, 2].min()), :2] - graph.low[:2]
+    mine = assembly.graph.component == body
+    brick, columns = stud_columns(assembly.bricks, assembly.catalogue)
+    feet = columns[mine[brick] & (columns[:, 2] == assembly.bricks.corner[:, 2].min()), :2] - assembly.graph.low[:2]
     squares = [(int(x), int(y)) for x, y in feet]
     below = list(zip(under.x.tolist(), under.y.tolist(), strict=True))
-    middle = centre_of_mass(bricks.take(mine), catalogue) - graph.low[:2]
+    middle = assembly.take(mine).centre_of_mass - assembly.graph.low[:2]
     left = np.flatnonzero(mine[under.brick] & ~under.on_brick)
     steady = inside(corners(squares), middle)
     while steady < STEADY and len(left):

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints
-from ..model import Bricks, Catalogue, ContactGraph, Rows, middles, stud_columns
+from ..model import Assembly, Rows, middles, stud_columns
 from ..statics import GRAVITY
 from .clearance import Clearance, clearance_around
 from .hanging import NOT_HELD, Hanging
@@ -72,18 +72,13 @@ class Demand:
         return np.flatnonzero(self.depth == NOT_HELD)
 
 
-def support_demand(
-    bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, *, deepest: int, room: Clearance | None = None
-) -> Demand:
+def support_demand(assembly: Assembly, *, deepest: int, room: Clearance | None = None) -> Demand:
     """Find the bricks that need a support, and contacts that carry them.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         One piece, n rows, which stands on its lowest plate.
-    catalogue : Catalogue
-    graph : ContactGraph
-        Of these bricks.
     deepest : int
         Plates that bricks may hang one under another while building; 0 if each
         brick must lie on another one.
@@ -95,16 +90,16 @@ def support_demand(
     -------
     Demand
     """
-    height = np.array([part.height for part in catalogue.parts])[bricks.part]
-    carrying = Hanging(graph, height, deepest=deepest)
-    level = bricks.corner[:, 2]
+    height = np.array([part.height for part in assembly.catalogue.parts])[assembly.bricks.part]
+    carrying = Hanging(assembly.graph, height, deepest=deepest)
+    level = assembly.bricks.corner[:, 2]
     carrying.clutch(np.flatnonzero(level == level.min()).tolist())
     wanting = np.flatnonzero(carrying.depth == NOT_HELD)
-    room = clearance_around(graph) if room is None else room
-    brick, cells, enclosed = _undersides(bricks, catalogue, room)
-    chosen, load = _chosen(carrying, bricks, catalogue, graph, np.intersect1d(wanting, brick))
+    room = clearance_around(assembly.graph) if room is None else room
+    brick, cells, enclosed = _undersides(assembly, room)
+    chosen, load = _chosen(carrying, assembly, np.intersect1d(wanting, brick))
     # a stud in the middle tips a brick least
-    middle = middles(bricks, catalogue) - room.low[:2]
+    middle = middles(assembly.bricks, assembly.catalogue) - room.low[:2]
     off = np.abs(cells[:, :2] + 0.5 - middle[brick]).sum(axis=1)
     order = np.lexsort((off, brick))
     first = order[np.searchsorted(brick[order], chosen)]
@@ -124,14 +119,12 @@ def support_demand(
     )
 
 
-def _chosen(
-    carrying: Hanging, bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, candidates: Ints
-) -> tuple[Ints, Floats]:
+def _chosen(carrying: Hanging, assembly: Assembly, candidates: Ints) -> tuple[Ints, Floats]:
     """Choose bricks to carry, from the lowest; of one level, those held best from above, which part cleanly."""
-    studs_above = np.bincount(graph.pairs[:, 0], graph.studs, len(bricks))
-    mass = catalogue.mass[bricks.part]
+    studs_above = np.bincount(assembly.graph.pairs[:, 0], assembly.graph.studs, len(assembly.bricks))
+    mass = assembly.catalogue.mass[assembly.bricks.part]
     order = candidates[
-        np.lexsort((candidates, -mass[candidates], -studs_above[candidates], bricks.corner[candidates, 2]))
+        np.lexsort((candidates, -mass[candidates], -studs_above[candidates], assembly.bricks.corner[candidates, 2]))
     ]
     chosen, load = [], []
     for brick in order.tolist():
@@ -141,9 +134,9 @@ def _chosen(
     return np.array(chosen, dtype=np.int64), np.array(load, dtype=np.float64)
 
 
-def _undersides(bricks: Bricks, catalogue: Catalogue, room: Clearance) -> tuple[Ints, Rows, Ints]:
+def _undersides(assembly: Assembly, room: Clearance) -> tuple[Ints, Rows, Ints]:
     """List the cells over open room, with the rows of their bricks, and the bricks that look into closed hollows."""
-    brick, columns = stud_columns(bricks, catalogue)
+    brick, columns = stud_columns(assembly.bricks, assembly.catalogue)
     cells = columns - room.low
     raised = cells[:, 2] > 0
     brick, cells = brick[raised].astype(np.int64), cells[raised]

@@ -14,7 +14,15 @@ import numpy as np
 from ..arrays import Floats, Ints, Mask
 from ..building import STEADY
 from ..geometry import corners, inside
-from ..model import NOBODY, Bricks, Catalogue, ContactGraph, Role, concatenate, contact_graph, middles, stud_columns
+from ..model import (
+    NOBODY,
+    Assembly,
+    Bricks,
+    Catalogue,
+    ContactGraph,
+    Role,
+    stud_columns,
+)
 from ..units import PLATES_PER_BRICK
 from .boxes import INSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, merge_upwards
 
@@ -54,99 +62,82 @@ class Places:
         return Places(*(getattr(self, name)[rows] for name in self.__slots__))
 
 
-def add_pillars(bricks: Bricks, catalogue: Catalogue, graph: ContactGraph) -> tuple[Bricks, ContactGraph]:
+def add_pillars(assembly: Assembly) -> Assembly:
     """Put a pillar under each component that floats, in the colour of the brick on it: 1 x 1 parts are made in each.
 
     Parameters
     ----------
-    bricks : Bricks
-    catalogue : Catalogue
-    graph : ContactGraph
-        Of these bricks.
+    assembly : Assembly
 
     Returns
     -------
-    bricks : Bricks
-        All that came in, in their order, and then the pillars, ``SUPPORT_KEPT``.
-    graph : ContactGraph
-        Of those: nothing floats.
+    Assembly
+        All that came in, in their order, and then the pillars, ``SUPPORT_KEPT``:
+        nothing floats.
     """
-    while graph.n_floating:
-        floating = np.unique(graph.component[~graph.grounded])
+    while assembly.graph.n_floating:
+        graph = assembly.graph
         pillars = []
-        for number in floating.tolist():
-            boxes, carried = _under(bricks, catalogue, graph, graph.component == number)
-            pillars.append(_bricks(boxes, catalogue, int(bricks.colour[carried]), Role.SUPPORT_KEPT))
-        bricks = concatenate([bricks, *pillars])
-        graph = contact_graph(bricks, catalogue)
-    return bricks, graph
+        for number in np.unique(graph.component[~graph.grounded]).tolist():
+            boxes, carried = _under(assembly, graph.component == number)
+            colour = int(assembly.bricks.colour[carried])
+            pillars.append(_bricks(boxes, assembly.catalogue, colour, Role.SUPPORT_KEPT))
+        assembly = assembly.with_more(pillars)
+    return assembly
 
 
-def add_inner_pillars(
-    bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, rows: Ints
-) -> tuple[Bricks, ContactGraph]:
+def add_inner_pillars(assembly: Assembly, rows: Ints) -> Assembly:
     """Put a red pillar under each of the given bricks.
 
     Parameters
     ----------
-    bricks : Bricks
-    catalogue : Catalogue
-    graph : ContactGraph
-        Of these bricks.
+    assembly : Assembly
     rows : (k,) int64 array
         Bricks to carry, with free cells below them.
 
     Returns
     -------
-    bricks : Bricks
+    Assembly
         All that came in, in their order, and then the pillars, ``SUPPORT_INSIDE``.
-    graph : ContactGraph
-        Of those.
     """
     pillars = []
     for row in rows.tolist():
-        boxes, _ = _under(bricks, catalogue, graph, np.arange(len(bricks)) == row)
-        pillars.append(_bricks(boxes, catalogue, INSIDE_COLOUR, Role.SUPPORT_INSIDE))
-    if not pillars:
-        return bricks, graph
-    bricks = concatenate([bricks, *pillars])
-    return bricks, contact_graph(bricks, catalogue)
+        boxes, _ = _under(assembly, np.arange(len(assembly)) == row)
+        pillars.append(_bricks(boxes, assembly.catalogue, INSIDE_COLOUR, Role.SUPPORT_INSIDE))
+    return assembly.with_more(pillars)
 
 
 def _bricks(boxes: Boxes, catalogue: Catalogue, colour: int, role: Role) -> Bricks:
     return bricks_of_boxes(merge_upwards(boxes, catalogue, colour), catalogue, colour=colour, role=role)
 
 
-def _under(bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, mine: Mask) -> tuple[Boxes, int]:
+def _under(assembly: Assembly, mine: Mask) -> tuple[Boxes, int]:
     """Return pillars under some bricks that stand on another one or, upright, on the ground; and whom they carry.
 
     One pillar joins them to a brick below. On the ground they stand by themselves:
     pillars are added there until the middle of their weight lies over the feet.
     """
-    under = places_below(bricks, catalogue, graph, mine)
+    under = places_below(assembly, mine)
     # a pillar on the ground leaves its part beside the model, one on a brick joins the two
     first = int(np.lexsort((under.y, under.x, under.length + GROUND * ~under.on_brick))[0])
     chosen = [first]
     if not under.on_brick[first]:
         squares = np.column_stack([under.x, under.y])
-        middle = centre_of_mass(bricks.take(mine), catalogue) - graph.low[:2]
+        middle = assembly.take(mine).centre_of_mass - assembly.graph.low[:2]
         standing = np.flatnonzero(~under.on_brick)
         steady = [(_inside(squares[[*chosen, each]], middle), each) for each in standing.tolist()]
         while _inside(squares[chosen], middle) < STEADY and max(steady)[0] > _inside(squares[chosen], middle):
             chosen.append(max(steady)[1])
             steady = [(_inside(squares[[*chosen, each]], middle), each) for each in standing.tolist()]
-    return np.concatenate([_pillar(graph, under, each) for each in chosen]), int(under.brick[first])
+    return np.concatenate([_pillar(assembly.graph, under, each) for each in chosen]), int(under.brick[first])
 
 
-def places_below(bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, mine: Mask) -> Places:
+def places_below(assembly: Assembly, mine: Mask) -> Places:
     """List where pillars can stand under some bricks, but not on them.
 
     Parameters
     ----------
-    bricks : Bricks
-    catalogue : Catalogue
-    graph : ContactGraph
-        Of these bricks.
+    assembly : Assembly
     mine : (n,) bool array
         Which of them.
 
@@ -155,10 +146,10 @@ def places_below(bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, mine
     Places
         By brick.
     """
-    brick, columns = stud_columns(bricks, catalogue)
+    brick, columns = stud_columns(assembly.bricks, assembly.catalogue)
     own = mine[brick]
-    brick, cells = brick[own], columns[own] - graph.low
-    owner, ground = graph.owner, int(bricks.corner[:, 2].min()) - graph.low[2]
+    brick, cells = brick[own], columns[own] - assembly.graph.low
+    owner, ground = assembly.graph.owner, int(assembly.bricks.corner[:, 2].min()) - assembly.graph.low[2]
     found = []
     for row, (x, y, z) in zip(brick.tolist(), cells.tolist(), strict=True):
         below = np.flatnonzero(owner[:z, y, x] != NOBODY)
@@ -169,17 +160,10 @@ def places_below(bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, mine
     return Places(row, x, y, top, length, on_brick.astype(bool))
 
 
-def centre_of_mass(bricks: Bricks, catalogue: Catalogue) -> Floats:
-    """Return the middle of the weight of bricks, x and y in studs, (2,) float64."""
-    mass = catalogue.mass[bricks.part]
-    middle: Floats = mass @ middles(bricks, catalogue) / mass.sum()
-    return middle
-
-
-def kept_pillar(bricks: Bricks, graph: ContactGraph, catalogue: Catalogue, places: Places, number: int) -> Bricks:
+def kept_pillar(assembly: Assembly, places: Places, number: int) -> Bricks:
     """Return the pillar at one place, in the colour of the brick on it, ``SUPPORT_KEPT``."""
-    colour = int(bricks.colour[places.brick[number]])
-    return _bricks(_pillar(graph, places, number), catalogue, colour, Role.SUPPORT_KEPT)
+    colour = int(assembly.bricks.colour[places.brick[number]])
+    return _bricks(_pillar(assembly.graph, places, number), assembly.catalogue, colour, Role.SUPPORT_KEPT)
 
 
 def _inside(squares: Ints, middle: Floats) -> float:

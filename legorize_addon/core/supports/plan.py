@@ -15,7 +15,7 @@ import numpy as np
 from ..arrays import Floats, Ints, Mask
 from ..building import STEADY, Tipping, no_prop, plan_steps, tipping
 from ..geometry import corners, inside
-from ..model import Bricks, Catalogue, ContactGraph, Role, Rows, Verdict, concatenate, contact_graph
+from ..model import Assembly, Bricks, Catalogue, ContactGraph, Role, Rows, Verdict, concatenate, contact_graph
 from ..progress import Progress, part, silent
 from ..statics import stability
 from .beams import beams
@@ -86,8 +86,7 @@ class Plan:
 
 
 def plan_supports(
-    bricks: Bricks,
-    catalogue: Catalogue,
+    assembly: Assembly,
     need: Demand,
     *,
     ways: Sequence[Way],
@@ -98,9 +97,8 @@ def plan_supports(
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The piece, with the pillars that stay in it.
-    catalogue : Catalogue
     need : Demand
         Of these bricks.
     ways : sequence of {"tree", "columns", "beams"}
@@ -122,15 +120,15 @@ def plan_supports(
         trying = part(progress, turn / len(ways), (turn + 1) / len(ways))
         trying("supports", 0.0)
         # contacts are added, never taken away: what is too heavy to begin with stays so
-        first = _laid(contacts, need, catalogue, way)
+        first = _laid(contacts, need, assembly.catalogue, way)
         if best is not None and (
-            not len(contacts.cells) or _worth(best, catalogue) <= (False, _mass(first, catalogue))
+            not len(contacts.cells) or _worth(best, assembly.catalogue) <= (False, _mass(first, assembly.catalogue))
         ):
             continue
-        found = _settled(bricks, catalogue, need, contacts, way, clutch, trying)
-        if best is None or _worth(found, catalogue) < _worth(best, catalogue):
+        found = _settled(assembly, need, contacts, way, clutch, trying)
+        if best is None or _worth(found, assembly.catalogue) < _worth(best, assembly.catalogue):
             best = found
-    return _bare(bricks, need, contacts, catalogue, progress) if best is None else best
+    return _bare(assembly, need, contacts, progress) if best is None else best
 
 
 def _worth(plan: Plan, catalogue: Catalogue) -> tuple[bool, float]:
@@ -143,8 +141,7 @@ def _mass(bricks: Bricks, catalogue: Catalogue) -> float:
 
 
 def _settled(
-    bricks: Bricks,
-    catalogue: Catalogue,
+    assembly: Assembly,
     need: Demand,
     contacts: SupportContacts,
     way: Way,
@@ -154,16 +151,17 @@ def _settled(
     """Add contacts and straighten branches until all stands and bears, or nothing more helps."""
     for left in reversed(range(ROUNDS)):
         trying = part(progress, 1 - (left + 1) / ROUNDS, 1 - left / ROUNDS)
-        supports = _laid(contacts, need, catalogue, way)
+        supports = _laid(contacts, need, assembly.catalogue, way)
         # what the last round finds is not laid any more
-        falling, braces = _falling(bricks, supports, contacts, need, catalogue, add=left > 0, progress=trying)
+        falling, braces = _falling(assembly, supports, contacts, need, add=left > 0, progress=trying)
         giving, bears = np.zeros(len(contacts.cells), dtype=bool), True
         if way != "columns" and len(contacts.cells):
-            giving, bears = _giving(contacts, supports, need, catalogue, clutch, trying)
+            giving, bears = _giving(contacts, supports, need, assembly.catalogue, clutch, trying)
         better = contacts
         if way == "tree":
-            leaning = [tower.bricks - len(bricks) for tower in falling if tower.bricks[0] >= len(bricks)]
-            crooked = giving | _resting_on(contacts, supports, need, catalogue, leaning)
+            n = len(assembly)
+            leaning = [tower.bricks - n for tower in falling if tower.bricks[0] >= n]
+            crooked = giving | _resting_on(contacts, supports, need, assembly.catalogue, leaning)
             if (crooked & ~contacts.straight).any():
                 better = replace(contacts, straight=contacts.straight | crooked)
         if braces:
@@ -174,29 +172,28 @@ def _settled(
     return Plan(way, supports, contacts, tuple(falling), bears)
 
 
-def _bare(bricks: Bricks, need: Demand, contacts: SupportContacts, catalogue: Catalogue, progress: Progress) -> Plan:
+def _bare(assembly: Assembly, need: Demand, contacts: SupportContacts, progress: Progress) -> Plan:
     """Return the plan that puts nothing under a piece."""
-    nothing = bricks.take(np.zeros(0, dtype=np.int64))
+    nothing = assembly.bricks.take(np.zeros(0, dtype=np.int64))
     none = SupportContacts(contacts.cells[:0], contacts.carried[:0], contacts.load[:0], contacts.straight[:0])
-    falling, _ = _falling(bricks, nothing, none, need, catalogue, add=False, progress=progress)
+    falling, _ = _falling(assembly, nothing, none, need, add=False, progress=progress)
     return Plan("none", nothing, none, tuple(falling), True)
 
 
 def _falling(
-    bricks: Bricks,
+    assembly: Assembly,
     supports: Bricks,
     contacts: SupportContacts,
     need: Demand,
-    catalogue: Catalogue,
     *,
     add: bool,
     progress: Progress,
 ) -> tuple[list[Tipping], list[int]]:
     """Return the towers that fall over while a piece is built, and undersides, if some may be added, that save more."""
-    everything = concatenate([bricks, supports])
-    pairs = contact_graph(everything, catalogue).pairs
-    temporary = np.arange(len(everything)) >= len(bricks)
-    steps = plan_steps(everything, catalogue, pairs, temporary=temporary, progress=part(progress, 0.0, 0.5))
+    everything = concatenate([assembly.bricks, supports])
+    pairs = contact_graph(everything, assembly.catalogue).pairs
+    temporary = np.arange(len(everything)) >= len(assembly.bricks)
+    steps = plan_steps(everything, assembly.catalogue, pairs, temporary=temporary, progress=part(progress, 0.0, 0.5))
     braces: list[int] = []
 
     def prop(tower: Tipping) -> tuple[int, int] | None:
@@ -209,7 +206,9 @@ def _falling(
         return x, y
 
     watched = part(progress, 0.5, 1.0)
-    return tipping(steps, everything, catalogue, pairs, prop=prop if add else no_prop, progress=watched), braces
+    return tipping(
+        steps, Assembly(everything, assembly.catalogue), pairs, prop=prop if add else no_prop, progress=watched
+    ), braces
 
 
 def _laid(contacts: SupportContacts, need: Demand, catalogue: Catalogue, way: Way) -> Bricks:
@@ -251,7 +250,7 @@ def _giving(
     loads = np.zeros((len(crooked), 3))
     np.add.at(loads[:, 2], tops, -contacts.load[loaded])
     # a branch that is not soon proven to bear is straightened as well, which is cheaper than a linear programme
-    found = stability(crooked, catalogue, graph, clutch=clutch, loads=loads, programme=0, progress=progress)
+    found = stability(Assembly(crooked, catalogue), clutch=clutch, loads=loads, programme=0, progress=progress)
     moving = (np.abs(found.motion) > MOVING).any(axis=1)
     if found.verdict is Verdict.UNDECIDED:
         moving |= found.margin < 0

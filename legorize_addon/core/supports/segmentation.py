@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Ints, Mask
-from ..model import Bricks, Catalogue, ContactGraph, Rows, components, contact_graph
+from ..model import Assembly, Bricks, Catalogue, ContactGraph, Rows, components
 from .demand import support_demand
 from .tree import tree
 
@@ -60,18 +60,13 @@ class Joint:
     after: int
 
 
-def segment(
-    bricks: Bricks, catalogue: Catalogue, graph: ContactGraph, *, most: int, deepest: int
-) -> tuple[Bricks, tuple[Joint, ...]]:
+def segment(assembly: Assembly, *, most: int, deepest: int) -> tuple[Assembly, tuple[Joint, ...]]:
     """Cut a model into pieces where that saves supports.
 
     Parameters
     ----------
-    bricks : Bricks
+    assembly : Assembly
         The model, which hangs together.
-    catalogue : Catalogue
-    graph : ContactGraph
-        Of these bricks.
     most : int
         Pieces at most.
     deepest : int
@@ -79,21 +74,17 @@ def segment(
 
     Returns
     -------
-    bricks : Bricks
-        The same, with the number of the piece of each; the first stands on the
-        ground.
+    assembly : Assembly
+        The same, with the number of the piece of each brick; the first stands on
+        the ground.
     joints : tuple of Joint
         By the number of the piece.
     """
-    piece = np.zeros(len(bricks), dtype=np.int16)
-    price = {0: _price(bricks, catalogue, deepest)}
+    piece = np.zeros(len(assembly.bricks), dtype=np.int16)
+    price = {0: _price(assembly.bricks, assembly.catalogue, deepest)}
     joints: list[Joint] = []
     while len(price) < most:
-        options = [
-            option
-            for number in price
-            for option in _options(bricks, catalogue, graph, piece, number, price[number], deepest)
-        ]
+        options = [option for number in price for option in _options(assembly, piece, number, price[number], deepest)]
         if not options:
             break
         best = min(options, key=lambda option: option.price)
@@ -103,8 +94,9 @@ def segment(
         price[best.of], price[number] = best.below, best.above
         joints.append(Joint(best.level, number, best.studs, before, sum(each.bricks for each in price.values())))
     # a piece that is cut again leaves some of the studs below it to its upper part
+    graph = assembly.graph
     final = (replace(joint, studs=_joint(graph, piece == joint.piece, piece != joint.piece)) for joint in joints)
-    return replace(bricks, piece=piece), tuple(final)
+    return replace(assembly, bricks=replace(assembly.bricks, piece=piece)), tuple(final)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,17 +130,14 @@ class _Option:
 
 
 def _price(bricks: Bricks, catalogue: Catalogue, deepest: int) -> _Price:
-    graph = contact_graph(bricks, catalogue)
-    need = support_demand(bricks, catalogue, graph, deepest=deepest)
+    need = support_demand(Assembly(bricks, catalogue), deepest=deepest)
     boxes = tree(need.contacts, need.load, need.room, straight=np.zeros(len(need.contacts), dtype=bool))
     floor = int(bricks.corner[:, 2].min())
     return _Price(len(boxes) + len(need.left), need.contacts[:, 2].astype(np.int64), floor, need.depth == 0)
 
 
 def _options(
-    bricks: Bricks,
-    catalogue: Catalogue,
-    graph: ContactGraph,
+    assembly: Assembly,
     piece: NDArray[np.int16],
     number: int,
     price: _Price,
@@ -156,23 +145,25 @@ def _options(
 ) -> Iterator[_Option]:
     """Yield the cuts through a piece that save enough, of the few that promise most."""
     mine = piece == number
-    levels = np.unique(bricks.corner[mine, 2])[1:]
+    levels = np.unique(assembly.bricks.corner[mine, 2])[1:]
     tried = 0
     for level in levels[np.argsort(_promise(price, levels), kind="stable")].tolist():
-        upper = _upper(bricks, graph, mine, level)
+        upper = _upper(assembly.bricks, assembly.graph, mine, level)
         lower = mine & ~upper
-        studs = _joint(graph, upper, lower)
-        if min(upper.sum(), lower.sum()) < LEAST * len(bricks) or studs < INTERFACE:
+        studs = _joint(assembly.graph, upper, lower)
+        if min(upper.sum(), lower.sum()) < LEAST * len(assembly.bricks) or studs < INTERFACE:
             continue
         # the first piece goes on growing when others are joined to it; each of those is joined as a whole, by what
         # is left of its own joint
-        if number and (_n_components(graph, lower) > 1 or _joint(graph, lower, ~mine) < INTERFACE):
+        if number and (_n_components(assembly.graph, lower) > 1 or _joint(assembly.graph, lower, ~mine) < INTERFACE):
             continue
-        below = _price(bricks.take(lower), catalogue, deepest)
-        above = _price(bricks.take(upper), catalogue, deepest)
+        below = _price(assembly.bricks.take(lower), assembly.catalogue, deepest)
+        above = _price(assembly.bricks.take(upper), assembly.catalogue, deepest)
         option = _Option(number, level, upper, studs, below, above)
         # what hangs from bricks above the cut is not in place yet when the upper part is joined
-        firm = _joint(graph, upper, np.isin(np.arange(len(bricks)), np.flatnonzero(lower)[below.stands]))
+        firm = _joint(
+            assembly.graph, upper, np.isin(np.arange(len(assembly.bricks)), np.flatnonzero(lower)[below.stands])
+        )
         if firm >= INTERFACE and option.price < price.bricks and option.price <= (1 - SAVING) * price.bricks:
             yield option
         tried += 1

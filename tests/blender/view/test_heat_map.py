@@ -15,9 +15,9 @@ from PIL import Image
 
 import legorize_addon
 from legorize_addon.core.errors import BuildError
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.verdict import UNSUPPORTED, Verdict
 from legorize_addon.core.statics.stability import Stability, stability
 from legorize_addon.render.still import render_still
@@ -60,7 +60,7 @@ def addon() -> Iterator[None]:
 
 def proof(bricks: Bricks, margin: NDArray[np.float64] | None = None) -> Stability:
     """Return what is proven of bricks, with other margins if some are given."""
-    found = stability(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE))
+    found = stability(Assembly(bricks, CATALOGUE))
     return found if margin is None else replace(found, margin=margin)
 
 

@@ -17,9 +17,9 @@ from legorize_addon.core.building.moves import Action, Moves
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.steps import Steps
 from legorize_addon.core.errors import BuildError
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import NOBODY, Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import CELL_SIZE
 from legorize_addon.core.statics.stability import stability
 from legorize_addon.core.units import BRICK, STUD
@@ -74,7 +74,7 @@ def with_steps(rows: list[tuple[int, ...]]) -> tuple[Bricks, Steps]:
     """Return bricks and the order in which they are built."""
     bricks = table(rows)
     outside = bricks.role == Role.SUPPORT_OUTSIDE
-    pairs = building_contacts(bricks, CATALOGUE, temporary=outside).pairs
+    pairs = building_contacts(Assembly(bricks, CATALOGUE), temporary=outside).pairs
     steps = plan_steps(bricks, CATALOGUE, pairs, temporary=outside)
     return replace(bricks, step=steps.moves.step_of(len(bricks))), steps
 
@@ -114,7 +114,7 @@ def walked(moves: Moves, steps: int) -> tuple[list[int], set[int]]:
 def test_steps_show_what_the_moves_say(pieces: tuple[int, ...]) -> None:
     """After each number of steps, bricks placed and not taken out are seen: joined ones in place, others aside."""
     build, bricks, building = show_storeys(*pieces)
-    aside = assembly_columns(bricks, building, CATALOGUE)["aside"]
+    aside = assembly_columns(Assembly(bricks, CATALOGUE), building)["aside"]
     assert n_steps(build) == len(building)
     # back and forth: only what changes is evaluated again
     for steps in [*range(1, n_steps(build) + 1), 3, n_steps(build), 1, 2]:
@@ -141,7 +141,7 @@ def test_after_the_last_step_the_model_is_finished() -> None:
 def test_pieces_stand_on_the_table_side_by_side() -> None:
     """Until they are joined, pieces stand on the ground, and no two of them overlap."""
     bricks, building = with_steps(storeys(0, 2, 1))
-    columns = assembly_columns(bricks, building, CATALOGUE)
+    columns = assembly_columns(Assembly(bricks, CATALOGUE), building)
     corners = (box_corners(bricks, CATALOGUE) + np.repeat(columns["aside"], 8, axis=0)).reshape(-1, 8, 3)
     boxes = [corners[bricks.piece == piece].reshape(-1, 3) for piece in (0, 2, 1)]
     assert [box[:, 2].min() for box in boxes] == [0.0, 0.0, 0.0]
@@ -154,7 +154,7 @@ def test_pieces_stand_on_the_table_side_by_side() -> None:
 def test_columns_follow_the_moves() -> None:
     """Tiers go by height, not by number; supports are removed and pieces joined when the moves say so."""
     bricks, building = with_steps(storeys(0, 2, 1))
-    columns = assembly_columns(bricks, building, CATALOGUE)
+    columns = assembly_columns(Assembly(bricks, CATALOGUE), building)
     assert columns[TIER].tolist() == [{0: 0, 2: 1, 1: 2}[piece] for piece in bricks.piece.tolist()]
     assert ((columns[REMOVED] == NEVER) == (bricks.role != Role.SUPPORT_OUTSIDE)).all()
     assert (columns[REMOVED] > bricks.step).all()
@@ -169,7 +169,7 @@ def test_columns_follow_the_moves() -> None:
 def test_pieces_are_lifted_by_their_tier(share: float) -> None:
     """Each piece is lifted by a share of the height for each piece below it; at 0 all are in place again."""
     build, bricks, building = show_storeys(0, 2, 1)
-    tier = assembly_columns(bricks, building, CATALOGUE)[TIER]
+    tier = assembly_columns(Assembly(bricks, CATALOGUE), building)[TIER]
     way = np.outer(tier, (0, 0, share * 6 * BRICK))
     assert n_pieces(build) == 3
     explode(build, share)
@@ -292,7 +292,7 @@ def test_margins_are_those_of_the_model() -> None:
     """A proof of the model alone goes with its rows: supports are grey on the heat map, and no one's weakest brick."""
     bricks, building = with_steps(storeys(0))
     model = bricks.take(bricks.role != Role.SUPPORT_OUTSIDE)
-    found = stability(model, CATALOGUE, contact_graph(model, CATALOGUE))
+    found = stability(Assembly(model, CATALOGUE))
     build = show(bricks, steps=building, stability=found)
     alone = show(model, stability=found, name="alone")
     assert check_lines(build[BUILD_KEY]["check"]) == check_lines(alone[BUILD_KEY]["check"])

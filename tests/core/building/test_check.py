@@ -11,6 +11,7 @@ from legorize_addon.core.building.check import walk
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action, Moves
 from legorize_addon.core.building.steps import Kind, Steps, Submodel
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import NOBODY
 from tests.core.standing import CATALOGUE, table
 
@@ -44,7 +45,10 @@ def walked(bricks, moves, temporary=()):
     """Return what the check finds."""
     gone = np.isin(np.arange(len(bricks)), temporary)
     return walk(
-        steps_of(moves, bricks), bricks, CATALOGUE, building_contacts(bricks, CATALOGUE, temporary=gone), temporary=gone
+        steps_of(moves, bricks),
+        Assembly(bricks, CATALOGUE),
+        building_contacts(Assembly(bricks, CATALOGUE), temporary=gone),
+        temporary=gone,
     )
 
 

@@ -14,6 +14,7 @@ from legorize_addon.core.building.grouping import MOST
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.steps import Kind
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.contacts import contact_graph
 from tests.core.standing import CATALOGUE, table
 
@@ -24,9 +25,9 @@ FOOT_BEAM_HANGER = (("3004", 0, 0, 0), ("3009", 0, 0, 3), ("3024", 5, 0, 2))
 def planned(bricks, temporary=None):
     """Return the steps of bricks, and what the check finds."""
     gone = np.zeros(len(bricks), bool) if temporary is None else np.asarray(temporary, bool)
-    contacts = building_contacts(bricks, CATALOGUE, temporary=gone)
+    contacts = building_contacts(Assembly(bricks, CATALOGUE), temporary=gone)
     steps = plan_steps(bricks, CATALOGUE, contacts.pairs, temporary=gone)
-    return steps, walk(steps, bricks, CATALOGUE, contacts, temporary=gone)
+    return steps, walk(steps, Assembly(bricks, CATALOGUE), contacts, temporary=gone)
 
 
 def sequence(steps):

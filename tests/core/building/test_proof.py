@@ -11,6 +11,7 @@ from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.proof import prove_steps
 from legorize_addon.core.errors import Cancelled
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.report.building_remarks import remarks_on_proof
 from legorize_addon.core.supports.assembly_plan import plan_assembly
 from tests.core.standing import CATALOGUE, table
@@ -22,9 +23,11 @@ BRIDGE = (("3005", 0, 0, 0), ("3010", 0, 0, 3), ("3005", 7, 0, 0), ("3010", 4, 0
 def proof(bricks, temporary=None, **options):
     """Return the proof of bricks in their order, one a step."""
     gone = np.zeros(len(bricks), bool) if temporary is None else temporary
-    steps = plan_steps(bricks, CATALOGUE, building_contacts(bricks, CATALOGUE, temporary=gone).pairs, temporary=gone)
+    assembly = Assembly(bricks, CATALOGUE)
+    pairs = building_contacts(assembly, temporary=gone).pairs
+    steps = plan_steps(bricks, CATALOGUE, pairs, temporary=gone)
     moves = replace(steps.moves, step=np.arange(len(steps.moves), dtype=np.int32))
-    return prove_steps(replace(steps, moves=moves), bricks, CATALOGUE, clutch=0.98, **options)
+    return prove_steps(replace(steps, moves=moves), assembly, clutch=0.98, **options)
 
 
 def test_tower_stands_at_every_step():
@@ -46,8 +49,8 @@ def test_step_that_falls_is_named():
 
 def test_supports_make_all_steps_stand():
     """With what the supports add, the same bridge is proven at every step, and when they are gone."""
-    built = plan_assembly(table(*BRIDGE), CATALOGUE, deepest=3)
-    assert prove_steps(built.steps, built.bricks, CATALOGUE, clutch=0.98).stands
+    built = plan_assembly(Assembly(table(*BRIDGE), CATALOGUE), deepest=3)
+    assert prove_steps(built.steps, Assembly(built.bricks, CATALOGUE), clutch=0.98).stands
 
 
 def test_pieces_are_tested_on_their_own_tables():

@@ -8,6 +8,7 @@ from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.steps import Kind
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import NOBODY
 from tests.core.standing import CATALOGUE, table
 
@@ -19,7 +20,8 @@ NESTED = table(*MAST, ("3008", 0, 0, 12), ("3005", 7, 0, 9), ("3005", 7, 0, 6), 
 def planned(bricks):
     """Return the steps of bricks."""
     gone = np.zeros(len(bricks), bool)
-    return plan_steps(bricks, CATALOGUE, building_contacts(bricks, CATALOGUE, temporary=gone).pairs, temporary=gone)
+    pairs = building_contacts(Assembly(bricks, CATALOGUE), temporary=gone).pairs
+    return plan_steps(bricks, CATALOGUE, pairs, temporary=gone)
 
 
 def test_steps_are_the_moves_in_portions():

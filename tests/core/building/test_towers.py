@@ -9,6 +9,7 @@ import pytest
 
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.towers import STEADY, tipping
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.contacts import contact_graph, middles
 from legorize_addon.core.statics.stability import stability
 from tests.core.standing import CATALOGUE, table
@@ -19,7 +20,7 @@ def falling(bricks, **options):
     pairs = contact_graph(bricks, CATALOGUE).pairs
     steps = plan_steps(bricks, CATALOGUE, pairs, temporary=np.zeros(len(bricks), bool))
     moves = replace(steps.moves, step=np.arange(len(bricks), dtype=np.int32))
-    return tipping(replace(steps, moves=moves), bricks, CATALOGUE, pairs, **options)
+    return tipping(replace(steps, moves=moves), Assembly(bricks, CATALOGUE), pairs, **options)
 
 
 def test_leaning_tower_falls_at_the_step_that_is_too_much():
@@ -44,7 +45,7 @@ def test_tower_that_is_caught_later_falls_before():
     bridge = (("3005", 0, 0, 0), ("3010", 0, 0, 3), ("3005", 7, 0, 0), ("3010", 4, 0, 3), ("3008", 0, 0, 6))
     found = falling(table(*bridge))
     assert {tower.step for tower in found} == {2, 3}
-    assert stability(table(*bridge), CATALOGUE, contact_graph(table(*bridge), CATALOGUE)).stable
+    assert stability(Assembly(table(*bridge), CATALOGUE)).stable
 
 
 def test_prop_keeps_a_tower_upright():
@@ -70,5 +71,5 @@ def test_verdict_agrees_with_the_force_test():
     for length, number in ((2, "3004"), (3, "3622"), (4, "3010"), (6, "3009"), (8, "3008")):
         bricks = table(("3003", 0, 0, 0), (number, 0, 0, 3))
         fell = bool(falling(bricks))
-        tip = stability(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE)).tipping.min() < 0.8
+        tip = stability(Assembly(bricks, CATALOGUE)).tipping.min() < 0.8
         assert fell == tip, length

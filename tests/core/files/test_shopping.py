@@ -21,6 +21,7 @@ from legorize_addon.core.files.shopping import (
     pick_a_brick_csv,
     rebrickable_csv,
 )
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
 
@@ -57,7 +58,7 @@ bought = st.lists(
 @given(bought)
 def test_counts_add_up(pairs):
     """Every pair of part and colour is counted once, sorted, with as many bricks as there are."""
-    parts = count_parts(bricks_of(pairs), CATALOGUE)
+    parts = count_parts(Assembly(bricks_of(pairs), CATALOGUE))
     entries = [(part.number, colour.code, count) for part, colour, count in parts.entries(CATALOGUE)]
     wanted = sorted((row, code, pairs.count((row, code))) for row, code in set(pairs))
     assert entries == [(CATALOGUE.parts[row].number, code, count) for row, code, count in wanted]
@@ -67,7 +68,7 @@ def test_counts_add_up(pairs):
 @given(bought)
 def test_mass_is_that_of_the_bricks(pairs):
     """The masses of the list add up to those of the single bricks."""
-    total = masses(count_parts(bricks_of(pairs), CATALOGUE), CATALOGUE).sum()
+    total = masses(count_parts(Assembly(bricks_of(pairs), CATALOGUE)), CATALOGUE).sum()
     assert total == pytest.approx(sum(CATALOGUE.parts[row].mass for row, _ in pairs))
 
 
@@ -75,7 +76,7 @@ def test_mass_is_that_of_the_bricks(pairs):
 @given(bought)
 def test_every_list_holds_every_brick(pairs):
     """Each of the four lists has all bricks; Pick a Brick together with what it leaves out."""
-    parts = count_parts(bricks_of(pairs), CATALOGUE)
+    parts = count_parts(Assembly(bricks_of(pairs), CATALOGUE))
     assert sum(int(row["count"]) for row in read_csv(parts_csv(parts, CATALOGUE))) == len(pairs)
     assert sum(int(row["Quantity"]) for row in read_csv(rebrickable_csv(parts, CATALOGUE))) == len(pairs)
     wanted = ElementTree.fromstring(bricklink_xml(parts, CATALOGUE)).iter("MINQTY")
@@ -87,7 +88,7 @@ def test_every_list_holds_every_brick(pairs):
 def test_each_shop_gets_its_own_colour_number():
     """Olive Green is 330 for LDraw, 155 for BrickLink and 326 for Rebrickable."""
     row = CATALOGUE.part_row("3001")
-    parts = count_parts(bricks_of([(row, 330)] * 3), CATALOGUE)
+    parts = count_parts(Assembly(bricks_of([(row, 330)] * 3), CATALOGUE))
     [line] = read_csv(parts_csv(parts, CATALOGUE))
     element = int(CATALOGUE.element[row, CATALOGUE.colour_row(330)])
     assert line == {
@@ -105,7 +106,7 @@ def test_each_shop_gets_its_own_colour_number():
 def test_wanted_list_has_no_declaration():
     """BrickLink's list starts with its root element, also when it is empty."""
     for pairs in ([], [(0, 4)]):
-        assert bricklink_xml(count_parts(bricks_of(pairs), CATALOGUE), CATALOGUE).startswith("<INVENTORY")
+        assert bricklink_xml(count_parts(Assembly(bricks_of(pairs), CATALOGUE)), CATALOGUE).startswith("<INVENTORY")
 
 
 def test_pair_without_element_number_is_left_out_and_named():
@@ -113,7 +114,7 @@ def test_pair_without_element_number_is_left_out_and_named():
     element = CATALOGUE.element.copy()
     element[0, CATALOGUE.colour_row(4)] = 0
     gap = Catalogue(CATALOGUE.parts, CATALOGUE.colours, CATALOGUE.exists, element)
-    parts = count_parts(bricks_of([(0, 4), (0, 4), (1, 4)]), gap)
+    parts = count_parts(Assembly(bricks_of([(0, 4), (0, 4), (1, 4)]), gap))
     text, left_out = pick_a_brick_csv(parts, gap)
     assert [row["quantity"] for row in read_csv(text)] == ["1"]
     assert [(part.number, colour.code, count) for part, colour, count in left_out.entries(gap)] == [("3005", 4, 2)]
@@ -123,11 +124,11 @@ def test_pair_without_element_number_is_left_out_and_named():
 def test_pairs_that_are_not_made_are_found():
     """Of a 2 x 2 corner and a 1 x 1 brick in Dark Turquoise only the corner was never made."""
     pairs = [(CATALOGUE.part_row("2357"), 3), (CATALOGUE.part_row("3005"), 3)]
-    missing = not_made(count_parts(bricks_of(pairs), CATALOGUE), CATALOGUE)
+    missing = not_made(count_parts(Assembly(bricks_of(pairs), CATALOGUE)), CATALOGUE)
     assert [part.number for part, _, _ in missing.entries(CATALOGUE)] == ["2357"]
 
 
 def test_colour_outside_the_catalogue_is_refused():
     """A brick in a colour that nobody sells is an error, not a gap in the list."""
     with pytest.raises(BuildError, match="Colour 6 is not"):
-        count_parts(bricks_of([(0, 6)]), CATALOGUE)
+        count_parts(Assembly(bricks_of([(0, 6)]), CATALOGUE))

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.report.building_remarks import remarks_on_building, remarks_on_split
 from legorize_addon.core.supports.assembly_plan import plan_assembly
 from legorize_addon.core.supports.pillars import add_pillars
@@ -17,8 +17,8 @@ def told(*rows, posts=False, deepest=3, **options):
     """Return what is told of bricks."""
     bricks = table(*rows)
     if posts:
-        bricks, _ = add_pillars(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE))
-    return remarks_on_building(plan_assembly(bricks, CATALOGUE, deepest=deepest, **options), CATALOGUE)
+        bricks = add_pillars(Assembly(bricks, CATALOGUE)).bricks
+    return remarks_on_building(plan_assembly(Assembly(bricks, CATALOGUE), deepest=deepest, **options))
 
 
 def test_nothing_to_tell():
@@ -51,7 +51,7 @@ def test_brick_in_the_air_is_named():
 def test_piece_without_hold_is_told():
     """A piece that touches nothing when it is joined is counted."""
     bricks = replace(table(("3003", 0, 0, 0), ("3003", 6, 0, 3)), piece=np.array([0, 1], np.int16))
-    [sentence] = remarks_on_building(plan_assembly(bricks, CATALOGUE, wish="none", deepest=3), CATALOGUE)
+    [sentence] = remarks_on_building(plan_assembly(Assembly(bricks, CATALOGUE), wish="none", deepest=3))
     assert "1 piece that finds no hold" in sentence
 
 
@@ -70,7 +70,7 @@ def test_deep_hanging_is_told():
 
 def in_one_piece(*rows):
     """Return what is told of a model in one piece that might have three."""
-    return remarks_on_split(plan_assembly(table(*rows), CATALOGUE, deepest=0), most=3)
+    return remarks_on_split(plan_assembly(Assembly(table(*rows), CATALOGUE), deepest=0), most=3)
 
 
 def test_model_that_stays_in_one_piece_says_why():
@@ -92,5 +92,5 @@ def test_model_that_stays_in_one_piece_says_why():
 def test_split_that_was_made_or_not_asked_for_needs_no_words():
     """Two pieces are an answer, and one piece is what was asked for by default."""
     bricks = replace(table(("3003", 0, 0, 0), ("3003", 0, 0, 3)), piece=np.array([0, 1], np.int16))
-    assert remarks_on_split(plan_assembly(bricks, CATALOGUE, deepest=0), most=3) == ()
-    assert remarks_on_split(plan_assembly(table(("3003", 0, 0, 0)), CATALOGUE, deepest=0), most=1) == ()
+    assert remarks_on_split(plan_assembly(Assembly(bricks, CATALOGUE), deepest=0), most=3) == ()
+    assert remarks_on_split(plan_assembly(Assembly(table(("3003", 0, 0, 0)), CATALOGUE), deepest=0), most=1) == ()

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
@@ -39,7 +40,8 @@ def test_shops_get_no_empty_list() -> None:
     assert not [name for name in names if name.startswith("support")]
     role = plain.supports.bricks.role.copy()
     role[:2] = Role.SUPPORT_OUTSIDE
-    hanging = replace(plain, supports=replace(plain.supports, bricks=replace(plain.supports.bricks, role=role)))
+    bricks = replace(plain.supports.bricks, role=role)
+    hanging = replace(plain, supports=replace(plain.supports, assembly=Assembly(bricks, plain.assembly.catalogue)))
     files = output_texts(hanging, catalogue, {}, "box")
     assert set(files) - names == {f"support-{name}" for name in lists}
     for kind in ("rebrickable", "pick-a-brick"):

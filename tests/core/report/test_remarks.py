@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.report.remarks import brick_name, layer_of, remarks
 from scripts.benchmarks.stablelego import arm
@@ -15,7 +16,7 @@ from tests.core.standing import CATALOGUE, downward, judged, table
 
 def told(bricks, **options):
     """Return the remarks on bricks."""
-    return remarks(bricks, judged(bricks, **options), CATALOGUE)
+    return remarks(Assembly(bricks, CATALOGUE), judged(bricks, **options))
 
 
 def test_what_stands_needs_no_words() -> None:
@@ -27,7 +28,10 @@ def test_brick_has_a_name() -> None:
     """Colour and part by name; layers count from 1, three plates each."""
     bricks = table(("3001", 0, 0, 0), ("3024", 0, 0, 5))
     bricks = replace(bricks, colour=np.array([4, 15], dtype=np.int16))
-    assert [brick_name(bricks, row, CATALOGUE) for row in range(2)] == ["Red Brick 2 x 4", "White Plate 1 x 1"]
+    assert [brick_name(Assembly(bricks, CATALOGUE), row) for row in range(2)] == [
+        "Red Brick 2 x 4",
+        "White Plate 1 x 1",
+    ]
     assert [layer_of(bricks, row) for row in range(2)] == [1, 2]
 
 
@@ -78,9 +82,9 @@ def test_torn_joint_is_told_by_layer_and_part() -> None:
     bricks = table(("3001", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 2, 0, 3))
     bricks = replace(bricks, colour=np.array([4, 14, 1], dtype=np.int16))
     found = replace(judged(bricks), standing=Verdict.COLLAPSES)
-    [sentence] = remarks(bricks, replace(found, torn=np.array([[0, 1]])), CATALOGUE)
+    [sentence] = remarks(Assembly(bricks, CATALOGUE), replace(found, torn=np.array([[0, 1]])))
     assert "in layer 2 the Yellow Brick 2 x 2 tears off the Red Brick 2 x 4 below it; " in sentence
-    [sentence] = remarks(bricks, replace(found, torn=np.array([[-1, 0], [0, 1], [1, 2]])), CATALOGUE)
+    [sentence] = remarks(Assembly(bricks, CATALOGUE), replace(found, torn=np.array([[-1, 0], [0, 1], [1, 2]])))
     assert "in layer 1 the Red Brick 2 x 4 tears off the ground, the first of 3 joints; " in sentence
 
 
@@ -89,7 +93,7 @@ def test_a_real_tear_is_told() -> None:
     bricks = table(*arm((8, 0, 2), (1, 3, 1), *((1, x, layer) for x in (0, 7) for layer in (0, 1))))
     found = judged(bricks, loads=downward(bricks, 1, 5.0))
     assert found.standing is Verdict.COLLAPSES
-    [sentence] = remarks(bricks, found, CATALOGUE)
+    [sentence] = remarks(Assembly(bricks, CATALOGUE), found)
     assert "in layer 3 the Red Brick 1 x 8 tears off the Red Brick 1 x 1 below it; " in sentence
 
 
@@ -97,7 +101,7 @@ def test_collapse_without_a_place_is_told() -> None:
     """What neither tips nor tears, as a brick that slides, is told to collapse."""
     found = judged(table(("3001", 0, 0, 0)), loads=np.array([[0.0152, 0, 0]]))
     assert (found.standing, found.tipping[0] > 0, len(found.torn)) == (Verdict.COLLAPSES, True, 0)
-    [sentence] = remarks(table(("3001", 0, 0, 0)), found, CATALOGUE)
+    [sentence] = remarks(Assembly(table(("3001", 0, 0, 0)), CATALOGUE), found)
     assert sentence.startswith("The model collapses under its own weight:")
 
 
@@ -106,6 +110,6 @@ def test_doubt_is_told_with_its_place() -> None:
     bricks = table(("3001", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 9, 0, 3))
     bricks = replace(bricks, colour=np.array([4, 14, 1], dtype=np.int16))
     found = replace(judged(bricks), standing=Verdict.UNDECIDED, margin=np.array([0.5, -0.1, -1.0]))
-    hanging, doubt = remarks(bricks, found, CATALOGUE)
+    hanging, doubt = remarks(Assembly(bricks, CATALOGUE), found)
     assert "hangs in the air" in hanging
     assert "in doubt is first the Yellow Brick 2 x 2 in layer 2;" in doubt

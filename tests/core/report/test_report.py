@@ -11,6 +11,7 @@ import pytest
 
 from legorize_addon.core.build import Cut
 from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.model.contacts import contact_graph
@@ -65,7 +66,7 @@ def build_of(rows):
         images=(np.zeros((1, 1, 3), np.uint8),),
         image_clamp=np.ones(1, bool),
     )
-    supports = plan_assembly(bricks, CATALOGUE, wish="none", deepest=3)
+    supports = plan_assembly(Assembly(bricks, CATALOGUE), wish="none", deepest=3)
     solid = np.zeros((3, 6, 8), bool)
     solid[:2, 1:5, 1:7] = True
     cut = stages(painted(box((4, 28, 0), (36, 52, 19.2)), 4))
@@ -83,7 +84,7 @@ def build_of(rows):
         hollow=grid_of(solid),
         bricks=bricks,
         graph=contact_graph(bricks, CATALOGUE),
-        stability=stability(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE)),
+        stability=stability(Assembly(bricks, CATALOGUE)),
         supports=supports,
         joints=(),
         proof=None,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.report.remarks import remarks
 from legorize_addon.core.report.separation import meetings, reasons
 from tests.core.standing import CATALOGUE, judged, table
@@ -17,7 +18,11 @@ AWAY = ("3003", 15, 0, 0)
 def sentence(*rows) -> str:
     """Return the one remark on bricks."""
     bricks = table(*rows)
-    [told] = [each for each in remarks(bricks, judged(bricks), CATALOGUE) if "no brick joins" in each or "hang" in each]
+    [told] = [
+        each
+        for each in remarks(Assembly(bricks, CATALOGUE), judged(bricks))
+        if "no brick joins" in each or "hang" in each
+    ]
     return told
 
 

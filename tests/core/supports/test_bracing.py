@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks, Role
-from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.progress import silent
 from legorize_addon.core.statics.forces import HOLD
 from legorize_addon.core.supports.bracing import _pillar_of, _tested, _with_fewer, add_bracing
@@ -20,8 +20,9 @@ from tests.core.standing import CATALOGUE, judged, table
 
 
 def propped(bricks):
-    """Return bricks with pillars under what falls, their connection, and how they stand."""
-    return add_bracing(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), judged(bricks), clutch=HOLD)
+    """Return bricks with pillars under what falls, the graph of their contacts, and how they stand."""
+    after, found = add_bracing(Assembly(bricks, CATALOGUE), judged(bricks), clutch=HOLD)
+    return after.bricks, after.graph, found
 
 
 def same(one, other):
@@ -38,7 +39,7 @@ def test_what_stands_stays_as_it_is():
 
 
 @pytest.mark.parametrize("height", range(1, 6))
-def test_one_post_under_what_tips_over(height):
+def test_one_pillar_under_what_tips_over(height):
     """A long beam on one stud at its end gets one pillar, beyond its middle, and stands as safely as it is wide."""
     tower = [("3005", 0, 0, 3 * level) for level in range(height)]
     bricks = table(*tower, ("3008", 0, 0, 3 * height))
@@ -54,7 +55,7 @@ def test_one_post_under_what_tips_over(height):
     assert graph.n_components == 1
 
 
-def test_post_under_what_tears_off():
+def test_pillar_under_what_tears_off():
     """A stair of 30 levels that hangs on its lowest studs is held by pillars under its upper half."""
     bricks = table(*stair(30), ("3001", 0, 0, 0), ("3001", -4, 0, 0))
     after, _, found = propped(bricks)
@@ -64,7 +65,7 @@ def test_post_under_what_tears_off():
     assert (after.corner[len(bricks) :, 0] > 0).all()
 
 
-def test_post_stands_on_what_is_below():
+def test_pillar_stands_on_what_is_below():
     """An arm over a floor gets its pillar on the floor, not through it."""
     bricks = table(("3007", 0, 0, 0), ("3005", 0, 0, 3), *[("3008", 0, 0, 6 + 3 * level) for level in range(12)])
     after, graph, found = propped(bricks)
@@ -92,10 +93,11 @@ def arms(draw):
 @settings(max_examples=40, deadline=None)
 def test_whatever_falls_is_left_alone_or_stands(bricks):
     """Pillars come after all that was there, overlap nothing, and are only kept if the model is proven to stand."""
-    bricks, graph = add_pillars(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE))
+    bricks = add_pillars(Assembly(bricks, CATALOGUE)).bricks
     before = judged(bricks)
-    after, graph, found = add_bracing(bricks, CATALOGUE, graph, before, clutch=HOLD)
-    assert graph.collisions == 0
+    assembly, found = add_bracing(Assembly(bricks, CATALOGUE), before, clutch=HOLD)
+    after = assembly.bricks
+    assert assembly.graph.collisions == 0
     assert same(after.take(np.arange(len(bricks))), bricks)
     if len(after) > len(bricks):
         assert not before.stable
@@ -105,25 +107,26 @@ def test_whatever_falls_is_left_alone_or_stands(bricks):
         assert found is before
 
 
-def test_posts_that_bear_little_are_left_out():
+def test_pillars_that_bear_little_are_left_out():
     """Of seven pillars under a beam that tips over, one or two stay, and the model still stands."""
     bricks = table(("3005", 0, 0, 0), ("3008", 0, 0, 3))
     pillars = [table(("3005", x, 0, 0)) for x in range(1, 8)]
-    tested = partial(_tested, bricks, catalogue=CATALOGUE, clutch=HOLD, progress=silent)
-    after, _, found = _with_fewer(tested(pillars), pillars, tested)
+    tested = partial(_tested, Assembly(bricks, CATALOGUE), clutch=HOLD, progress=silent)
+    assembly, found = _with_fewer(tested(pillars), pillars, tested)
+    after = assembly.bricks
     assert found.stable
     assert 1 <= len(after) - len(bricks) <= 2
     assert same(after.take(np.arange(len(bricks))), bricks)
 
 
-def test_contacts_that_stay_are_told_by_their_posts():
+def test_contacts_that_stay_are_told_by_their_pillars():
     """What is left of the contacts of bricks with pillars, once some are taken away, are those of the others."""
     bricks = table(("3005", 0, 0, 0), ("3008", 0, 0, 3), ("3003", 6, 0, 6))
     pillars = [table(("3024", x, 0, 0), ("3024", x, 0, 1), ("3024", x, 0, 2)) for x in (3, 5, 6)]
-    tested = partial(_tested, bricks, catalogue=CATALOGUE, clutch=HOLD, progress=silent)
+    tested = partial(_tested, Assembly(bricks, CATALOGUE), clutch=HOLD, progress=silent)
     every = tested(pillars)
     for left in np.ndindex(2, 2, 2):
-        fewer = tested([pillar for pillar, stays in zip(pillars, left, strict=True) if stays])[2].statics.contacts
+        fewer = tested([pillar for pillar, stays in zip(pillars, left, strict=True) if stays])[1].statics.contacts
         kept = np.array([*left, 1], dtype=bool)[_pillar_of(every, pillars)].all(axis=0)
         for name in ("point", "direction", "least"):
-            assert np.array_equal(getattr(every[2].statics.contacts, name)[kept], getattr(fewer, name))
+            assert np.array_equal(getattr(every[1].statics.contacts, name)[kept], getattr(fewer, name))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.statics.forces import GRAVITY
 from legorize_addon.core.supports.demand import support_demand
 from legorize_addon.core.supports.hanging import NOT_HELD
@@ -24,7 +24,7 @@ TEE = (
 def need(*rows, deepest=3):
     """Return what bricks need."""
     bricks = table(*rows)
-    return support_demand(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), deepest=deepest)
+    return support_demand(Assembly(bricks, CATALOGUE), deepest=deepest)
 
 
 def test_tower_needs_nothing():

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Role
-from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.statics.stability import stability
 from legorize_addon.core.supports.boxes import INSIDE_COLOUR
 from legorize_addon.core.supports.pillars import add_inner_pillars, add_pillars
@@ -16,14 +16,15 @@ from tests.core.standing import CATALOGUE, table
 
 
 def carried(*rows, colour=4):
-    """Return bricks with pillars under all that floats, and their connection."""
+    """Return bricks with pillars under all that floats, the graph of their contacts, and how many came in."""
     bricks = table(*rows)
     bricks = replace(bricks, colour=np.full(len(bricks), colour, np.int16))
-    return (*add_pillars(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE)), len(bricks))
+    after = add_pillars(Assembly(bricks, CATALOGUE))
+    return after.bricks, after.graph, len(bricks)
 
 
 @pytest.mark.parametrize("gap", range(1, 12))
-def test_post_fills_any_gap(gap):
+def test_pillar_fills_any_gap(gap):
     """Whatever the height in plates, the brick stands afterwards, and nothing overlaps."""
     bricks, graph, n = carried(("3003", 0, 0, 0), ("3003", 0, 0, 3 + gap))
     assert graph.n_floating == graph.collisions == 0
@@ -45,7 +46,7 @@ def test_part_on_the_ground_stands_by_itself():
     own = graph.component == graph.component[2]
     feet = bricks.corner[own & (bricks.corner[:, 2] == 0), 0]
     assert feet.min() < 9 < feet.max() + 1
-    assert stability(bricks, CATALOGUE, graph).stable
+    assert stability(Assembly(bricks, CATALOGUE)).stable
 
 
 def test_floating_parts_on_each_other_all_stand():
@@ -53,7 +54,7 @@ def test_floating_parts_on_each_other_all_stand():
     bricks, graph, n = carried(("3003", 9, 9, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 9))
     assert graph.n_floating == 0
     assert sorted(bricks.corner[n:, 2].tolist())[-1] == 6
-    assert stability(bricks, CATALOGUE, graph).stable
+    assert stability(Assembly(bricks, CATALOGUE)).stable
 
 
 def test_nothing_floats_nothing_changes():
@@ -62,11 +63,11 @@ def test_nothing_floats_nothing_changes():
     assert len(bricks) == n
 
 
-def test_post_inside_is_red():
+def test_pillar_inside_is_red():
     """It stands on the floor below the brick that is named, and joins the two."""
     bricks = table(("3001", 0, 0, 0), ("3003", 0, 0, 3), ("3003", 0, 0, 6), ("3001", 0, 0, 9), ("3005", 3, 0, 6))
-    with_post, graph = add_inner_pillars(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), np.array([4]))
-    assert with_post.corner[5:].tolist() == [[3, 0, 3]]
-    assert with_post.role[5:].tolist() == [Role.SUPPORT_INSIDE]
-    assert with_post.colour[5:].tolist() == [INSIDE_COLOUR]
-    assert {(0, 5), (5, 4)} <= set(map(tuple, graph.pairs.tolist()))
+    after = add_inner_pillars(Assembly(bricks, CATALOGUE), np.array([4]))
+    assert after.bricks.corner[5:].tolist() == [[3, 0, 3]]
+    assert after.bricks.role[5:].tolist() == [Role.SUPPORT_INSIDE]
+    assert after.bricks.colour[5:].tolist() == [INSIDE_COLOUR]
+    assert {(0, 5), (5, 4)} <= set(map(tuple, after.graph.pairs.tolist()))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.supports.demand import support_demand
 from legorize_addon.core.supports.plan import plan_supports
 from tests.core.standing import CATALOGUE, table
@@ -20,8 +20,8 @@ APART = (("3003", 0, 0, 0), *(("3005", x, 0, 30) for x in (6, 9)), ("3003", 0, 9
 def plan(*rows, ways=("tree",), clutch=0.98):
     """Return the plan for some bricks."""
     bricks = table(*rows)
-    need = support_demand(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), deepest=3)
-    return plan_supports(bricks, CATALOGUE, need, ways=ways, clutch=clutch), need
+    need = support_demand(Assembly(bricks, CATALOGUE), deepest=3)
+    return plan_supports(Assembly(bricks, CATALOGUE), need, ways=ways, clutch=clutch), need
 
 
 @pytest.mark.parametrize("way", ["tree", "columns"])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
@@ -21,7 +22,8 @@ def bricks_of(name, width):
 
 def cut(bricks, most=2, deepest=0):
     """Return bricks in pieces, and the joints."""
-    return segment(bricks, CATALOGUE, contact_graph(bricks, CATALOGUE), most=most, deepest=deepest)
+    assembly, joints = segment(Assembly(bricks, CATALOGUE), most=most, deepest=deepest)
+    return assembly.bricks, joints
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +36,9 @@ def test_split_saves_a_fifth_of_the_supports(cars):
     """A car whose body hangs over its wheels takes at least a fifth fewer support bricks in two pieces."""
     pieces, joints = cut(cars)
     assert len(joints) == 1
-    whole, split = (len(plan_assembly(each, CATALOGUE, wish="tree", deepest=0).removed) for each in (cars, pieces))
+    whole, split = (
+        len(plan_assembly(Assembly(each, CATALOGUE), wish="tree", deepest=0).removed) for each in (cars, pieces)
+    )
     assert whole > 0
     assert split <= (1 - SAVING) * whole
 
@@ -54,7 +58,7 @@ def test_parts_join_to_the_same_model(cars):
 
 def test_split_model_can_be_built(cars):
     """Each piece on the table, its supports out, then joined: every step can be done."""
-    found = plan_assembly(cut(cars)[0], CATALOGUE, deepest=0)
+    found = plan_assembly(Assembly(cut(cars)[0], CATALOGUE), deepest=0)
     assert found.walk.buildable
     assert found.contacts.collisions == 0
 
@@ -65,7 +69,7 @@ def test_a_piece_cut_again_keeps_its_own_joint():
     bricks, joints = cut(table(foot, pillar, arm, ("3003", 6, 0, 3), ("3022", 6, 0, 2)), most=3)
     assert [joint.studs for joint in joints] == [8]
     assert bricks.piece.tolist() == [0, 1, 1, 1, 1]
-    assert plan_assembly(bricks, CATALOGUE, deepest=0).walk.buildable
+    assert plan_assembly(Assembly(bricks, CATALOGUE), deepest=0).walk.buildable
 
 
 def test_no_piece_sits_on_what_is_not_there_yet():
@@ -74,7 +78,7 @@ def test_no_piece_sits_on_what_is_not_there_yet():
     tower = [("3003", 6, 2, 9), ("3003", 6, 2, 12), ("3007", 6, 2, 15, 1), ("3003", 6, 8, 12), ("3003", 6, 8, 9)]
     bricks, joints = cut(table(*pillar, arm, hanger, *tower), deepest=3)
     assert all(joint.level != 9 for joint in joints)
-    assert plan_assembly(bricks, CATALOGUE, deepest=3).walk.buildable
+    assert plan_assembly(Assembly(bricks, CATALOGUE), deepest=3).walk.buildable
 
 
 def test_no_cut_where_nothing_is_saved():

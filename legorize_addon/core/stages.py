@@ -1,0 +1,243 @@
+"""What the settings mean for each stage: the step from them to the functions of the packages."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .arrays import Floats, Mask
+from .build import Cut
+from .colours import SurfaceColours, chosen_palette, surface_colours
+from .estimate import AGAIN
+from .layout import FILLER, lay
+from .layout.learning import learned_table, samples_text
+from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
+from .model import Assembly, Bricks, Catalogue, UnitGrid, load_catalogue
+from .progress import Overall
+from .settings import Settings
+from .shell import hollow
+from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_layers, levels_of, slice_mesh
+from .statics import Stability, stability
+from .supports import AssemblyPlan, add_pillars, plan_assembly
+from .texturing import reduce_images, remarks_on_unseen, seen_part
+from .unit_bricks import Detail, add_backing, dithering_of, facing_of, unit_bricks
+from .units import PLATES_PER_BRICK
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Run:
+    """What all stages of a run are given.
+
+    Attributes
+    ----------
+    settings : Settings
+    catalogue : Catalogue
+    palette : (n,) int16 array
+        Codes of the colours to use.
+    table : (n, n) bool array or None
+        The exchanges of bricks that were learned from the user's own samples.
+    rng : numpy.random.Generator
+    progress : Overall
+        Of the stage at work.
+    timings : dict of str to float
+        CPU seconds of the stages that are done.
+    """
+
+    settings: Settings
+    catalogue: Catalogue
+    palette: NDArray[np.int16]
+    table: Mask | None
+    rng: np.random.Generator
+    progress: Overall
+    timings: dict[str, float]
+
+    @classmethod
+    def of(cls, settings: Settings, progress: Overall) -> Self:
+        """Return a run that begins."""
+        catalogue = load_catalogue()
+        palette = chosen_palette(settings.palette, catalogue)
+        return cls(settings, catalogue, palette, _table(settings), np.random.default_rng(settings.seed), progress, {})
+
+    @contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        """Announce a stage and note its CPU seconds; what is done again counts to what it repeats."""
+        shown = name.removesuffix(AGAIN)
+        start = time.process_time()
+        with self.progress.stage(name, shown=shown):
+            yield
+        self.timings[shown] = self.timings.get(shown, 0.0) + time.process_time() - start
+
+
+def _in_plates(settings: Settings) -> bool:
+    return settings.plates != "none"
+
+
+def prepare_mesh(run: Run, mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs, Floats, float, tuple[str, ...]]:
+    """Return the mesh as it is built, its repairs, turn and scale, and what has to be said of what is not seen."""
+    settings = run.settings
+    mesh, repairs = repair(mesh)
+    mesh, turn = turn_upright(mesh, settings.up)
+    least, scale = settings.least_alpha, partial(_scale, settings=settings)
+    mesh, repairs, share = seen_part(mesh, repairs, least=least, scale=scale)
+    factor = scale(mesh)
+    mesh = scale_mesh(mesh, factor)
+    # where nothing is seen, all of it was taken
+    mesh = reduce_images(mesh, least=least * (share < 1), mean=settings.fine_texture == "mean")
+    return mesh, repairs, turn, factor, remarks_on_unseen(share, least=least)
+
+
+def _scale(mesh: TriangleMesh, settings: Settings) -> float:
+    return model_scale(
+        mesh, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale
+    )
+
+
+def find_colours(run: Run, mesh: TriangleMesh) -> SurfaceColours:
+    """Return the brick colours of all texels; one to one, no more of them than the palette has."""
+    settings = run.settings
+    return surface_colours(
+        mesh,
+        run.catalogue,
+        n_colours=min(settings.colours, len(run.palette)) if settings.one_to_one else settings.colours,
+        sampling=settings.sampling,
+        palette=run.palette,
+        one_to_one=settings.one_to_one,
+        rng=run.rng,
+    )
+
+
+def cut_mesh(run: Run, mesh: TriangleMesh, surface: SurfaceColours, frame: Grid) -> Cut:
+    """Cut the mesh at adaptive heights."""
+    settings = run.settings
+    marks = differing_layers(mesh, frame, tolerance=settings.layer_difference) if _in_plates(settings) else None
+    heights, layer, plate = adaptive_heights(
+        mesh,
+        ground=float(frame.origin[2]),
+        n_layers=frame.n_layers,
+        cusp=settings.cusp,
+        colour=surface.of_faces(mesh),
+        marked=_marked(marks, frame, settings),
+    )
+    return Cut(slice_mesh(mesh, heights), layer, plate, marks)
+
+
+def _marked(marks: Marks | None, frame: Grid, settings: Settings) -> Mask | None:
+    """Return the layers that are sliced plate by plate in any case."""
+    if settings.plates == "all":
+        return np.ones(frame.n_layers, dtype=bool)
+    return None if marks is None else marks.any
+
+
+def make_unit_grid(
+    run: Run,
+    mesh: TriangleMesh,
+    repairs: Repairs,
+    trajectories: Trajectories,
+    surface: SurfaceColours,
+    frame: Grid,
+    cut: Cut,
+) -> UnitGrid:
+    """Return the unit bricks, of which there must be one at least."""
+    settings = run.settings
+    lattice = frame.plates() if _in_plates(settings) else frame
+    facing = facing_of(mesh, surface) if settings.backing else None
+    grid = unit_bricks(
+        mesh,
+        trajectories,
+        surface,
+        lattice,
+        levels=levels_of(cut.slices.heights, cut.layer, cut.plate, lattice),
+        keep_thin=settings.keep_thin,
+        longest=settings.cell_colour == "longest",
+        catalogue=run.catalogue,
+        closed=repairs.watertight,
+        detail=_detail(cut.layer, frame, settings),
+        facing=facing,
+        dithering=dithering_of(settings.dithering, run.palette, mesh, surface, facing),
+        progress=run.progress,
+    )
+    check_any(grid, mesh, keep_thin=settings.keep_thin)
+    return grid if facing is None else add_backing(grid, facing, depth=settings.backing)
+
+
+def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail | None:
+    """Return where plates may stay: in layers of three slices, and where they pay unless all were asked for."""
+    if not _in_plates(settings):
+        return None
+    marked = np.bincount(layer, minlength=frame.n_layers) == PLATES_PER_BRICK
+    if settings.plates == "all":
+        return Detail(marked, 0.0)
+    return Detail(marked, settings.plate_gain, settings.fewer_parts)
+
+
+def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
+    """Return what must and what may be built."""
+    settings = run.settings
+    # behind a picture, the first row or layer of its backing has to stay
+    shell = settings.shell + bool(settings.backing)
+    return hollow(
+        grid,
+        shell=shell if settings.hollow else None,
+        rule=settings.hollow_rule,
+        ceilings=settings.ceilings,
+        open_bottom=settings.open_bottom,
+        progress=run.progress,
+    )
+
+
+def lay_bricks(run: Run, shell: UnitGrid) -> Bricks:
+    """Lay the bricks."""
+    return lay(
+        shell,
+        catalogue=run.catalogue,
+        rng=run.rng,
+        tier=run.settings.layout,
+        learned=run.settings.learned,
+        table=run.table,
+        filler=_filler(run.palette, run.catalogue),
+        progress=run.progress,
+    )
+
+
+def check_stability(run: Run, assembly: Assembly) -> tuple[Assembly, Stability]:
+    """Test the bricks by force, with pillars under what floats if there may be supports."""
+    if run.settings.supports != "none":
+        assembly = add_pillars(assembly)
+    return assembly, stability(assembly, clutch=run.settings.clutch, progress=run.progress)
+
+
+def make_plan(run: Run, assembly: Assembly) -> AssemblyPlan:
+    """Put supports under the pieces, and find the building order."""
+    return plan_assembly(
+        assembly,
+        wish=run.settings.supports,
+        deepest=run.settings.hanging,
+        clutch=run.settings.clutch,
+        progress=run.progress,
+    )
+
+
+def _table(settings: Settings) -> Mask | None:
+    """Return the exchanges that were learned from the user's own samples, if they are asked for."""
+    if not settings.learned_from:
+        return None
+    if settings.layout == "fast" and settings.learned:
+        return learned_table(settings.learned_from)
+    # a wrong file is told of now, not when another layout is chosen
+    samples_text(settings.learned_from)
+    return None
+
+
+def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:
+    """Return the colour of bricks that nobody sees: the usual one, or that of the palette in which most parts exist."""
+    if FILLER in palette:
+        return FILLER
+    made = catalogue.exists_in(np.arange(len(catalogue.parts))[:, None], palette).sum(axis=0)
+    return int(palette[made.argmax()])

@@ -1,0 +1,50 @@
+"""What the settings mean for the stages."""
+
+from __future__ import annotations
+
+import pytest
+
+from legorize_addon.core.estimate import AGAIN
+from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.model.bricks import Role
+from legorize_addon.core.progress import Overall, silent
+from legorize_addon.core.settings import Settings
+from legorize_addon.core.stages import Run, check_stability
+from tests.core.standing import CATALOGUE, table
+
+
+def run_of(**options) -> Run:
+    """Return a run that begins."""
+    return Run.of(Settings(**options), Overall({"layout": 1.0}, silent))
+
+
+def test_same_seed_same_numbers():
+    """The random numbers of a run follow from its seed alone."""
+    first, second, other = (run_of(seed=seed).rng.random(4).tolist() for seed in (3, 3, 4))
+    assert first == second != other
+
+
+def test_palette_of_the_settings():
+    """The codes that were asked for, and all of today's colours if none were."""
+    assert run_of(palette="4, 15").palette.tolist() == [4, 15]
+    assert len(run_of().palette) > 30
+
+
+def test_what_is_done_again_counts_to_what_it_repeats():
+    """Seconds are noted by stage, each once, and a stage that fails has none."""
+    run = run_of()
+    for name in ("layout", f"layout{AGAIN}"):
+        with run.stage(name):
+            assert name == "layout" or run.timings["layout"] >= 0
+    with pytest.raises(ZeroDivisionError), run.stage("ties"):
+        raise ZeroDivisionError
+    assert list(run.timings) == ["layout"]
+
+
+@pytest.mark.parametrize(("supports", "pillars"), [("best", 1), ("none", 0)])
+def test_floating_bricks_get_pillars_if_there_may_be_supports(supports: str, pillars: int):
+    """A brick in the air is carried by a pillar, or left where it is and told."""
+    floating = Assembly(table(("3003", 0, 0, 0), ("3003", 0, 0, 6)), CATALOGUE)
+    assembly, found = check_stability(run_of(supports=supports), floating)
+    assert (assembly.bricks.role == Role.SUPPORT_KEPT).sum() == pillars
+    assert bool(len(found.unsupported)) != bool(pillars)
