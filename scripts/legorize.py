@@ -50,7 +50,7 @@ try:
     from legorize_addon.core.files.folder import new_folder, temporary_of, writing
     from legorize_addon.core.files.manifest import changed
     from legorize_addon.core.files.paths import named, readable
-    from legorize_addon.core.instructions import PAPERS, layer_files, layer_pages
+    from legorize_addon.core.instructions import PAPERS, Booklet, layer_files, layer_pages
     from legorize_addon.core.model.bricks import Role
     from legorize_addon.core.model.catalogue import load_catalogue
     from legorize_addon.core.pipeline import legorize
@@ -108,6 +108,7 @@ class Wanted(NamedTuple):
     contact_sheet: int
     save_blend: bool
     bound: bool
+    instructions: bool
     layers: bool
     actual_size: bool
     paper: str
@@ -223,6 +224,11 @@ def add_pictures(made: Parser) -> None:
 
 def add_paper(made: Parser) -> None:
     """Add the flags for what is printed."""
+    made.add_argument(
+        "--instructions", action="store_true",
+        help="write the booklet of the building steps, instructions.html (one file, with a page in three dimensions) "
+        "and instructions.pdf",
+    )  # fmt: skip
     made.add_argument("--layers", action="store_true", help="write a map of each layer, layers/001.svg and so on")
     made.add_argument(
         "--actual-size", action="store_true",
@@ -313,6 +319,7 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         stop.temporary = temporary_of(folder)
         # in builds: measured without a proof at 48 to 192 studs, guessed for the proof and the pictures
         later = {"report": 0.03 + wanted.bound, "files": 0.03, "layer maps": 0.2 * wanted.layers}
+        later["booklet"] = 3.0 * wanted.instructions
         later["pictures"] = float(wanted.any_picture)
         built = 1 / (1 + sum(later.values()))
         build = legorize(mesh, replace(settings, up=up), part(line, 0.0, built))
@@ -326,6 +333,9 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         if wanted.layers:
             with rest.stage("layer maps") as progress, writing(out):
                 write_layers(build, folder / "layers", wanted, progress)
+        if wanted.instructions:
+            with rest.stage("booklet") as progress, writing(out):
+                write_booklet(build, folder, wanted, source.stem, progress)
         if wanted.any_picture:
             with rest.stage("pictures"):
                 show(build, folder, wanted, name=source.stem, sources=objects)
@@ -357,6 +367,13 @@ def write_layers(build: Build, folder: Path, wanted: Wanted, progress: Progress)
     folder.mkdir()
     for name, text in layer_files(layer_pages(plan.bricks, load_catalogue(), **options)):
         (folder / name).write_text(text, encoding="utf-8", newline="")
+
+
+def write_booklet(build: Build, folder: Path, wanted: Wanted, title: str, progress: Progress) -> None:
+    """Write the booklet."""
+    plan, paper = build.supports, PAPERS[wanted.paper]
+    made = Booklet(plan.bricks, load_catalogue(), plan.steps, temporary=plan.temporary, title=title, paper=paper)
+    made.write(folder / "instructions.html", folder / "instructions.pdf", progress)
 
 
 class Line:

@@ -18,7 +18,7 @@ above it in this table.
 ``building``         the order in which every brick finds hold, and its check
 ``supports``         what stands below while the model is built; pieces that are joined
 ``measures``         figures that building never needs
-``instructions``     layer maps and pictures of bricks, as SVG and PDF
+``instructions``     the booklet of the steps and layer maps, as SVG, HTML and PDF
 ``files``            LDraw documents, lists for shops, the folder of the results
 ``report``           what was built, in numbers and sentences
 ===================  =======================================================================

@@ -383,6 +383,20 @@ def test_layer_maps(flags: list[str], script: ModuleType, tmp_path: Path) -> Non
     assert any("matrix(8 0 0 -8 " in text for text in texts) == bool(flags)
 
 
+def test_booklet(script: ModuleType, tmp_path: Path) -> None:
+    """The flag writes the booklet of the steps in both forms, named after the file."""
+    add_arm()
+    source = str(save(tmp_path / "arm.blend"))
+    flags = [*ARM, "--instructions", "--paper", "Letter"]
+    assert script.main([source, "--out", str(tmp_path / "out"), *flags]) == 0
+    html = (tmp_path / "out" / "instructions.html").read_text(encoding="utf-8")
+    assert "<title>arm: building instructions</title>" in html
+    assert f"{report(tmp_path / 'out')['building']['steps']} steps" in html
+    assert 'width="279.4mm"' in html
+    assert (tmp_path / "out" / "instructions.pdf").read_bytes().startswith(b"%PDF")
+    assert set(contents(tmp_path / "out")) == FILES | SUPPORT_FILES | {"instructions.html", "instructions.pdf"}
+
+
 def test_contact_sheet(script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The flag alone writes the sheet of as many pictures; the saved scene is that of the finished model."""
     few = partial(script.render_contact_sheet, samples=1, resolution=(32, 24))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ..on_demand import on_demand
 from .moves import Action, Moves
-from .steps import MAIN, Kind, Steps
+from .steps import MAIN, Kind, Step, Steps
 
 if TYPE_CHECKING:
     from .check import Walk, walk
@@ -33,6 +33,7 @@ __all__ = [
     "Kind",
     "Moves",
     "Proof",
+    "Step",
     "Steps",
     "Tipping",
     "Walk",

@@ -1,7 +1,9 @@
-"""How a model is built, on paper: layer maps, pictures of the steps, the booklet."""
+"""How a model is built, on paper and on the screen: the booklet of its steps, layer maps."""
 
 from __future__ import annotations
 
-from .layer_maps import PAPERS, layer_files, layer_pages
+from .booklet import Booklet
+from .layer_maps import layer_files, layer_pages
+from .paper import PAPERS
 
-__all__ = ["PAPERS", "layer_files", "layer_pages"]
+__all__ = ["PAPERS", "Booklet", "layer_files", "layer_pages"]

@@ -119,12 +119,15 @@ class Page:
     items : sequence of Item
     title : str
         Of a bookmark, empty for none.
+    step : int or None
+        The first step that it shows, from 0.
     """
 
     width: float
     height: float
     items: Sequence[Item] = field(default_factory=tuple)
     title: str = ""
+    step: int | None = None
 
 
 def polygon(points: Sequence[tuple[float, float]], *paints: Paint) -> Path:

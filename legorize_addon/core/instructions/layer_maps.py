@@ -21,28 +21,22 @@ from .canvas import WHITE, Group, Item, Page, Paint, Path, Rgb, Text, lines, mov
 from .fonts import width
 from .legend import Legend, lettered
 from .lots import GREY, lots_of, rgb_of
+from .paper import MARGIN, Paper, foot
 from .plans import STUD, by_colour, hatched, plan_outlines, plan_studs
 from .shades import DARK, LIGHT_LINE, LINE, SUPPORT_TINT, brightness, mixed
 from .svg import svg
 
-
-class Paper(NamedTuple):
-    """Size of a sheet in mm, the long side across."""
-
-    width: float
-    height: float
-
-
-PAPERS: Final = {"A4": Paper(297.0, 210.0), "Letter": Paper(279.4, 215.9)}
-
-MARGIN: Final = 10.0
-"""mm around what is printed, as most printers need half of it."""
+MAPS: Final = "Layer maps"
+"""Title of the first of their pages."""
 
 TITLE: Final = 14.0
 """mm for the title of a map."""
 
 LABELS: Final = 6.0
 """mm for the numbers of rows and columns on each side."""
+
+FRONT: Final = 5.0
+"""mm for the word that says where the front is."""
 
 LARGEST: Final = 12.0
 """mm to which a stud is enlarged at most."""
@@ -139,7 +133,7 @@ class Frame(NamedTuple):
         turned = bool((high - low)[1] > (high - low)[0]) and not actual_size
         across, up = (high - low)[:: -1 if turned else 1].tolist()
         # what is beside and above the maps
-        beside, above = 2 * MARGIN + 2 * LABELS + legend, 2 * MARGIN + 2 * LABELS + TITLE
+        beside, above = 2 * MARGIN + 2 * LABELS + FRONT + legend, 2 * MARGIN + 2 * LABELS + FRONT + TITLE
         stud = min((paper.width - beside) / across, (paper.height - above) / up, LARGEST)
         if actual_size:
             stud = STUD_MM
@@ -318,3 +312,36 @@ def _marks(bricks: Bricks, lot: Ints, catalogue: Catalogue, frame: Frame) -> Ite
         letters = lettered(one)
         high = size / max(1, 0.7 * len(letters))
         yield Text(letters, across, down + 0.36 * high, high, anchor="middle", colour=WHITE if on_dark else LINE)
+
+
+def map_pages(
+    bricks: Bricks, catalogue: Catalogue, *, temporary: Mask, paper: Paper, first: int, progress: Progress = silent
+) -> Iterator[Page]:
+    """Draw the layer maps, as many on a page as can be read; see :func:`layer_pages`.
+
+    Parameters
+    ----------
+    first : int
+        Number of the first page.
+    """
+    rows = next((rows for rows in (3, 2) if _readable(bricks, catalogue, paper, rows)), 1)
+    strip = Paper(paper.width, (paper.height - MARGIN / 2) / rows)
+    maps = list(layer_pages(bricks, catalogue, temporary=temporary, paper=strip, progress=progress))
+    for start in range(0, len(maps), rows):
+        some = maps[start : start + rows]
+        items = [moved(tuple(each.items), 0, number * strip.height) for number, each in enumerate(some)]
+        yield Page(
+            paper.width, paper.height, (*items, *foot(first + start // rows, paper)), some[0].title if start else MAPS
+        )
+
+
+_READABLE: Final = 3.2
+"""mm of a stud at least where several maps are on a page."""
+
+
+def _readable(bricks: Bricks, catalogue: Catalogue, paper: Paper, rows: int) -> bool:
+    """Tell whether maps in so many rows on a page can be read."""
+    strip = Paper(paper.width, (paper.height - MARGIN / 2) / rows)
+    counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers_of(bricks, catalogue)]
+    widest = max(Legend.of(count, strip.height - 2 * MARGIN - TITLE).width for count in counts)
+    return Frame.of(bricks, catalogue, widest, strip, actual_size=False).stud >= _READABLE

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
 
 import numpy as np
 
-from ..arrays import Ints
+from ..arrays import Ints, Mask
 from ..model import Bricks, Catalogue, Part
 from .canvas import Item, Rgb, Text, moved
 from .fonts import width
 from .lattice import FRONT, Cells, look
 from .picture import MM, Look, Picture, draw
-from .shades import mixed
+from .shades import mixed, tinted
 
 GREY: Final[Rgb] = (96, 98, 104)
 
@@ -70,15 +70,25 @@ def rgb_of(bricks: Bricks, catalogue: Catalogue) -> Ints:
     return catalogue.rgb[np.searchsorted(catalogue.codes, bricks.colour)].astype(np.int64)
 
 
+def shown_rgb(bricks: Bricks, catalogue: Catalogue, temporary: Mask, tint: Rgb) -> Ints:
+    """Return the colours in which bricks are drawn, (n, 3) bytes: their own, those of supports tinted."""
+    colour = rgb_of(bricks, catalogue)
+    colour[temporary] = np.array(
+        [tinted((red, green, blue), tint) for red, green, blue in colour[temporary].tolist()], dtype=np.int64
+    ).reshape(-1, 3)
+    return colour
+
+
 def size_of(part: Part) -> str:
     """Return the size of a part in studs, and its height if it is tall, as "2 x 4"."""
     text = f"{part.width} x {part.length}"
     return f"{text} x {part.height // 3}" if part.height > 3 else text
 
 
-def picture_of(lot: Lot, catalogue: Catalogue) -> Picture:
-    """Return the picture of a brick of a lot."""
-    return _picture(lot.part, catalogue.colours[lot.colour].rgb, catalogue)
+def picture_of(lot: Lot, catalogue: Catalogue, tint: Rgb | None = None) -> Picture:
+    """Return the picture of a brick of a lot; with a tint that of a support."""
+    rgb = catalogue.colours[lot.colour].rgb
+    return _picture(lot.part, rgb if tint is None else tinted(rgb, tint), catalogue)
 
 
 @lru_cache(maxsize=1024)
@@ -114,12 +124,13 @@ class Callout:
     height: float
 
 
-def callout(lots: Sequence[Lot], catalogue: Catalogue, *, room: float, scale: float) -> Callout:
+def callout(lots: Sequence[tuple[Lot, Rgb | None]], catalogue: Catalogue, *, room: float, scale: float) -> Callout:
     """Lay out lots in rows.
 
     Parameters
     ----------
-    lots : sequence of Lot
+    lots : sequence of (Lot, tint or None)
+        Supports have a tint.
     catalogue : Catalogue
     room : float
         Greatest width in mm.
@@ -132,16 +143,24 @@ def callout(lots: Sequence[Lot], catalogue: Catalogue, *, room: float, scale: fl
         A wide part has a row for itself if need be.
     """
     items: list[Item] = []
-    x = y = row_height = right = 0.0
-    for lot in lots:
-        one = _entry(lot, catalogue, scale)
-        if x and x + one.width > room:
-            x, y, row_height = 0.0, y + row_height + _GAP, 0.0
-        items.append(moved(one.items, x, y))
-        right = max(right, x + one.width)
-        x += one.width + _GAP
-        row_height = max(row_height, one.height)
-    return Callout(tuple(items), right, y + row_height)
+    row: list[Callout] = []
+    top = right = 0.0
+    for lot, tint in lots:
+        one = _entry(lot, tint, catalogue, scale)
+        if row and sum(each.width + _GAP for each in row) + one.width > room:
+            items += _row(row, top)
+            top, row = top + max(each.height for each in row) + _GAP / 2, []
+        row.append(one)
+        right = max(right, sum(each.width + _GAP for each in row) - _GAP)
+    return Callout((*items, *_row(row, top)), right, top + max((each.height for each in row), default=0.0))
+
+
+def _row(entries: Sequence[Callout], top: float) -> Iterator[Item]:
+    """Yield entries side by side, on one base line."""
+    x, height = 0.0, max((each.height for each in entries), default=0.0)
+    for each in entries:
+        yield moved(each.items, x, top + height - each.height)
+        x += each.width + _GAP
 
 
 _GAP: Final = 3.5
@@ -149,8 +168,8 @@ _LETTERS: Final = 3.6
 _SMALL: Final = 2.5
 
 
-def _entry(lot: Lot, catalogue: Catalogue, scale: float) -> Callout:
-    picture = picture_of(lot, catalogue)
+def _entry(lot: Lot, tint: Rgb | None, catalogue: Catalogue, scale: float) -> Callout:
+    picture = picture_of(lot, catalogue, tint)
     wide, high = picture.size * scale * MM
     count, size = f"{lot.count}x", size_of(catalogue.parts[lot.part])
     step = width(count, _LETTERS, bold=True) + 1.2

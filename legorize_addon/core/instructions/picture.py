@@ -104,7 +104,7 @@ def draw(sight: Sight, look: Look) -> Picture:
     style = style.reshape(-1)
     items: list[Item] = [*_fills(sight, styles, style), *_lines(sight, look)]
     items += _stud_items(sight, styles, style, look.studs)
-    low, high = _extent(sight)
+    low, high = extent(sight)
     return Picture(tuple(items), low, high)
 
 
@@ -114,7 +114,7 @@ def at(points: Ints) -> Ints:
     return np.stack([ACROSS * (p - q), -DOWN * (p + q)], axis=1)
 
 
-def _extent(sight: Sight) -> tuple[Floats, Floats]:
+def extent(sight: Sight) -> tuple[Floats, Floats]:
     """Return the upper left and the lower right corner of a picture."""
     m, n, half = np.nonzero(sight.nearest != NOBODY)
     # a half has the two corners of the diagonal, and one beside it

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Final
 
+import numpy as np
+
+from ..arrays import Ints
 from .canvas import Rgb
 
 SIDE_LIGHT: Final = (1.0, 0.72, 0.86)
@@ -14,6 +17,9 @@ PALE: Final = 0.62
 
 SUPPORT_TINT: Final[Rgb] = (255, 122, 40)
 """What supports are tinted with, as no part of the model is: they go away again."""
+
+TINTS: Final[tuple[Rgb, ...]] = (SUPPORT_TINT, (0, 190, 196), (222, 60, 190), (120, 200, 40))
+"""Other tints, for models that have the first one's colour themselves."""
 
 TINT: Final = 0.55
 """Share of it in the colours of supports."""
@@ -42,9 +48,27 @@ def pale(rgb: Rgb) -> Rgb:
     return mixed(rgb, (255, 255, 255), PALE)
 
 
-def tinted(rgb: Rgb) -> Rgb:
+def tinted(rgb: Rgb, tint: Rgb = SUPPORT_TINT) -> Rgb:
     """Return the colour of a support."""
-    return mixed(rgb, SUPPORT_TINT, TINT)
+    return mixed(rgb, tint, TINT)
+
+
+def tint_for(colours: Ints) -> Rgb:
+    """Return the tint that is farthest from the colours of a model, (n, 3) bytes, of each brick one.
+
+    A colour counts as far as bricks have it: a few bricks do not decide.
+    """
+    found, count = np.unique(colours.reshape(-1, 3), axis=0, return_counts=True)
+    common = found[count * _RARE >= count.sum()]
+    away = [np.abs(common - tint).sum(axis=1).min(initial=_NEAR) for tint in TINTS]
+    return TINTS[int(np.argmax(away))]
+
+
+_RARE: Final = 50
+"""A colour of less than one brick in so many is rare."""
+
+_NEAR: Final = 180
+"""Difference over the three channels from which on a colour is not taken for the tint."""
 
 
 def brightness(rgb: Rgb) -> float:

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 
 from legorize_addon.core.instructions.canvas import Group, Path, Text
-from legorize_addon.core.instructions.layer_maps import PAPERS, Frame, layer_files, layer_pages, layers_of
+from legorize_addon.core.instructions.layer_maps import MAPS, Frame, layer_files, layer_pages, layers_of, map_pages
+from legorize_addon.core.instructions.paper import PAPERS
 from legorize_addon.core.instructions.shades import SUPPORT_TINT
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.contacts import contact_graph
@@ -132,3 +133,17 @@ def test_files_are_numbered():
     files = dict(layer_files(pages))
     assert list(files) == ["001.svg", "002.svg", "003.svg"]
     assert all(text.startswith("<svg ") and text.endswith("</svg>\n") for text in files.values())
+
+
+@pytest.mark.parametrize(("across", "deep", "rows"), [(12, 12, 3), (48, 72, 1)])
+def test_small_maps_share_a_page(across, deep, rows):
+    """Maps of small models lie on one page, those of large ones alone; all are there."""
+    places = [(x, y, z) for x in range(0, across, 4) for y in range(0, deep, 4) for z in range(0, 12, 3)]
+    bricks = table([(BRICK, *place, 0, 4, 0, 0, 0) for place in places])
+    none = np.zeros(len(bricks), bool)
+    pages = list(map_pages(bricks, CATALOGUE, temporary=none, paper=PAPERS["A4"], first=9))
+    assert len(pages) == -(-4 // rows)
+    assert pages[0].title == MAPS
+    shown = [text for page in pages for text in texts(page.items)]
+    assert [text for text in shown if text.startswith("Layer ")] == [f"Layer {number}" for number in range(1, 5)]
+    assert "9" in shown

@@ -48,7 +48,7 @@ def test_sizes_and_colours_are_told():
 
 def test_callouts_keep_to_their_room():
     """Entries lie beside each other as long as there is room, and then below."""
-    lots = [Lot(part, 0, 3) for part in range(8)]
+    lots = [(Lot(part, 0, 3), None) for part in range(8)]
     wide, narrow = (callout(lots, CATALOGUE, room=room, scale=0.4) for room in (500.0, 40.0))
     assert wide.width > narrow.width
     assert narrow.width <= 40.0

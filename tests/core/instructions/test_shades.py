@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
-from legorize_addon.core.instructions.shades import DARK, brightness, lit, mixed, pale, tinted
+from legorize_addon.core.instructions.shades import DARK, SUPPORT_TINT, brightness, lit, mixed, pale, tint_for, tinted
 from legorize_addon.core.model.catalogue import load_catalogue
 
 COLOURS = [colour.rgb for colour in load_catalogue().colours]
@@ -37,3 +38,9 @@ def test_mixtures_and_brightness():
     assert brightness((255, 255, 255)) == pytest.approx(1)
     assert brightness((0, 0, 0)) == 0
     assert brightness((27, 42, 52)) < DARK < brightness((250, 200, 10))
+
+
+def test_the_tint_differs_from_the_model():
+    """An orange model has supports of another colour, an odd orange brick changes nothing."""
+    assert tint_for(np.array([[0, 0, 200]] * 99 + [[255, 130, 40]])) == SUPPORT_TINT
+    assert tint_for(np.array([[250, 120, 40]] * 9)) != SUPPORT_TINT

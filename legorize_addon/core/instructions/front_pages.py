@@ -1,0 +1,206 @@
+"""The pages before and after the steps: cover, what the signs mean, parts, the finished model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from ..building import Kind
+from ..model import Bricks, Catalogue
+from ..units import PLATE, STUD
+from .canvas import Item, Page, Paint, Rgb, Text, moved, rectangle
+from .fonts import shortened, width, wrapped
+from .icons import arrow, turn_sign
+from .lattice import FRONT, View
+from .lots import GREY, Lot, lots_of, picture_of, placed
+from .panel_layout import SUB
+from .panels import Panels
+from .paper import FOOT, MARGIN, Paper, foot
+from .picture import MM, Picture
+from .plans import plan_outlines
+from .shades import PALE, mixed, tinted
+
+PER_MINUTE: Final = 4
+"""Bricks that hands find and place in a minute, at a guess that the cover tells."""
+
+DISCLAIMER: Final = (
+    "LEGO is a trademark of the LEGO Group, which does not sponsor, authorize or endorse this model or this booklet."
+)
+
+_MM_PER_CM: Final = 10.0
+
+Entry = tuple[Lot, Rgb | None]
+"""A lot of a parts list; those of supports have a tint."""
+
+
+def cover(panels: Panels, title: str, paper: Paper) -> Page:
+    """Return the cover: picture, name, size, parts, time."""
+    finished = np.flatnonzero(~panels.temporary)
+    model = panels.bricks.take(finished)
+    picture = panels.whole(FRONT, finished)
+    name = shortened(title, 15, paper.width - 2 * MARGIN, bold=True)
+    items: list[Item] = [
+        rectangle(0, 0, paper.width, paper.height, Paint(fill=(244, 248, 252))),
+        rectangle(0, paper.height - 34, paper.width, 34, Paint(fill=(0, 92, 160))),
+        Text(name, MARGIN + 2, MARGIN + 14, 15, bold=True),
+        Text("Building instructions", MARGIN + 2, MARGIN + 22, 6, colour=GREY),
+        _fitted(picture, MARGIN, MARGIN + 26, paper.width - 2 * MARGIN, paper.height - 34 - MARGIN - 32),
+    ]
+    facts = _facts(panels, model)
+    step = (paper.width - 2 * MARGIN) / len(facts)
+    for number, (value, what) in enumerate(facts):
+        x = MARGIN + 2 + number * step
+        items.append(Text(value, x, paper.height - 19, 7.5, bold=True, colour=(255, 255, 255)))
+        items.append(Text(what, x, paper.height - 11, 3.6, colour=(214, 230, 244)))
+    return Page(paper.width, paper.height, items, "Cover")
+
+
+def _facts(panels: Panels, model: Bricks) -> list[tuple[str, str]]:
+    """Return what the cover says of a model: figures, and what they are."""
+    points, _ = plan_outlines(model, panels.catalogue)
+    height = np.array([part.height for part in panels.catalogue.parts])[model.part]
+    across, deep = (np.ptp(points, axis=0) * STUD / _MM_PER_CM).tolist()
+    high = float((model.corner[:, 2] + height).max() - model.corner[:, 2].min()) * PLATE / _MM_PER_CM
+    supports = int(panels.temporary.sum())
+    lots, _ = lots_of(model, panels.catalogue)
+    colours = len(np.unique(model.colour))
+    return [
+        (f"{across:.0f} x {deep:.0f} x {high:.0f} cm", "wide, deep, high"),
+        (f"{len(model)} bricks", f"{len(lots)} kinds in {colours} colour{'s' * (colours != 1)}"),
+        (f"{len(panels.steps)} steps", f"with {supports} support bricks to take out" if supports else "no supports"),
+        (_time(len(panels.bricks)), f"at {PER_MINUTE} bricks a minute"),
+    ]
+
+
+def _time(bricks: int) -> str:
+    minutes = bricks / PER_MINUTE
+    if minutes < 55:
+        return f"about {max(5, round(minutes / 5) * 5)} min"
+    return f"about {minutes / 60:.0f} h" if minutes > 150 else f"about {round(minutes / 30) / 2:g} h"
+
+
+def _fitted(picture: Picture, x: float, y: float, wide: float, high: float) -> Item:
+    """Return a picture in the middle of a box, as large as fits."""
+    unit = min(wide / picture.size[0], high / picture.size[1], 1.2 * MM)
+    left, top = (np.array([wide, high]) - picture.size * unit) / 2
+    return placed(picture, x + left, y + top, unit / MM)
+
+
+def how_to_read(panels: Panels, paper: Paper, number: int) -> Page:
+    """Return the page that tells what colours and signs mean, as far as this model has them."""
+    items: list[Item] = [Text("How to read the steps", MARGIN, MARGIN + 8, 9, bold=True)]
+    y = MARGIN + 22.0
+    for sign, text in _signs(panels):
+        items.append(moved(sign, MARGIN, y))
+        for row, line in enumerate(wrapped(text, 5, paper.width - 2 * MARGIN - 32)):
+            items.append(Text(line, MARGIN + 30, y + 6 + 6.5 * row, 5))
+        y += 19
+    return Page(paper.width, paper.height, (*items, *foot(number, paper)), "How to read the steps")
+
+
+def _signs(panels: Panels) -> Iterator[tuple[list[Item], str]]:
+    red: Rgb = (180, 0, 0)
+    yield _chip(red), "New bricks are bright, with strong lines. The blue box above lists them."
+    yield _chip(mixed(red, (255, 255, 255), PALE), (150, 150, 154)), "What was built before is pale."
+    if panels.temporary.any():
+        yield (
+            _chip(tinted((244, 244, 244), panels.tint)),
+            (
+                "Supports have this colour in pictures and lists: take bricks of any colour. They stand below the "
+                "model while it is built, and a step says when to take them out."
+            ),
+        )
+    yield [*turn_sign(11, 5, 4.5, over=False)], "The model is seen from another side than before: turn it."
+    if panels.steps.moves.pressed.any():
+        yield arrow((11, 10), (11, 0)), "Press the new brick on from below, against your fingers on top."
+    dashed = rectangle(4, 1, 14, 9, Paint(stroke=GREY, width=0.4, dash=(1.4, 1.1)))
+    yield [dashed], "Dashed: bricks that are there, but are left out so that new ones behind them are seen."
+    if any(each.kind != Kind.MAIN for each in panels.steps.submodels):
+        yield (
+            [rectangle(2, 0, 18, 11, Paint(fill=SUB))],
+            ("Behind what is built by itself on the table, and put on as a whole later; 2x means two of it."),
+        )
+    yield [Text("7b", 5, 9, 9, bold=True)], "A step whose bricks hide each other has several pictures: a, b, ..."
+
+
+def _chip(fill: Rgb, line: Rgb = (20, 20, 22)) -> list[Item]:
+    return [rectangle(4, 1, 14, 9, Paint(fill=fill, stroke=line, width=0.5))]
+
+
+def parts_pages(panels: Panels, paper: Paper, first: int) -> Iterator[Page]:
+    """Yield the parts list with pictures: of the model, and then of its supports."""
+    model, supports = (panels.bricks.take(rows) for rows in (~panels.temporary, panels.temporary))
+    lists: list[tuple[str, list[Entry]]] = [
+        ("Parts", [(lot, None) for lot in lots_of(model, panels.catalogue)[0]]),
+        # of any colour: those of one part are one entry
+        (
+            "Parts for the supports, of any colour",
+            [(lot, panels.tint) for lot in lots_of(_of_one_colour(supports), panels.catalogue)[0]],
+        ),
+    ]
+    for title, entries in lists:
+        for items in _parts(title, entries, panels.catalogue, paper):
+            yield Page(paper.width, paper.height, (*items, *foot(first, paper)), title)
+            first += 1
+
+
+def _of_one_colour(bricks: Bricks) -> Bricks:
+    return replace(bricks, colour=np.full_like(bricks.colour, bricks.colour.max(initial=0)))
+
+
+_CELL: Final = (34.0, 30.0)
+"""mm of an entry of the parts list."""
+
+
+def _parts(title: str, entries: Sequence[Entry], catalogue: Catalogue, paper: Paper) -> Iterator[list[Item]]:
+    """Yield the pages of one list."""
+    across = int((paper.width - 2 * MARGIN) / _CELL[0])
+    down = int((paper.height - 2 * MARGIN - FOOT - 16) / _CELL[1])
+    wide = (paper.width - 2 * MARGIN) / across
+    total = sum(lot.count for lot, _ in entries)
+    for start in range(0, len(entries), across * down):
+        items: list[Item] = [
+            Text(title, MARGIN, MARGIN + 8, 9, bold=True),
+            Text(f"{total} bricks", MARGIN + width(title, 9, bold=True) + 5, MARGIN + 8, 4, colour=GREY),
+        ]
+        for place, (lot, tint) in enumerate(entries[start : start + across * down]):
+            row, column = divmod(place, across)
+            entry = _entry(lot, tint, catalogue, wide - 4)
+            items.append(moved(entry, MARGIN + column * wide, MARGIN + 16 + row * _CELL[1]))
+        yield items
+
+
+def _entry(lot: Lot, tint: Rgb | None, catalogue: Catalogue, room: float) -> list[Item]:
+    """Return one entry: picture, count, name, colour, and the number by which it is bought."""
+    picture = picture_of(lot, catalogue, tint)
+    part, colour = catalogue.parts[lot.part], catalogue.colours[lot.colour]
+    unit = min(0.5 * MM, room / picture.size[0], 16.5 / picture.size[1])
+    element = int(catalogue.element[lot.part, lot.colour]) if tint is None else 0
+    count = f"{lot.count}x"
+    step = width(count, 4.2, bold=True) + 1.5
+    return [
+        placed(picture, 0, 17 - picture.size[1] * unit, unit / MM),
+        Text(count, 0, 21.5, 4.2, bold=True),
+        Text(shortened(part.title, 2.5, room - step), step, 21.5, 2.5),
+        Text(shortened(colour.name if tint is None else "any colour", 2.5, room), 0, 24.8, 2.5, colour=GREY),
+        Text(str(element or part.number), 0, 27.6, 2.2, colour=(150, 152, 158)),
+    ]
+
+
+def last_page(panels: Panels, title: str, paper: Paper) -> Page:
+    """Return the page of the finished model, from the other sides, with the one line about the trademark."""
+    finished = np.flatnonzero(~panels.temporary)
+    wide = (paper.width - 2 * MARGIN - 12) / 2
+    high = paper.height - 2 * MARGIN - 40
+    items: list[Item] = [
+        rectangle(0, 0, paper.width, paper.height, Paint(fill=(244, 248, 252))),
+        Text("Finished", MARGIN + 2, MARGIN + 9, 11, bold=True),
+        _fitted(panels.whole(View(0), finished), MARGIN, MARGIN + 16, wide, high),
+        _fitted(panels.whole(View(3), finished), MARGIN + wide + 12, MARGIN + 16, wide, high),
+        Text(DISCLAIMER, paper.width / 2, paper.height - MARGIN - 6, 2.9, anchor="middle", colour=GREY),
+        Text(f"{title}, made with Legorize", paper.width / 2, paper.height - MARGIN, 2.9, anchor="middle", colour=GREY),
+    ]
+    return Page(paper.width, paper.height, items, "Finished")

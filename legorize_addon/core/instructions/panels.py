@@ -1,0 +1,170 @@
+"""One picture of a step with all that belongs to it: number, parts, signs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from ..arrays import Floats, Ints, Mask
+from ..building import Action, Kind, Steps
+from ..model import NOBODY, Bricks, Catalogue
+from .canvas import Paint, Path, Rgb
+from .lattice import FRONT, Sight, View
+from .lots import rgb_of, shown_rgb
+from .picture import Look, Picture, at, draw, extent
+from .regions import outlines
+from .shades import pale
+from .shots import Shot, shots
+from .sightlines import Scene, Stage, scenes
+
+_GHOST: Final = Paint(stroke=(120, 124, 130), width=2.2, dash=(9.0, 7.0))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Panel:
+    """What one picture of the booklet shows.
+
+    Attributes
+    ----------
+    shot : Shot
+    letter : str
+        "a", "b" and so on where a step has several pictures, else empty.
+    last : bool
+        Whether it is the last picture of its step.
+    view : View
+    stays, new, left_out : int64 array
+        Rows of the bricks that were there, that come, and that are drawn in outline.
+    placed : int64 array
+        Rows of the new bricks that are listed as parts.
+    turned : View or None
+        The view before, if it was another one.
+    size : (2,) float64 array
+        Width and height of the picture in its units.
+    shares : (k,) float64 array
+        Share of what could be seen of each new brick that is seen.
+    """
+
+    shot: Shot
+    letter: str
+    last: bool
+    view: View
+    stays: Ints
+    new: Ints
+    left_out: Ints
+    placed: Ints
+    turned: View | None
+    size: Floats
+    shares: Floats
+
+
+class Panels:
+    """The pictures of all steps of a model.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        Model and supports.
+    catalogue : Catalogue
+    steps : Steps
+    temporary : bool array
+        Bricks that are taken out again.
+    tint : tuple of three int
+        Colour in which supports are drawn.
+    """
+
+    def __init__(self, bricks: Bricks, catalogue: Catalogue, steps: Steps, temporary: Mask, tint: Rgb) -> None:
+        self.bricks, self.catalogue, self.steps, self.temporary, self.tint = bricks, catalogue, steps, temporary, tint
+        self.stage = Stage(bricks, catalogue)
+        self.shots = list(shots(steps, temporary=temporary))
+        self._own = own = shown_rgb(bricks, catalogue, temporary, tint)
+        self._pale = np.array([pale(_rgb(row)) for row in own], dtype=np.int64).reshape(-1, 3)
+        self.names = submodel_names(steps)
+        self._views: dict[int, View] = {}
+
+    def of(self, shot: Shot) -> list[Panel]:
+        """Return the pictures of a step; of one table they are to be asked for in order."""
+        table = shot.step.submodel
+        before = first = self._views.get(table, FRONT)
+        fresh = not len(shot.before)
+        found = []
+        for scene in self._scenes(shot, first):
+            found.append((scene, None if scene.view == before or fresh else before))
+            before, fresh = scene.view, False
+        self._views[table] = before
+        letters = [chr(ord("a") + number) for number in range(len(found))] if len(found) > 1 else [""]
+        panels, stays = [], shot.stays
+        for letter, (scene, turned) in zip(letters, found, strict=True):
+            drawn = np.setdiff1d(stays, scene.left_out)
+            listed = scene.new[np.isin(scene.new, shot.placed)]
+            low, high = extent(scene.sight)
+            last = letter in ("", letters[-1])
+            panels.append(
+                Panel(shot, letter, last, scene.view, drawn, scene.new, scene.left_out, listed, turned, high - low,
+                      scene.shares)
+            )  # fmt: skip
+            stays = np.concatenate([stays, scene.new])
+        return panels
+
+    def _scenes(self, shot: Shot, first: View) -> list[Scene]:
+        if shot.step.action == Action.REMOVE:
+            views = dict.fromkeys((first, *(View(turns) for turns in range(4))))
+            seen = [self.stage.scene(shot.stays, shot.placed, view) for view in views]
+            best = max(scene.shares.mean() for scene in seen)
+            return [next(scene for scene in seen if scene.shares.mean() >= 0.8 * best)]
+        return list(scenes(self.stage, shot.stays, shot.placed, shot.came, first, below=shot.step.pressed))
+
+    def picture(self, panel: Panel) -> Picture:
+        """Draw the picture of a panel."""
+        new = np.zeros(len(self.bricks), dtype=bool)
+        new[panel.new] = True
+        colour = np.where(new[:, None], self._own, self._pale)
+        sight = self.stage.sight(np.concatenate([panel.stays, panel.new]), panel.view)
+        made = draw(sight, Look(colour, new, studs=not panel.view.below))
+        if not len(panel.left_out):
+            return made
+        ghost = _outline(self.stage.sight(panel.left_out, panel.view))
+        low = np.minimum(made.low, ghost.points.min(axis=0))
+        high = np.maximum(made.high, ghost.points.max(axis=0))
+        return Picture((*made.items, ghost), low, high)
+
+    def whole(self, view: View, rows: Ints) -> Picture:
+        """Draw bricks in their own colours, as they are in the end."""
+        sight = self.stage.sight(rows, view)
+        look = Look(rgb_of(self.bricks, self.catalogue), np.ones(len(self.bricks), dtype=bool), studs=not view.below)
+        return draw(sight, look)
+
+
+def _rgb(row: Ints) -> Rgb:
+    red, green, blue = row.tolist()
+    return red, green, blue
+
+
+def _outline(sight: Sight) -> Path:
+    region = np.where(sight.bricks == NOBODY, NOBODY, 0)
+    loops = outlines(region, sight.low)
+    return Path(at(loops.points), loops.count, True, (_GHOST,))
+
+
+def submodel_names(steps: Steps) -> dict[int, str]:
+    """Return what submodels are called in the booklet: counted in the order in which they are begun, equal ones alike.
+
+    Parameters
+    ----------
+    steps : Steps
+
+    Returns
+    -------
+    dict of int to str
+        By number; empty for the model itself.
+    """
+    names = {each.number: f"Piece {each.piece + 1}" for each in steps.submodels if each.kind == Kind.PIECE}
+    names |= {each.number: "" for each in steps.submodels if each.kind == Kind.MAIN}
+    count = 0
+    for step in steps:
+        first = steps.submodels[step.submodel].like
+        if first not in names:
+            count += 1
+            names[first] = f"Sub-assembly {count}"
+    return {each.number: names.get(each.number) or names.get(each.like, "") for each in steps.submodels}

@@ -1,0 +1,147 @@
+"""The pages of the steps: as many pictures on each as can be read.
+
+A page is halved again and again, as long as the next pictures fit into the
+halves; so each picture has the smallest cell in which it can be seen in its
+scale, and the order of reading is that of the steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Final
+
+import numpy as np
+
+from ..building import Kind
+from ..progress import Progress, part, silent
+from .canvas import Item, Page, Paint, moved, rectangle
+from .lots import Callout
+from .panel_layout import SUB, header, panel_items
+from .panels import Panel, Panels
+from .paper import GAP, MARGIN, Cell, Paper, foot, page_cell
+from .picture import MM
+
+LARGEST: Final = 0.62
+"""mm on paper for a mm of the model at most: a stud is then 3 mm wide."""
+
+READABLE: Final = 0.36
+"""The same at least, if two pictures are to be on a page."""
+
+_HEAD: Final = 30.0
+"""mm that the parts of a step take, as a rule."""
+
+_INSET: Final = 3.0
+"""mm between the rim of a cell and what is in it."""
+
+
+def step_pages(panels: Panels, paper: Paper, first: int, progress: Progress = silent) -> Iterator[Page]:
+    """Draw the steps.
+
+    Parameters
+    ----------
+    panels : Panels
+    paper : Paper
+    first : int
+        Number of the first page.
+    progress : Progress
+
+    Yields
+    ------
+    Page
+    """
+    found: list[Panel] = []
+    looking, drawing = part(progress, 0.0, 0.4), part(progress, 0.4, 1.0)
+    for number, shot in enumerate(panels.shots):
+        looking("pictures", number / len(panels.shots))
+        found += panels.of(shot)
+    layout = _Layout(panels, scales(panels, found, paper))
+    start = 0
+    while start < len(found):
+        drawing("pictures", start / len(found))
+        cells = layout.filled(page_cell(paper), found[start:])
+        items = [item for panel, cell in zip(found[start:], cells, strict=False) for item in layout.items(panel, cell)]
+        if len(cells) > 1:
+            items.append(_middle(paper))
+        number = found[start].shot.step.number
+        yield Page(paper.width, paper.height, (*items, *foot(first, paper)), f"Step {number + 1}", number)
+        start, first = start + len(cells), first + 1
+
+
+def scales(panels: Panels, found: Sequence[Panel], paper: Paper) -> dict[int, float]:
+    """Return the scale for each table: the same for all of its steps, so that nothing jumps.
+
+    Parameters
+    ----------
+    panels : Panels
+    found : sequence of Panel
+        All pictures.
+    paper : Paper
+
+    Returns
+    -------
+    dict of int to float
+        Of each submodel the mm on paper for a mm of the model.
+    """
+    largest = {each.number: np.ones(2) for each in panels.steps.submodels}
+    for panel in found:
+        table = panel.shot.step.submodel
+        largest[table] = np.maximum(largest[table], panel.size * MM)
+    page = page_cell(paper)
+    half = page._replace(width=(page.width - GAP) / 2)
+    made = {}
+    for table, size in largest.items():
+        in_half, in_page = (
+            float(min((cell.width - 2 * _INSET) / size[0], (cell.height - 2 * _INSET - _HEAD) / size[1]))
+            for cell in (half, page)
+        )
+        made[table] = min(in_half, LARGEST) if in_half >= READABLE else min(in_page, READABLE)
+    return made
+
+
+def _middle(paper: Paper) -> Item:
+    """Return the line between the halves of a page, of which the left one is read first."""
+    page = page_cell(paper)
+    return rectangle(paper.width / 2, page.y, 0, page.height, Paint(stroke=(120, 126, 134), width=0.5))
+
+
+class _Layout:
+    def __init__(self, panels: Panels, scale: Mapping[int, float]) -> None:
+        self._panels, self._scale = panels, scale
+        self._headers: dict[tuple[int, float], Callout] = {}
+
+    def filled(self, cell: Cell, panels: Sequence[Panel]) -> list[Cell]:
+        """Return the cells of the first panels of a row, inside of one."""
+        halves = cell.halves
+        if halves and self._fits(panels[0], halves[0]):
+            one = self.filled(halves[0], panels)
+            rest = panels[len(one) :]
+            if rest and self._fits(rest[0], halves[1]):
+                return one + self.filled(halves[1], rest)
+            # half of a cell stays empty rather than that many small pictures become large ones
+            if len(one) > 1:
+                return one
+        return [cell]
+
+    def items(self, panel: Panel, cell: Cell) -> Iterator[Item]:
+        """Yield a picture in its cell, with a colour behind it if it is built by itself."""
+        table = panel.shot.step.submodel
+        if self._panels.steps.submodels[table].kind != Kind.MAIN:
+            yield rectangle(*cell, Paint(fill=SUB))
+        line = Paint(stroke=(205, 208, 212), width=0.25)
+        if cell.x > MARGIN:
+            yield rectangle(cell.x - GAP / 2, cell.y, 0, cell.height, line)
+        if cell.y > MARGIN:
+            yield rectangle(cell.x, cell.y - GAP / 2, cell.width, 0, line)
+        wide, high = cell.width - 2 * _INSET, cell.height - 2 * _INSET
+        yield moved(panel_items(self._panels, panel, wide, high, self._scale[table]), cell.x + _INSET, cell.y + _INSET)
+
+    def _fits(self, panel: Panel, cell: Cell) -> bool:
+        wide, high = cell.width - 2 * _INSET, cell.height - 2 * _INSET
+        across, down = panel.size * MM * self._scale[panel.shot.step.submodel]
+        if across > wide or down > high:
+            return False
+        key = id(panel), wide
+        if key not in self._headers:
+            self._headers[key] = header(self._panels, panel, wide)
+        top = self._headers[key]
+        return bool(top.width <= wide and down <= high - top.height - 3)

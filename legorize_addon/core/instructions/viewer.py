@@ -1,0 +1,109 @@
+"""The bricks of a booklet for its page in three dimensions, as small as they can be."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Mapping
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import Ints, Mask
+from ..building import Action, Steps
+from ..model import NOBODY, Bricks, Catalogue, stud_columns
+from .lots import shown_rgb
+
+NEVER: Final = 0xFFFF
+"""Step of what does not happen."""
+
+_CORNER_BOXES: Final = (
+    ((0, 0, 2, 1), (0, 1, 1, 1)),
+    ((0, 0, 2, 1), (1, 1, 1, 1)),
+    ((0, 1, 2, 1), (1, 0, 1, 1)),
+    ((0, 1, 2, 1), (0, 0, 1, 1)),
+)
+"""The two boxes of a corner part by quarter turn: x, y, studs along x and y."""
+
+
+def viewer_data(
+    bricks: Bricks,
+    catalogue: Catalogue,
+    steps: Steps,
+    *,
+    temporary: Mask,
+    tint: tuple[int, int, int],
+    names: Mapping[int, str],
+    pages: Mapping[int, int],
+) -> str:
+    """Return what the page in three dimensions has to know, as JSON.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        Model and supports, n rows.
+    catalogue : Catalogue
+    steps : Steps
+    temporary : (n,) bool array
+        Bricks that are taken out again, which are tinted.
+    tint : tuple of three int
+    names : mapping of int to str
+        Names of the submodels.
+    pages : mapping of int to int
+        The first step on the page of each step.
+
+    Returns
+    -------
+    str
+        Tables of numbers in base 64, little end first.
+    """
+    boxes, box_brick = _boxes(bricks, catalogue)
+    stud_brick, columns = stud_columns(bricks, catalogue)
+    height = np.array([part.height for part in catalogue.parts])[bricks.part]
+    studs = columns.astype(np.int64)
+    studs[:, 2] += height[stud_brick]
+    colour = shown_rgb(bricks, catalogue, temporary, tint)
+    moves, count = steps.moves, len(steps.submodels)
+    removed = np.full(len(bricks), NEVER)
+    removals = moves.action == Action.REMOVE
+    removed[moves.brick[removals]] = moves.step[removals]
+    joined = np.full(count, NEVER)
+    joins = moves.action == Action.JOIN
+    joined[moves.submodel[joins]] = moves.step[joins]
+    content: dict[str, Any] = {
+        "boxes": _packed(boxes, "<i2"),
+        "studs": _packed(studs, "<i2"),
+        "brick": _packed(np.concatenate([box_brick, stud_brick]), "<u4"),
+        "colour": _packed(colour, "u1"),
+        "placed": _packed(_known(moves.step_of(len(bricks))), "<u2"),
+        "removed": _packed(removed, "<u2"),
+        "owner": _packed(_known(steps.submodel_of(len(bricks))), "<u2"),
+        "parent": [max(each.parent, 0) for each in steps.submodels],
+        "joined": joined.tolist(),
+        "names": [names[each.number] for each in steps.submodels],
+        "table": [step.submodel for step in steps],
+        "page": [pages[number] + 1 for number in range(len(steps))],
+    }
+    return json.dumps(content, separators=(",", ":"))
+
+
+def _known(rows: NDArray[np.int32]) -> Ints:
+    return np.where(rows == NOBODY, NEVER, rows).astype(np.int64)
+
+
+def _packed(numbers: NDArray[np.integer], kind: str) -> str:
+    return b64encode(np.ascontiguousarray(numbers).astype(kind).tobytes()).decode()
+
+
+def _boxes(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:
+    """Return the boxes that bricks consist of, (n, 6): lowest corner and size in cells; and the brick of each."""
+    boxes, owner = [], []
+    rows = zip(bricks.part.tolist(), (bricks.turn % 4).tolist(), bricks.corner.tolist(), strict=True)
+    for row, (number, turn, (x, y, z)) in enumerate(rows):
+        part = catalogue.parts[number]
+        across, deep = (part.width, part.length) if turn % 2 else (part.length, part.width)
+        for u, v, wide, long in _CORNER_BOXES[turn] if part.corner else ((0, 0, across, deep),):
+            boxes.append((x + u, y + v, z, wide, long, part.height))
+            owner.append(row)
+    return np.array(boxes, dtype=np.int64).reshape(-1, 6), np.array(owner, dtype=np.int64)

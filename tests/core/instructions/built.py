@@ -1,0 +1,31 @@
+"""Small models with the steps in which they are built."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.supports.assembly_plan import AssemblyPlan, plan_assembly
+from tests.core.any_bricks import CATALOGUE, table
+
+PART = {part.number: row for row, part in enumerate(CATALOGUE.parts)}
+BRICK, LONG, SMALL = PART["3001"], PART["3007"], PART["3003"]
+
+
+@cache
+def arm() -> AssemblyPlan:
+    """Return a post with an arm that needs a support: red, with a yellow end, and bricks below that hang."""
+    post = [(BRICK, 0, 2 * y, 3 * z, 0, 4, 0, 0, 0) for z in range(6) for y in range(2)]
+    roof = [(LONG, 0, 2 * y, 18, 0, 4, 0, 0, 0) for y in range(2)]
+    end = [(BRICK, 6, 2 * y, 21, 0, 14, 0, 0, 0) for y in range(2)]
+    tip = [(BRICK, 9, 2 * y, 18, 0, 14, 0, 0, 0) for y in range(2)]
+    return plan_assembly(Assembly(table([*post, *roof, *end, *tip]), CATALOGUE), deepest=0)
+
+
+@cache
+def pair() -> AssemblyPlan:
+    """Return two pieces, one on the other, each built by itself."""
+    lower = [(BRICK, 4 * x, 2 * y, 0, 0, 4, 0, 0, 0) for x in range(2) for y in range(2)]
+    upper = [(SMALL, 2 * x, 2 * y, 3, 0, 1, 0, 1, 0) for x in range(4) for y in range(2)]
+    roof = [(LONG, 0, 2 * y, 6, 0, 1, 0, 1, 0) for y in range(2)]
+    return plan_assembly(Assembly(table([*lower, *upper, *roof]), CATALOGUE), deepest=3)

@@ -1,0 +1,75 @@
+"""Cover, signs, parts, last page."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.instructions.canvas import Group, Text
+from legorize_addon.core.instructions.front_pages import DISCLAIMER, cover, how_to_read, last_page, parts_pages
+from legorize_addon.core.instructions.paper import PAPERS
+from tests.core.instructions.built import arm, pair
+from tests.core.instructions.test_panels import panels_of
+
+A4 = PAPERS["A4"]
+
+
+def texts(items):
+    """Yield all texts of a page."""
+    for item in items:
+        if isinstance(item, Group):
+            yield from texts(item.items)
+        elif isinstance(item, Text):
+            yield item.text
+
+
+def test_the_cover_tells_size_parts_steps_and_time():
+    """The arm is 13 studs wide, 4 deep, 8 bricks high."""
+    plan = arm()
+    shown = list(texts(cover(panels_of(plan), "Arm", A4).items))
+    bricks = int((~plan.temporary).sum())
+    assert "Arm" in shown
+    assert "10 x 3 x 8 cm" in shown
+    assert f"{bricks} bricks" in shown
+    assert f"{len(plan.steps)} steps" in shown
+    assert [text for text in shown if text.startswith("about ")]
+    assert f"with {plan.temporary.sum()} support bricks to take out" in shown
+
+
+@pytest.mark.parametrize("model", [arm, pair])
+def test_the_parts_list_has_all_bricks(model):
+    """The counts add up to the bricks of the model, and those of supports to the supports."""
+    plan = model()
+    counts = {"Parts": 0, "Parts for the supports, of any colour": 0}
+    for page in parts_pages(panels_of(plan), A4, 3):
+        counts[page.title] += sum(
+            int(text[:-1]) for text in texts(page.items) if text.endswith("x") and text[:-1].isdigit()
+        )
+    assert list(counts.values()) == [int((~plan.temporary).sum()), int(plan.temporary.sum())]
+
+
+def test_only_signs_that_occur_are_explained():
+    """A model without supports and pieces needs few words."""
+    with_all = " ".join(texts(how_to_read(panels_of(arm()), A4, 2).items))
+    assert "Supports" in with_all
+    plan = pair()
+    assert plan.temporary.sum() == 0
+    without = " ".join(texts(how_to_read(panels_of(plan), A4, 2).items))
+    assert "Supports" not in without
+    assert "by itself" in without
+
+
+def test_the_last_page_has_the_line_about_the_trademark():
+    """One line, and two pictures from other sides."""
+    page = last_page(panels_of(arm()), "Arm", A4)
+    shown = list(texts(page.items))
+    assert DISCLAIMER in shown
+    assert "trademark" in DISCLAIMER
+    assert len([item for item in page.items if isinstance(item, Group)]) == 2
+
+
+def test_long_names_are_cut():
+    """A name that does not fit on the cover is cut."""
+    shown = list(texts(cover(panels_of(arm()), "very long name " * 20, A4).items))
+    assert shown[0].endswith("...")
+    assert np.all([len(text) < 200 for text in shown])

@@ -1,0 +1,76 @@
+"""The pictures of all steps of a model."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.building.moves import Action
+from legorize_addon.core.building.steps import Kind
+from legorize_addon.core.instructions.lattice import FRONT
+from legorize_addon.core.instructions.panels import Panels, submodel_names
+from legorize_addon.core.instructions.shades import SUPPORT_TINT
+from legorize_addon.core.instructions.sightlines import ENOUGH
+from tests.core.any_bricks import CATALOGUE
+from tests.core.instructions.built import arm, pair
+
+
+def panels_of(plan):
+    """Return the pictures of a model."""
+    return Panels(plan.bricks, CATALOGUE, plan.steps, plan.temporary, SUPPORT_TINT)
+
+
+@pytest.mark.parametrize("model", [arm, pair])
+def test_pictures_show_all_bricks_well(model):
+    """Each brick is new in one picture, listed there, and seen well enough."""
+    panels = panels_of(model())
+    listed = []
+    for shot in panels.shots:
+        found = panels.of(shot)
+        assert [panel.letter for panel in found] == (["a", "b", "c", "d"][: len(found)] if len(found) > 1 else [""])
+        assert [panel.last for panel in found] == [False] * (len(found) - 1) + [True]
+        for panel in found:
+            assert not np.isin(panel.new, panel.stays).any()
+            if shot.step.action != Action.REMOVE:
+                listed += panel.placed.tolist()
+                shares = panel.shares[np.isin(panel.new, panel.placed)]
+                assert (shares >= ENOUGH).all()
+    assert sorted(listed) == list(range(len(panels.bricks)))
+
+
+@pytest.mark.parametrize("model", [arm, pair])
+def test_pictures_are_as_large_as_is_said(model):
+    """The size by which pages are divided is that of the picture, without what is only drawn in outline."""
+    panels = panels_of(model())
+    for shot in panels.shots:
+        for panel in panels.of(shot):
+            picture = panels.picture(panel)
+            if not len(panel.left_out):
+                assert picture.size.tolist() == panel.size.tolist()
+            assert (picture.size >= panel.size).all()
+
+
+def test_the_first_picture_of_a_table_is_not_turned():
+    """Nobody turns what is not there yet."""
+    panels = panels_of(pair())
+    for shot in panels.shots:
+        first = panels.of(shot)[0]
+        if not len(shot.before):
+            assert first.turned is None
+
+
+def test_submodels_have_names_in_their_order():
+    """Pieces have their numbers, sub-assemblies are counted as they are begun, the model has no name."""
+    steps = pair().steps
+    names = submodel_names(steps)
+    assert names[0] == ""
+    assert "Piece 2" in names.values()
+    small = [each.like for each in steps.submodels if each.kind == Kind.SUBASSEMBLY]
+    assert len({name for name in names.values() if name.startswith("Sub-assembly")}) == len(set(small))
+
+
+def test_the_finished_model_has_its_own_colours():
+    """The picture of the cover shows no tint."""
+    panels = panels_of(arm())
+    picture = panels.whole(FRONT, np.flatnonzero(~panels.temporary))
+    assert picture.size.min() > 0

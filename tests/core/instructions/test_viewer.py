@@ -1,0 +1,86 @@
+"""What the page in three dimensions knows."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64decode
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.building.moves import Action
+from legorize_addon.core.instructions.panels import submodel_names
+from legorize_addon.core.instructions.shots import shots
+from legorize_addon.core.instructions.viewer import NEVER, _boxes, viewer_data
+from legorize_addon.core.model.catalogue import footprint
+from tests.core.any_bricks import CATALOGUE, everything
+from tests.core.instructions.built import arm, pair
+
+
+def data_of(plan):
+    """Return the data of a model, and its tables of numbers."""
+    text = viewer_data(
+        plan.bricks, CATALOGUE, plan.steps, temporary=plan.temporary, tint=(1, 2, 3),
+        names=submodel_names(plan.steps), pages={number: number // 2 * 2 for number in range(len(plan.steps))},
+    )  # fmt: skip
+    found = json.loads(text)
+    kinds = {"boxes": "<i2", "studs": "<i2", "brick": "<u4", "colour": "u1"}
+    kinds |= {"placed": "<u2", "removed": "<u2", "owner": "<u2"}
+    return found, {name: np.frombuffer(b64decode(found[name]), kind) for name, kind in kinds.items()}
+
+
+def there(found, numbers, step):
+    """Return the bricks on the table of a step, by the rule of the page."""
+    table, shown = found["table"][step], []
+    for brick, (placed, removed, owner) in enumerate(
+        zip(*(numbers[name].tolist() for name in ("placed", "removed", "owner")), strict=True)
+    ):
+        came, at = placed, owner
+        if came > step or removed < step:
+            continue
+        while at not in (table, 0):
+            came, at = max(came, found["joined"][at]), found["parent"][at]
+        if at == table and came <= step:
+            shown.append(brick)
+    return shown
+
+
+@pytest.mark.parametrize("model", [arm, pair])
+def test_steps_show_what_the_booklet_shows(model):
+    """On the table of each step are the bricks of its picture, those that are being taken out included."""
+    plan = model()
+    found, numbers = data_of(plan)
+    for shot in shots(plan.steps, temporary=plan.temporary):
+        expected = np.union1d(shot.stays, shot.new).tolist()
+        assert there(found, numbers, shot.step.number) == expected
+
+
+def test_parts_become_boxes():
+    """The boxes of each brick cover its cells, and every stud is on one."""
+    bricks = everything()
+    boxes, owner = _boxes(bricks, CATALOGUE)
+    for row in range(len(bricks)):
+        part = CATALOGUE.parts[bricks.part[row]]
+        cells = {
+            (x + i - bricks.corner[row, 0], y + j - bricks.corner[row, 1])
+            for x, y, _, wide, long, _ in boxes[owner == row].tolist()
+            for i in range(wide)
+            for j in range(long)
+        }
+        assert cells == {tuple(cell) for cell in footprint(part, int(bricks.turn[row])).tolist()}
+        assert (boxes[owner == row, 5] == part.height).all()
+
+
+def test_tables_fit_together():
+    """There is a brick for each box and stud, a colour for each brick, a name for each submodel."""
+    plan = arm()
+    found, numbers = data_of(plan)
+    n = len(plan.bricks)
+    assert len(numbers["boxes"]) // 6 + len(numbers["studs"]) // 3 == len(numbers["brick"])
+    assert numbers["brick"].max() == n - 1
+    assert len(numbers["colour"]) == 3 * n
+    assert len(found["names"]) == len(found["parent"]) == len(plan.steps.submodels)
+    assert len(found["table"]) == len(found["page"]) == len(plan.steps)
+    assert (numbers["removed"] != NEVER).sum() == plan.temporary.sum()
+    removals = plan.steps.moves.action == Action.REMOVE
+    assert set(numbers["removed"][plan.temporary]) == set(plan.steps.moves.step[removals].tolist())
