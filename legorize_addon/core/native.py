@@ -1,7 +1,8 @@
-"""Calls of native code: on one thread of its own mathematics, and watched while they last.
+"""Work that calls native code: on one thread of linear algebra, and never silent.
 
-A solver that is called once may work for minutes. It lets other threads run
-meanwhile, so one of these can tell progress, and can be told to stop.
+A solver that is called once may work for minutes without a word. It lets other
+threads run meanwhile, so the work has a thread of its own, and the one that asked
+for it tells progress all the time and can be told to stop.
 """
 
 from __future__ import annotations
@@ -9,12 +10,16 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from queue import Empty, SimpleQueue
 from typing import Final, Generic, TypeVar
+
+from .errors import Cancelled
+from .progress import Progress
 
 Result = TypeVar("Result")
 
 PAUSE: Final = 0.2
-"""Seconds between two looks at whether somebody wants a watched call to stop."""
+"""Seconds of silence after which what was told last is told again."""
 
 
 @contextmanager
@@ -31,53 +36,91 @@ def one_thread() -> Iterator[None]:
         yield
 
 
-def watched(call: Callable[[], Result], tick: Callable[[], None], *, pause: float = PAUSE) -> Result:
-    """Call a function that takes long and lets other threads run.
+def watched(work: Callable[[Progress], Result], progress: Progress, *, pause: float = PAUSE) -> Result:
+    """Do some work, and tell progress even while it is silent.
 
     Parameters
     ----------
-    call : callable
-        Called once, in a thread of its own. It must not change anything that
-        others see: nobody stops it.
-    tick : callable
-        Called again and again in this thread while the call lasts. If it
-        raises, the call is left to itself, and ends with the process.
+    work : callable
+        Called once, in a thread of its own, with a progress that hands all it
+        is told on, and returns when that is done.
+    progress : Progress
+        Called in this thread: with all that the work tells, in order, and with
+        the last of it again after each `pause`. If it raises, the work is
+        stopped at its next word, and not waited for.
     pause : float
-        Seconds between two of its calls.
+        Seconds.
 
     Returns
     -------
     object
-        What the call returned.
+        What the work returned.
 
     Raises
     ------
     Exception
-        Whatever the call or `tick` raised.
+        Whatever the work or `progress` raised.
     """
-    thread = _Call(call)
-    thread.start()
-    thread.join(pause)
-    while thread.is_alive():
-        tick()
-        thread.join(pause)
-    return thread.result()
+    worker = _Worker(work)
+    worker.start()
+    last: tuple[str, float] | None = None
+    try:
+        while not worker.ended:
+            told = worker.listen(pause)
+            last = told or last
+            if last is not None and not worker.ended:
+                progress(*last)
+            if told is not None:
+                worker.answer()
+    finally:
+        worker.stop(pause)
+    return worker.result()
 
 
-class _Call(threading.Thread, Generic[Result]):
-    """A call at work, which keeps nothing alive that ends."""
+class _Worker(threading.Thread, Generic[Result]):
+    """Work in a thread that keeps no process from ending; it waits for an answer to each word."""
 
-    def __init__(self, call: Callable[[], Result]) -> None:
-        super().__init__(name="Legorize: solver", daemon=True)
-        self._call = call
+    def __init__(self, work: Callable[[Progress], Result]) -> None:
+        super().__init__(name="Legorize: work", daemon=True)
+        self._work = work
+        self._words: SimpleQueue[tuple[str, float] | None] = SimpleQueue()
+        self._answers: SimpleQueue[None] = SimpleQueue()
+        self._abandoned = False
         self._results: list[Result] = []
         self._error: BaseException | None = None
+        self.ended = False
 
     def run(self) -> None:
         try:
-            self._results.append(self._call())
+            self._results.append(self._work(self._tell))
         except BaseException as error:  # raised again by result(), in the thread that asks for it
             self._error = error
+        self._words.put(None)
+
+    def _tell(self, stage: str, share: float) -> None:
+        self._words.put((stage, share))
+        self._answers.get()
+        if self._abandoned:
+            raise Cancelled
+
+    def listen(self, pause: float) -> tuple[str, float] | None:
+        """Return what the work tells within some seconds; it has ended after its last word."""
+        try:
+            word = self._words.get(timeout=pause)
+        except Empty:
+            return None
+        self.ended = word is None
+        return word
+
+    def answer(self) -> None:
+        """Let the work go on after a word."""
+        self._answers.put(None)
+
+    def stop(self, pause: float) -> None:
+        """Let the work end at its next word, and wait for that for some seconds."""
+        self._abandoned = True
+        self.answer()
+        self.join(pause)
 
     def result(self) -> Result:
         if self._error is not None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from .build import Build
 from .building import Proof, prove_steps
 from .errors import enough_memory
@@ -10,6 +12,7 @@ from .layout import recolour_visible
 from .layout.joining import add_ties
 from .mesh import TriangleMesh
 from .model import Assembly, contact_graph
+from .native import watched
 from .progress import Overall, Progress, silent
 from .report import remarks, remarks_on_building, remarks_on_proof, remarks_on_split
 from .settings import Settings
@@ -41,8 +44,8 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
         As read, in world mm.
     settings : Settings
     progress : Progress
-        Told the stage at work, or what it is at, and the share of the whole run
-        that is done, which never goes back.
+        Told at least once a second the stage at work, or what it is at, and the
+        share of the whole run that is done, which never goes back.
 
     Returns
     -------
@@ -53,15 +56,20 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     LegorizeError
         The mesh or the settings cannot be used, in one sentence.
     """
+    return watched(partial(_legorize, mesh, settings), progress)
+
+
+def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Build:
+    """Go through the stages."""
     expected = estimate(mesh, settings)
     check_limits(expected, settings)
     run = Run.of(settings, Overall(expected.stages, progress))
-    plates = settings.plates != "none"
+    plates, given = settings.plates != "none", mesh
 
     with run.stage("mesh"):
         mesh, repairs, turn, scale, unseen = prepare_mesh(run, mesh)
     with run.stage("colours"):
-        surface = find_colours(run, mesh)
+        surface = find_colours(run, mesh, given)
     with run.stage("slicing"):
         frame = fit_grid(mesh, symmetric=settings.symmetric, plates=plates)
         cut = cut_mesh(run, mesh, surface, frame)

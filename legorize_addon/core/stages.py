@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from .arrays import Floats, Mask
 from .build import Cut
-from .colours import SurfaceColours, chosen_palette, surface_colours
+from .colours import SurfaceColours, chosen_palette, count_texels, surface_colours
 from .estimate import AGAIN
 from .layout import FILLER, lay
 from .layout.learning import learned_table, samples_text
@@ -99,9 +99,14 @@ def _scale(mesh: TriangleMesh, settings: Settings) -> float:
     )
 
 
-def find_colours(run: Run, mesh: TriangleMesh) -> SurfaceColours:
-    """Return the brick colours of all texels; one to one, no more of them than the palette has."""
+def find_colours(run: Run, mesh: TriangleMesh, given: TriangleMesh) -> SurfaceColours:
+    """Return the brick colours of all texels; one to one, no more of them than the palette has.
+
+    Where every texel counts once, these are the texels of the mesh that was
+    given that alpha does not hide.
+    """
     settings = run.settings
+    every = settings.sampling == "image"
     return surface_colours(
         mesh,
         run.catalogue,
@@ -110,6 +115,7 @@ def find_colours(run: Run, mesh: TriangleMesh) -> SurfaceColours:
         palette=run.palette,
         one_to_one=settings.one_to_one,
         rng=run.rng,
+        whole=count_texels(given.images, given.opacities, least=settings.least_alpha or 0.5) if every else None,
     )
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy import ndimage
 
+from legorize_addon.core import pipeline
 from legorize_addon.core.build import Build
 from legorize_addon.core.errors import BuildError, Cancelled, LegorizeError, LimitError, MeshError, SettingsError
 from legorize_addon.core.mesh.size import model_scale
@@ -19,7 +21,7 @@ from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from tests.core.light import holes
 from tests.core.solids import box, joined, mesh_of, moebius, reversed_mesh, sheet, sphere, tube, without
-from tests.core.textured import blob, cylinder, hollow_box, painted, rgb_of, split_at_x, table, torus
+from tests.core.textured import blob, cylinder, hollow_box, painted, rgb_of, split_at_x, table, textured, torus
 
 STAGES = [
     "mesh",
@@ -430,3 +432,29 @@ def test_hollow_leaves_the_inside_empty():
     assert (empty.hollow.cover == Fill.EMPTY).sum() > (full.hollow.cover == Fill.EMPTY).sum()
     seen = empty.grid.colour > COLOUR_ANY
     assert (empty.hollow.cover[seen] == Fill.REQUIRED).all()
+
+
+def test_every_texel_counts_as_it_was_read():
+    """Sampled by image, one texel among 260,000 that reduced images swallow is a dominant colour all the same."""
+    image = np.full((512, 512, 3), 255, np.uint8)
+    image[300, 200] = (200, 0, 0)
+    mesh = textured(box((0, 0, 0), (40, 40, 40)), image)
+    small = Settings(width=4, sampling="image", supports="none")
+    assert legorize(mesh, small).surface.centres.tolist() == [[200, 0, 0], [255, 255, 255]]
+    assert [200, 0, 0] not in legorize(mesh, replace(small, sampling="surface")).surface.centres.tolist()
+
+
+def test_progress_is_told_while_a_stage_is_silent(monkeypatch):
+    """A stage that says nothing until it was told of three times more ends, as it is told of again and again."""
+    heard: list[tuple[str, float]] = []
+    enough = threading.Event()
+
+    def hear(stage: str, share: float) -> None:
+        heard.append((stage, share))
+        if heard[-3:] == [heard[-1]] * 3 and stage == "overhangs":
+            enough.set()
+
+    silent = pipeline.add_offset_bricks
+    monkeypatch.setattr(pipeline, "add_offset_bricks", lambda *args, **kw: enough.wait(60) and silent(*args, **kw))
+    assert len(legorize(box((0, 0, 0), (40, 40, 40)), SMALL, hear).bricks)
+    assert [share for _, share in heard] == sorted(share for _, share in heard)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .counted import count_texels
 from .difference import ciede2000, lab_from_srgb, linear_from_srgb, srgb_from_linear
 from .dithering import PaletteMixer
 from .dominant import SurfaceColours, chosen_palette, surface_colours, texels_at
@@ -12,6 +13,7 @@ __all__ = [
     "SurfaceColours",
     "chosen_palette",
     "ciede2000",
+    "count_texels",
     "lab_from_srgb",
     "linear_from_srgb",
     "srgb_from_linear",

@@ -20,6 +20,7 @@ from ..arrays import Floats, Mask
 from ..errors import SettingsError
 from ..mesh import TriangleMesh
 from ..model import Catalogue
+from .counted import Counted, count_colours, count_texels, packed, unpacked
 from .difference import ciede2000, lab_from_srgb
 from .texels import border_table, boxes_varied, texel_at
 
@@ -123,6 +124,7 @@ def surface_colours(
     palette: Codes,
     one_to_one: bool,
     rng: np.random.Generator,
+    whole: Counted | None = None,
 ) -> SurfaceColours:
     """Find the dominant colours of a mesh's images and the bricks' colours for them.
 
@@ -139,6 +141,9 @@ def surface_colours(
     one_to_one : bool
         Give every dominant colour a brick colour of its own.
     rng : numpy.random.Generator
+    whole : Counted, optional
+        All texels of the images as they were before they were reduced; without
+        them those of `mesh` count.
 
     Returns
     -------
@@ -153,21 +158,24 @@ def surface_colours(
     ----------
     Paper, Algorithm 1.
     """
-    texels = _surface_texels(mesh, rng) if sampling == "surface" else _image_texels(mesh, rng)
-    centres = dominant_colours(texels, n_colours=n_colours, rng=rng)
+    if sampling == "surface":
+        counted = count_colours(_surface_texels(mesh, rng))
+    else:
+        counted = count_texels(mesh.images) if whole is None else whole
+    centres = dominant_colours(counted, n_colours=n_colours, rng=rng)
     codes = brick_colours(centres, catalogue, palette=palette, one_to_one=one_to_one)
     labels = _nearest_centres(mesh.images, centres)
     borders = tuple(border_table(codes[image]) for image in labels)
     return SurfaceColours(centres, codes, labels, borders, mesh.image_clamp)
 
 
-def dominant_colours(texels: Bytes, *, n_colours: int, rng: np.random.Generator) -> Bytes:
+def dominant_colours(counted: Counted, *, n_colours: int, rng: np.random.Generator) -> Bytes:
     """Return at most ``n_colours`` dominant colours of some texels.
 
     Parameters
     ----------
-    texels : (n, 3) uint8 array
-        sRGB.
+    counted : Counted
+        The texels.
     n_colours : int
     rng : numpy.random.Generator
 
@@ -180,21 +188,23 @@ def dominant_colours(texels: Bytes, *, n_colours: int, rng: np.random.Generator)
     ----------
     Paper, Algorithm 1, line 1.
     """
-    colours, count = np.unique(_packed(texels), return_counts=True)
-    rgb = _unpacked(colours)
-    if len(colours) <= n_colours:
-        return rgb
+    if len(counted.counts) <= n_colours:
+        return _rounded(counted)
     # takes longer to load than a small model to build, and plain colours need none
     from sklearn.cluster import KMeans
 
     found = KMeans(n_clusters=n_colours, n_init=1, max_iter=_ITERATIONS, random_state=int(rng.integers(2**31))).fit(
-        rgb.astype(np.float64), sample_weight=count
+        counted.means, sample_weight=counted.counts
     )
     # the means anew: sums of whole numbers are exact, in whatever order the threads add
-    weight = np.bincount(found.labels_, count)
-    total = np.stack([np.bincount(found.labels_, count * channel) for channel in rgb.T.astype(np.float64)], axis=1)
-    mean = total[weight > 0] / weight[weight > 0, None]
-    return _unpacked(np.unique(_packed(np.round(mean).astype(np.uint8))))
+    columns = [np.bincount(found.labels_, column).astype(np.int64) for column in (*counted.totals.T, counted.counts)]
+    totals, weight = np.stack(columns[:3], axis=1), columns[3]
+    return _rounded(Counted(totals[weight > 0], weight[weight > 0]))
+
+
+def _rounded(counted: Counted) -> Bytes:
+    """Return the colours as bytes, each once."""
+    return unpacked(np.unique(packed(np.round(counted.means).astype(np.uint8))))
 
 
 def brick_colours(centres: Bytes, catalogue: Catalogue, *, palette: Codes, one_to_one: bool = False) -> Codes:
@@ -297,14 +307,6 @@ def texels_at(mesh: TriangleMesh, image: NDArray[np.integer], uv: Floats) -> Byt
     return texels
 
 
-def _image_texels(mesh: TriangleMesh, rng: np.random.Generator) -> Bytes:
-    """Return texels of the whole images, evenly thinned to the number of samples."""
-    texels = np.concatenate([image.reshape(-1, 3) for image in mesh.images])
-    if len(texels) <= _SAMPLES:
-        return texels
-    return texels[rng.choice(len(texels), _SAMPLES, replace=False)]
-
-
 def _nearest_centres(images: tuple[Bytes, ...], centres: Bytes) -> tuple[Bytes, ...]:
     """Return the nearest centre of every texel by squared distance in sRGB, one (h, w) uint8 array an image.
 
@@ -315,22 +317,11 @@ def _nearest_centres(images: tuple[Bytes, ...], centres: Bytes) -> tuple[Bytes, 
     # every colour is looked at once, however many texels have it; a table of all 2^24 beats sorting them
     table = np.zeros(1 << 24, dtype=np.uint8)
     for image in images:
-        table[_packed(image).ravel()] = 1
+        table[packed(image).ravel()] = 1
     colours = np.flatnonzero(table).astype(np.uint32)
     target = centres.astype(np.float32)
     half_norm = (target**2).sum(axis=1) / 2
     for start in range(0, len(colours), 1 << 18):
         part = colours[start : start + (1 << 18)]
-        table[part] = (_unpacked(part).astype(np.float32) @ target.T - half_norm).argmax(axis=1)
-    return tuple(table[_packed(image)] for image in images)
-
-
-def _packed(rgb: Bytes) -> NDArray[np.uint32]:
-    """Return sRGB bytes as one number each."""
-    wide = rgb.astype(np.uint32)
-    packed: NDArray[np.uint32] = wide @ np.array([1 << 16, 1 << 8, 1], dtype=np.uint32)
-    return packed
-
-
-def _unpacked(packed: NDArray[np.uint32]) -> Bytes:
-    return np.stack([packed >> 16, packed >> 8 & 255, packed & 255], axis=-1).astype(np.uint8)
+        table[part] = (unpacked(part).astype(np.float32) @ target.T - half_norm).argmax(axis=1)
+    return tuple(table[packed(image)] for image in images)
