@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final
 
@@ -131,46 +131,51 @@ def _chip(fill: Rgb, line: Rgb = (20, 20, 22)) -> list[Item]:
 
 
 def parts_pages(panels: Panels, paper: Paper, first: int) -> Iterator[Page]:
-    """Yield the parts list with pictures: of the model, and then of its supports."""
+    """Yield the parts list with pictures: of the model, and then of its supports, on the same page if there is room."""
     model, supports = (panels.bricks.take(rows) for rows in (~panels.temporary, panels.temporary))
-    lists: list[tuple[str, list[Entry]]] = [
+    # supports are of any colour: those of one part are one entry
+    lists: tuple[tuple[str, list[Entry]], ...] = (
         ("Parts", [(lot, None) for lot in lots_of(model, panels.catalogue)[0]]),
-        # of any colour: those of one part are one entry
-        (
-            "Parts for the supports, of any colour",
-            [(lot, panels.tint) for lot in lots_of(_of_one_colour(supports), panels.catalogue)[0]],
-        ),
+        (SUPPORT_PARTS, [(lot, panels.tint) for lot in lots_of(_of_one_colour(supports), panels.catalogue)[0]]),
+    )
+    items: list[Item] = []
+    y, title = MARGIN, "Parts"
+    across, low = int((paper.width - 2 * MARGIN) / _CELL[0]), paper.height - MARGIN - FOOT
+    wide = (paper.width - 2 * MARGIN) / across
+    for name, entries in lists:
+        for start in range(0, len(entries), across):
+            head = 0.0 if start and items else _HEAD
+            if items and y + head + _CELL[1] > low:
+                yield Page(paper.width, paper.height, (*items, *foot(first, paper)), title)
+                items, y, first, title, head = [], MARGIN, first + 1, name, _HEAD
+            if head:
+                items += _heading(name, sum(lot.count for lot, _ in entries), y)
+            y += head
+            for column, (lot, tint) in enumerate(entries[start : start + across]):
+                items.append(moved(_entry(lot, tint, panels.catalogue, wide - 4), MARGIN + column * wide, y))
+            y += _CELL[1]
+    yield Page(paper.width, paper.height, (*items, *foot(first, paper)), title)
+
+
+def _heading(title: str, count: int, y: float) -> list[Item]:
+    note = f"{count} brick{'s' * (count != 1)}"
+    return [
+        Text(title, MARGIN, y + 8, 9, bold=True),
+        Text(note, MARGIN + width(title, 9, bold=True) + 5, y + 8, 4, colour=GREY),
     ]
-    for title, entries in lists:
-        for items in _parts(title, entries, panels.catalogue, paper):
-            yield Page(paper.width, paper.height, (*items, *foot(first, paper)), title)
-            first += 1
 
 
 def _of_one_colour(bricks: Bricks) -> Bricks:
     return replace(bricks, colour=np.full_like(bricks.colour, bricks.colour.max(initial=0)))
 
 
-_CELL: Final = (34.0, 30.0)
+SUPPORT_PARTS: Final = "Parts for the supports, of any colour"
+
+_CELL: Final = (34.0, 28.5)
 """mm of an entry of the parts list."""
 
-
-def _parts(title: str, entries: Sequence[Entry], catalogue: Catalogue, paper: Paper) -> Iterator[list[Item]]:
-    """Yield the pages of one list."""
-    across = int((paper.width - 2 * MARGIN) / _CELL[0])
-    down = int((paper.height - 2 * MARGIN - FOOT - 16) / _CELL[1])
-    wide = (paper.width - 2 * MARGIN) / across
-    total = sum(lot.count for lot, _ in entries)
-    for start in range(0, len(entries), across * down):
-        items: list[Item] = [
-            Text(title, MARGIN, MARGIN + 8, 9, bold=True),
-            Text(f"{total} bricks", MARGIN + width(title, 9, bold=True) + 5, MARGIN + 8, 4, colour=GREY),
-        ]
-        for place, (lot, tint) in enumerate(entries[start : start + across * down]):
-            row, column = divmod(place, across)
-            entry = _entry(lot, tint, catalogue, wide - 4)
-            items.append(moved(entry, MARGIN + column * wide, MARGIN + 16 + row * _CELL[1]))
-        yield items
+_HEAD: Final = 13.0
+"""mm of a heading above entries."""
 
 
 def _entry(lot: Lot, tint: Rgb | None, catalogue: Catalogue, room: float) -> list[Item]:

@@ -221,13 +221,13 @@ def _heading(layer: Layer, number: str, frame: Frame, *, actual_size: bool) -> I
 
 def _labels(frame: Frame) -> Iterator[Item]:
     """Yield the numbers of the columns and the letters of the rows, on both sides, as dense as they can be read."""
+    # so far apart that they can be read
     every = next(step for step in (1, 2, 5, 10, 20, 50, 100, 1000) if step * frame.stud >= 3.5)
-    size = min(2.8, 0.75 * frame.stud * every)
     (x_low, y_low), (x_high, y_high) = frame.low.tolist(), frame.high.tolist()
     for axis, ends in enumerate(((y_low, y_high), (x_low, x_high))):
-        names = [
-            str(each + 1) if axis == 0 else lettered(each) for each in range((x_high - x_low, y_high - y_low)[axis])
-        ]
+        names = [lettered(each) if axis else str(each + 1) for each in range((x_high - x_low, y_high - y_low)[axis])]
+        # and so small that the longest has room
+        size = min(2.8, 0.75 * frame.stud * every, 0.85 * frame.stud * every / width(names[-1], 1))
         for number in range(0, len(names), every):
             for end, out in zip(ends, (-1, 1), strict=True):
                 place = (x_low + number + 0.5, end) if axis == 0 else (end, y_low + number + 0.5)

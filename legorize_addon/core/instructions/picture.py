@@ -22,11 +22,11 @@ from .shades import DARK, LIGHT_LINE, LINE, PALE_LINE, brightness, lit, mixed
 
 ACROSS: Final = 14
 DOWN: Final = 9
-"""Units of a picture to the right for p and to the left for q, and upwards for both; 14 : 9 is 1.556, and the true
+"""Units of a picture to the left for p and to the right for q, and upwards for both; 14 : 9 is 1.556, and the true
 proportion of the projection 1.546."""
 
 STUD: Final = (3 * ACROSS, 3 * DOWN)
-"""Way in units of a picture for one stud along x; along y it goes to the left."""
+"""Way in units of a picture for one stud: along x to the left, along y to the right, along both downwards."""
 
 PLATE: Final = 2 * DOWN
 """Way upwards for one plate."""
@@ -37,7 +37,7 @@ MM: Final = 8 / (2**0.5) / (3 * ACROSS)
 _STUD_UNITS: Final = 6
 """Units of the drawing of studs for one stud; studs of all levels have whole numbers in them."""
 
-_STUD_MATRIX: Final = (STUD[0] / 6, STUD[1] / 6, -STUD[0] / 6, STUD[1] / 6, 0.0, 0.0)
+_STUD_MATRIX: Final = (-STUD[0] / 6, STUD[1] / 6, STUD[0] / 6, STUD[1] / 6, 0.0, 0.0)
 _STUD_WIDTH: Final = 3.6
 """A stud is 4.8 mm wide, 0.6 of the pitch."""
 
@@ -111,7 +111,7 @@ def draw(sight: Sight, look: Look) -> Picture:
 def at(points: Ints) -> Ints:
     """Return where points of the lattice, (n, 2), lie in a picture, (n, 2) with y downwards."""
     p, q = points.T
-    return np.stack([ACROSS * (p - q), -DOWN * (p + q)], axis=1)
+    return np.stack([ACROSS * (q - p), -DOWN * (p + q)], axis=1)
 
 
 def extent(sight: Sight) -> tuple[Floats, Floats]:

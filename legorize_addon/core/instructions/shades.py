@@ -9,8 +9,8 @@ import numpy as np
 from ..arrays import Ints
 from .canvas import Rgb
 
-SIDE_LIGHT: Final = (1.0, 0.72, 0.86)
-"""Light on the top of a brick, on its side to the right, on its side to the left: the light comes from the left."""
+SIDE_LIGHT: Final = (1.0, 0.86, 0.72)
+"""Light on the top of a brick, on its side to the left, on its side to the right: the light comes from the left."""
 
 PALE: Final = 0.62
 """Share of white in the colours of what was built before."""

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
+from legorize_addon.core.instructions import front_pages
 from legorize_addon.core.instructions.canvas import Group, Text
-from legorize_addon.core.instructions.front_pages import DISCLAIMER, cover, how_to_read, last_page, parts_pages
+from legorize_addon.core.instructions.front_pages import (
+    DISCLAIMER,
+    SUPPORT_PARTS,
+    cover,
+    how_to_read,
+    last_page,
+    parts_pages,
+)
 from legorize_addon.core.instructions.paper import PAPERS
 from tests.core.instructions.built import arm, pair
 from tests.core.instructions.test_panels import panels_of
@@ -40,12 +50,25 @@ def test_the_cover_tells_size_parts_steps_and_time():
 def test_the_parts_list_has_all_bricks(model):
     """The counts add up to the bricks of the model, and those of supports to the supports."""
     plan = model()
-    counts = {"Parts": 0, "Parts for the supports, of any colour": 0}
-    for page in parts_pages(panels_of(plan), A4, 3):
-        counts[page.title] += sum(
-            int(text[:-1]) for text in texts(page.items) if text.endswith("x") and text[:-1].isdigit()
-        )
-    assert list(counts.values()) == [int((~plan.temporary).sum()), int(plan.temporary.sum())]
+    shown = [text for page in parts_pages(panels_of(plan), A4, 3) for text in texts(page.items)]
+    heads = [row for row, text in enumerate(shown) if text in ("Parts", SUPPORT_PARTS)]
+    lists = [shown[low:high] for low, high in pairwise([*heads, len(shown)])]
+    counts = [sum(int(text[:-1]) for text in one if text.endswith("x") and text[:-1].isdigit()) for one in lists]
+    expected = [int((~plan.temporary).sum()), int(plan.temporary.sum())]
+    assert counts == [count for count in expected if count]
+    assert [one[1] for one in lists] == [f"{count} brick{'s' * (count != 1)}" for count in counts]
+
+
+def test_long_lists_go_on(monkeypatch):
+    """Lists that do not fit on a page go on on the next one, with their heading; numbers go on, too."""
+    [page] = parts_pages(panels_of(arm()), A4, 3)
+    monkeypatch.setattr(front_pages, "_CELL", (120.0, 80.0))
+    pages = list(parts_pages(panels_of(arm()), A4, 3))
+    assert len(pages) > 1
+    assert pages[0].title == "Parts"
+    assert [list(texts(each.items))[-1] for each in pages] == [str(3 + number) for number in range(len(pages))]
+    entries = [text for each in pages for text in texts(each.items) if text.endswith("x") and text[:-1].isdigit()]
+    assert sorted(entries) == sorted(text for text in texts(page.items) if text.endswith("x") and text[:-1].isdigit())
 
 
 def test_only_signs_that_occur_are_explained():

@@ -49,15 +49,18 @@ def brick(number, x=0, y=0, z=0, turn=0):
 
 def test_the_projection_is_that_of_a_camera():
     """Studs and plates have the proportions of a parallel projection along the diagonal, to within a hundredth."""
-    along, upwards = np.array([8.0, 8.0, 9.6]), np.array([0.0, 0.0, 1.0])
-    along /= np.linalg.norm(along)
-    right = np.array([1.0, -1.0, 0.0]) / 2**0.5
-    up = upwards - (upwards @ along) * along
-    up /= np.linalg.norm(up)
-    stud, plate = np.array([8.0, 0, 0]), np.array([0, 0, PLATE_MM])
-    assert STUD[0] * MM == pytest.approx(stud @ right)
-    assert STUD[1] * MM == pytest.approx(-stud @ up, rel=0.01)
-    assert pytest.approx(plate @ up, rel=0.012) == PLATE * MM
+    back, upwards = np.array([8.0, 8.0, 9.6]), np.array([0.0, 0.0, 1.0])
+    back /= np.linalg.norm(back)
+    # whoever looks along -back has this to the right: a picture the other way round is that of a mirror
+    right = np.cross(upwards, back)
+    right /= np.linalg.norm(right)
+    up = np.cross(back, right)
+    for way, expected in (((1, 0, 0), (-STUD[0], STUD[1])), ((0, 1, 0), STUD), ((0, 0, 1), (0, -PLATE))):
+        x, y, z = way
+        [start, end] = at(np.array([[0, 0], [z - 3 * y, z - 3 * x]]))
+        assert (end - start).tolist() == list(expected)
+        mm = np.array(way) * (8.0, 8.0, PLATE_MM)
+        assert (end - start) * MM == pytest.approx([mm @ right, -mm @ up], rel=0.012, abs=1e-9)
 
 
 def test_studs_lie_within_the_tops_below_them():
@@ -124,8 +127,8 @@ def test_every_part_can_be_drawn(below):
 
 
 def test_points_of_the_lattice():
-    """One step along p goes right and up, along q left and up."""
-    assert at(np.array([[1, 0], [0, 1]])).tolist() == [[ACROSS, -DOWN], [-ACROSS, -DOWN]]
+    """One step along p goes left and up, along q right and up."""
+    assert at(np.array([[1, 0], [0, 1]])).tolist() == [[-ACROSS, -DOWN], [ACROSS, -DOWN]]
 
 
 def test_nothing_is_an_empty_picture():

@@ -14,7 +14,7 @@ COLOURS = [colour.rgb for colour in load_catalogue().colours]
 def test_sides_are_told_apart():
     """Of every colour the top is brighter than the left side, and that than the right one."""
     for rgb in COLOURS:
-        top, right, left = (brightness(lit(rgb, side)) for side in range(3))
+        top, left, right = (brightness(lit(rgb, side)) for side in range(3))
         assert top > left > right
 
 
