@@ -18,7 +18,7 @@ from .builds import (
     show_sources,
     sources_of,
 )
-from .collections import clear_build, read_bricks, show_build
+from .collections import clear_build, read_bricks, show_build, steps_of
 from .hidden_sources import orphans, show_orphans
 from .instancing import EXPLODE, HEAT_KEY, HEAT_MAP, HEAT_PARTS, STEPS, bricks_modifier, plastic, set_input
 from .part_meshes import Detail, detail_of, parts_collection, parts_in_use, set_detail
@@ -77,6 +77,7 @@ __all__ = [
     "show_sources",
     "sources_of",
     "state_of",
+    "steps_of",
     "sweep",
     "there_after",
     "way_after",

@@ -43,6 +43,7 @@ from .builds import show_sources as show_sources
 from .figures import figures, n_layers
 from .hidden_sources import as_before, forget, remember
 from .instancing import add_bricks_modifier, colour_material
+from .kept_steps import read_steps
 from .part_meshes import Detail, parts_collection, parts_in_use
 from .placing import Place, upright
 from .section import Section, add_plane
@@ -175,6 +176,25 @@ def read_bricks(build: bpy.types.Collection) -> Bricks:
         No brick is left, or a part of the build is not in the catalogue.
     """
     return bricks_of(build, point_objects(build))
+
+
+def steps_of(build: bpy.types.Collection) -> Steps:
+    """Return the building steps of a build, whose rows are those of :func:`read_bricks`.
+
+    Parameters
+    ----------
+    build : bpy.types.Collection
+        Collection made by :func:`show_build`, in this or an earlier session.
+
+    Raises
+    ------
+    BuildError
+        It was made by an earlier version, or bricks of it were deleted.
+    """
+    found = read_steps(state_of(build).steps, sum(len(points.data.vertices) for points in point_objects(build)))
+    if found is None:
+        raise BuildError(f"{build.name!r} does not know how all of its bricks are built: legorize the object again.")
+    return found
 
 
 def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:

@@ -10,6 +10,7 @@ from ..core.building import Steps
 from ..core.model import Assembly, Bricks, Role
 from ..core.units import PLATES_PER_BRICK
 from .brick_points import sizes
+from .kept_steps import stored_steps
 from .verdict import check_of
 
 if TYPE_CHECKING:
@@ -33,12 +34,14 @@ def figures(assembly: Assembly, stability: Stability | None, steps: Steps | None
     dict
         ``summary``, see :func:`summary`; ``check``, see
         :func:`~legorize_addon.scene.verdict.check_of`, and ``building``, see
-        :func:`building_figures`, empty where nothing is known.
+        :func:`building_figures`, and ``steps``, see
+        :func:`~legorize_addon.scene.kept_steps.stored_steps`, empty where nothing is known.
     """
     return {
         "summary": summary(assembly),
         "check": {} if stability is None else check_of(stability, assembly.bricks),
         "building": {} if steps is None else building_figures(assembly, steps),
+        "steps": {} if steps is None else stored_steps(steps),
     }
 
 

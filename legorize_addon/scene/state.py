@@ -213,6 +213,11 @@ class BuildState:
         """Figures of the building, see :func:`~legorize_addon.scene.figures.building_figures`; empty if unknown."""
         return self._plain("building")
 
+    @property
+    def steps(self) -> dict[str, Any]:
+        """The building steps, see :func:`~legorize_addon.scene.kept_steps.stored_steps`; empty if unknown."""
+        return self._plain("steps")
+
     def add_building(self, **figures: int | float) -> None:
         """Keep more figures of the building."""
         for name, value in figures.items():

@@ -17,6 +17,7 @@ from ..view import LEGEND, has_margins, n_pieces, n_steps, roles_shown
 from . import job
 from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
 from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
+from .instructions import LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps
 from .learning import LEGORIZE_OT_forget, LEGORIZE_OT_learn
 from .progress_text import progress_text
 from .properties import current_build
@@ -170,6 +171,9 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
             slider = row.row()
             slider.active = view.by_steps
             slider.prop(view, "step", text="")
+            buttons = self.layout.row(align=True)
+            buttons.operator(LEGORIZE_OT_booklet.bl_idname, text="Booklet", icon="DOCUMENTS")
+            buttons.operator(LEGORIZE_OT_layer_maps.bl_idname, text="Layer Maps", icon="MESH_GRID")
         if n_pieces(build) > 1:
             self.layout.prop(view, "exploded", slider=True)
 

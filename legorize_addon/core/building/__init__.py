@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ..on_demand import on_demand
 from .moves import Action, Moves
-from .steps import MAIN, Kind, Step, Steps
+from .steps import MAIN, Kind, Step, Steps, Submodel
 
 if TYPE_CHECKING:
     from .check import Walk, walk
@@ -35,6 +35,7 @@ __all__ = [
     "Proof",
     "Step",
     "Steps",
+    "Submodel",
     "Tipping",
     "Walk",
     "building_contacts",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .build_order_csv import build_order_csv
+from .folder import new_folder
 from .ldraw import ldraw_matrix, write_ldr
 from .ldraw_mpd import write_mpd
 from .paths import named
@@ -26,6 +27,7 @@ __all__ = [
     "ldraw_matrix",
     "masses",
     "named",
+    "new_folder",
     "not_made",
     "parts_csv",
     "pick_a_brick_csv",

@@ -1,0 +1,202 @@
+"""The buttons that write the booklet and the layer maps, drawn in a worker thread."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, StringProperty
+
+from ..core.model import Role, load_catalogue
+from ..core.progress import Progress
+from ..scene import read_bricks, steps_of
+from .build import OnBuild, Working
+from .export import chosen_path
+from .properties import current_build
+
+if TYPE_CHECKING:
+    from ..core.building import Steps
+    from ..core.model import Bricks
+
+PAPER_ITEMS: Final = [("A4", "A4", "297 x 210 mm"), ("Letter", "Letter", "11 x 8.5 inches")]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BookletRequest:
+    """A booklet to write.
+
+    Attributes
+    ----------
+    bricks : Bricks
+        Model and supports.
+    steps : Steps
+        How they are built.
+    title : str
+        Name of the model.
+    paper : str
+        A key of the papers.
+    path : pathlib.Path
+        Of the HTML file; the PDF is written beside it.
+    """
+
+    bricks: Bricks
+    steps: Steps
+    title: str
+    paper: str
+    path: Path
+
+    @property
+    def files(self) -> tuple[Path, Path]:
+        """The two files."""
+        return self.path.with_suffix(".html"), self.path.with_suffix(".pdf")
+
+    def work(self, progress: Progress) -> tuple[Path, Path]:
+        """Write both files, or none; no Blender in here."""
+        from ..core.files import replacing
+        from ..core.instructions import PAPERS, Booklet
+
+        html, pdf = self.files
+        supports = self.bricks.role == Role.SUPPORT_OUTSIDE
+        catalogue, paper = load_catalogue(), PAPERS[self.paper]
+        made = Booklet(self.bricks, catalogue, self.steps, temporary=supports, title=self.title, paper=paper)
+        with replacing(html) as new_html, replacing(pdf) as new_pdf:
+            made.write(new_html, new_pdf, progress)
+        return html, pdf
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MapsRequest:
+    """Layer maps to write.
+
+    Attributes
+    ----------
+    bricks : Bricks
+        Model and supports.
+    paper : str
+        A key of the papers.
+    actual_size : bool
+        Whether they are in the size of the bricks.
+    folder : pathlib.Path
+        For the files.
+    """
+
+    bricks: Bricks
+    paper: str
+    actual_size: bool
+    folder: Path
+
+    def work(self, progress: Progress) -> tuple[Path]:
+        """Write all files, or none; no Blender in here."""
+        from ..core.files import new_folder
+        from ..core.instructions import PAPERS, layer_files, layer_pages
+
+        supports = self.bricks.role == Role.SUPPORT_OUTSIDE
+        pages = layer_pages(
+            self.bricks, load_catalogue(), temporary=supports, paper=PAPERS[self.paper], actual_size=self.actual_size,
+            progress=progress,
+        )  # fmt: skip
+        with new_folder(self.folder) as fresh:
+            for name, text in layer_files(pages):
+                (fresh / name).write_text(text, encoding="utf-8", newline="")
+        return (self.folder,)
+
+
+class OnPaper(OnBuild, Working):
+    """What is drawn of the build that the panel shows, into a file that is asked for first.
+
+    Attributes
+    ----------
+    suffix : str
+        Of the name that is proposed.
+    """
+
+    suffix = ""
+    _timer = None
+    _browsed = False
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Ask for the file; start the work once there is one."""
+        if self.chosen:
+            return Working.invoke(self, context, event)
+        name = f"{title_of(current_build(context.scene))}{self.suffix}"
+        self.filepath = str(Path(bpy.data.filepath).with_name(name)) if bpy.data.filepath else name
+        self._browsed = True
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Work straight through; after the file browser, which ends this operator, in another one with progress."""
+        if bpy.app.background or not self._browsed:
+            return Working.execute(self, context)
+        options = {name: getattr(self, name) for name in ("filepath", "paper", *self.options)}
+        return self.again("INVOKE_DEFAULT", chosen=True, **options)
+
+    def _show(self, context: bpy.types.Context, order: Any, paths: tuple[Path, ...]) -> set[str]:
+        self.report({"INFO"}, f"Wrote {' and '.join(map(str, paths))}.")
+        return {"FINISHED"}
+
+
+class LEGORIZE_OT_booklet(OnPaper, bpy.types.Operator):
+    """Write the booklet of the build that the panel shows."""
+
+    bl_idname = "legorize.booklet"
+    bl_label = "Write Booklet"
+    bl_description = (
+        "Write building instructions: parts, a picture of each step, layer maps, as a PDF and as an HTML file with a "
+        "page in three dimensions"
+    )
+    bl_options = {"REGISTER"}
+    suffix = ".html"
+    options = ()
+
+    filepath: StringProperty(subtype="FILE_PATH")
+    filter_glob: StringProperty(default="*.html", options={"HIDDEN"})
+    chosen: BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
+    paper: EnumProperty(name="Paper", description="Size of the pages", items=PAPER_ITEMS)
+
+    @staticmethod
+    def again(*arguments: Any, **options: Any) -> set[str]:
+        """Start another one."""
+        return bpy.ops.legorize.booklet(*arguments, **options)
+
+    def _take_order(self, context: bpy.types.Context) -> BookletRequest:
+        build = current_build(context.scene)
+        return BookletRequest(read_bricks(build), steps_of(build), title_of(build), self.paper, chosen_path(self))
+
+
+class LEGORIZE_OT_layer_maps(OnPaper, bpy.types.Operator):
+    """Write the layer maps of the build that the panel shows."""
+
+    bl_idname = "legorize.layer_maps"
+    bl_label = "Write Layer Maps"
+    bl_description = "Write a map of each layer into a folder: its bricks in colour, on what lies below"
+    bl_options = {"REGISTER"}
+    suffix = " layers"
+    options = ("actual_size",)
+
+    filepath: StringProperty(subtype="FILE_PATH")
+    chosen: BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
+    paper: EnumProperty(name="Paper", description="Size of the pages", items=PAPER_ITEMS)
+    actual_size: BoolProperty(
+        name="Actual size", description="Draw in the size of the bricks, to lay these on the prints", default=False
+    )
+
+    @staticmethod
+    def again(*arguments: Any, **options: Any) -> set[str]:
+        """Start another one."""
+        return bpy.ops.legorize.layer_maps(*arguments, **options)
+
+    def _take_order(self, context: bpy.types.Context) -> MapsRequest:
+        bricks = read_bricks(current_build(context.scene))
+        return MapsRequest(bricks, self.paper, self.actual_size, chosen_path(self))
+
+
+def title_of(build: bpy.types.Collection) -> str:
+    """Return the name of a model, which is that of its source."""
+    return build.name.removeprefix("Legorize ")
+
+
+classes = (LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps)
+register, unregister = bpy.utils.register_classes_factory(classes)
