@@ -64,11 +64,12 @@ class LEGORIZE_OT_export_mpd(OnBuild, bpy.types.Operator, ExportHelper):
         return self.reported(self._write, current_build(context.scene))
 
     def _write(self, build: bpy.types.Collection) -> set[str]:
+        from ..core.building import steps_of
         from ..core.files import write_mpd, write_whole
 
-        path = chosen_path(self)
-        name = path.with_suffix(".ldr").name
-        write_whole(path, write_mpd(Assembly(read_bricks(build), load_catalogue()), name=name, title=build.name))
+        path, assembly = chosen_path(self), Assembly(read_bricks(build), load_catalogue())
+        name, steps = path.with_suffix(".ldr").name, steps_of(assembly)
+        write_whole(path, write_mpd(assembly, steps, name=name, title=build.name))
         self.report({"INFO"}, f"Wrote {path}.")
         return {"FINISHED"}
 

@@ -9,18 +9,20 @@ from .moves import Action, Moves
 from .steps import MAIN, Kind, Step, Steps, Submodel
 
 if TYPE_CHECKING:
+    from .blocking import column_pairs, tangled
     from .check import Walk, walk
     from .contacts import BuildingContacts, building_contacts
-    from .order import plan_steps
+    from .order import plan_steps, steps_of
     from .proof import Proof, prove_steps
     from .towers import STEADY, Tipping, no_prop, tipping
 else:
     # a scene needs the moves alone, long before anything is ordered
     __getattr__ = on_demand(
         __name__,
+        blocking=("column_pairs", "tangled"),
         check=("Walk", "walk"),
         contacts=("BuildingContacts", "building_contacts"),
-        order=("plan_steps",),
+        order=("plan_steps", "steps_of"),
         proof=("Proof", "prove_steps"),
         towers=("STEADY", "Tipping", "no_prop", "tipping"),
     )
@@ -39,9 +41,12 @@ __all__ = [
     "Tipping",
     "Walk",
     "building_contacts",
+    "column_pairs",
     "no_prop",
     "plan_steps",
     "prove_steps",
+    "steps_of",
+    "tangled",
     "tipping",
     "walk",
 ]

@@ -10,41 +10,22 @@ are needed soon are built together.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
-from ..arrays import Ints, Mask
-from ..model import NOBODY, Bricks, Catalogue, Rows
-from ..progress import Progress, part, silent
-from .blocking import blocking
-from .grouping import Items, group
-from .mirror import boxes, mirror_images
+from ..arrays import Mask
+from ..model import NOBODY, Assembly, Bricks, Catalogue, Role, Rows
+from ..progress import Progress, silent
+from .contacts import building_contacts
+from .items import MOST, REACH, span
 from .moves import Action, Moves
-from .steps import MAIN, Kind, Steps, Submodel
-from .tiles import tiles_of
-from .units import Units, find_units
+from .steps import MAIN, Steps
+from .tables import Planner, Put, Table
 
 SOON: Final = 12
 """Steps ahead for which an equal sub-assembly is built together with the first."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Put:
-    """A brick that is put on, or a submodel if there is one."""
-
-    brick: int
-    submodel: int
-    pressed: bool
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Table:
-    """How one submodel is built."""
-
-    steps: list[list[_Put]]
-    removals: list[list[int]]
 
 
 def plan_steps(
@@ -71,196 +52,48 @@ def plan_steps(
         Every brick placed once, every temporary one removed, every piece and
         sub-assembly joined. Bricks that nothing holds are placed last.
     """
-    planner = _Planner(bricks, catalogue, pairs, temporary)
+    planner = Planner(bricks, catalogue, pairs, temporary)
     planner.plan_pieces(progress)
     writer = _Writer(planner)
     writer.build([MAIN])
-    return Steps(writer.moves(), tuple(planner.submodels))
+    submodels = (replace(each, like=writer.like.get(each.number, each.number)) for each in planner.submodels)
+    return Steps(writer.moves(), tuple(submodels))
 
 
-class _Planner:
-    """The tables on which a model is built, one a submodel."""
+def steps_of(assembly: Assembly) -> Steps:
+    """Find building order and steps of a model with its supports, as :func:`plan_steps` does, from the bricks alone.
 
-    def __init__(self, bricks: Bricks, catalogue: Catalogue, pairs: Rows, temporary: Mask) -> None:
-        self.bricks, self.catalogue, self.pairs, self.temporary = bricks, catalogue, pairs, temporary
-        self.box = boxes(bricks, catalogue)
-        self.lot = _numbers(np.column_stack([bricks.part, bricks.colour]))
-        stays = np.flatnonzero(~temporary)
-        image = mirror_images(bricks.take(stays), catalogue)
-        self.image = np.full(len(bricks), NOBODY, dtype=np.int64)
-        self.image[stays] = np.where(image == NOBODY, NOBODY, stays[image])
-        self.submodels: list[Submodel] = []
-        self.tables: dict[int, _Table] = {}
-        # what a sub-assembly looks like, wherever it stands
-        self.shape: dict[int, tuple[object, ...]] = {}
+    Parameters
+    ----------
+    assembly : Assembly
+        Model and supports; those of the role ``SUPPORT_OUTSIDE`` are taken out again.
 
-    def plan_pieces(self, progress: Progress) -> None:
-        """Plan the main model and with it all pieces."""
-        piece = self.bricks.piece
-        self._add(Kind.MAIN, NOBODY, int(piece.min(initial=0)))
-        numbers = {int(each): self._add(Kind.PIECE, MAIN, int(each)) for each in np.unique(piece)[1:]}
-        for turn, (each, number) in enumerate(numbers.items()):
-            share = part(progress, turn / (2 * len(numbers)), (turn + 1) / (2 * len(numbers)))
-            self._plan(number, np.flatnonzero(piece == each), {}, share)
-        first = piece == piece.min(initial=0)
-        given = {number: np.flatnonzero((piece == each) & ~self.temporary) for each, number in numbers.items()}
-        self._plan(MAIN, np.flatnonzero(first | ~self.temporary), given, part(progress, 0.5, 1.0))
-
-    def _add(self, kind: Kind, parent: int, piece: int) -> int:
-        number = len(self.submodels)
-        self.submodels.append(Submodel(number, kind, parent, piece, np.zeros(0, dtype=np.int64), number))
-        return number
-
-    def _plan(self, number: int, rows: Ints, given: dict[int, Ints], progress: Progress = silent) -> None:
-        """Plan how the bricks of a submodel are put on, of which some are submodels already."""
-        node, own = np.arange(len(rows)), np.ones(len(rows), dtype=bool)
-        submodel = {}
-        for each, members in given.items():
-            inside = np.searchsorted(rows, members)
-            own[inside] = False
-            node[inside] = inside[0]
-            submodel[int(inside[0])] = each
-        used, node = np.unique(node, return_inverse=True)
-        node = node.reshape(-1)
-        pieces = {int(np.searchsorted(used, first)): each for first, each in submodel.items()}
-        units = self._units(rows, node, own)
-        of_unit = self._submodels(number, rows, node, units, pieces)
-        steps, placed = self._grouped(rows, units, of_unit, progress)
-        gone = rows[own & self.temporary[rows]]
-        self.tables[number] = _Table(steps, self._removals(gone))
-        self.submodels[number] = replace(self.submodels[number], rows=placed)
-
-    def _units(self, rows: Ints, node: Ints, own: Mask) -> Units:
-        """Return what goes on together on one table."""
-        level = self.bricks.corner[rows, 2].astype(np.int64)
-        local = np.full(len(self.bricks), NOBODY, dtype=np.int64)
-        local[rows] = np.arange(len(rows))
-        pairs = local[self.pairs]
-        pairs = pairs[(pairs != NOBODY).all(axis=1)]
-        below = blocking(self.bricks.take(rows), self.catalogue)
-        ground = own & (level == level[own].min(initial=np.iinfo(np.int64).max))
-        return find_units(node, level, pairs, below, ground=ground)
-
-    def _submodels(self, number: int, rows: Ints, node: Ints, units: Units, pieces: dict[int, int]) -> dict[int, int]:
-        """Return the submodel that each unit is, if it is one, and plan those that are new."""
-        found = {int(units.unit[node == first][0]): each for first, each in pieces.items()}
-        count = np.bincount(units.unit)
-        for unit in np.flatnonzero(count > 1).tolist():
-            if unit not in found:
-                made = found[unit] = self._add(Kind.SUBASSEMBLY, number, self.submodels[number].piece)
-                self._plan(made, rows[units.unit == unit], {})
-        return found
-
-    def _grouped(
-        self, rows: Ints, units: Units, of_unit: dict[int, int], progress: Progress
-    ) -> tuple[list[list[_Put]], Ints]:
-        """Return the steps of a table, and the bricks that are placed there themselves, in order."""
-        n = int(units.unit.max(initial=NOBODY)) + 1
-        loose = np.zeros(n, dtype=bool)
-        loose[units.unit[units.loose]] = True
-        first = np.unique(units.unit, return_index=True)[1]
-        items = self._items(rows, units, of_unit)
-        steps: list[list[int]] = []
-        for which in (~loose, loose):
-            steps += _some(items, units.before, np.flatnonzero(which), progress)
-        pressed = units.pressed[first]
-        puts = [
-            [
-                _Put(NOBODY, of_unit[unit], pressed=False)
-                if unit in of_unit
-                else _Put(int(rows[first[unit]]), NOBODY, bool(pressed[unit]))
-                for unit in step
-            ]
-            for step in steps
-        ]
-        return puts, np.array([put.brick for step in puts for put in step if put.brick != NOBODY], dtype=np.int64)
-
-    def _items(self, rows: Ints, units: Units, of_unit: dict[int, int]) -> Items:
-        """Return the units of a table as what is put on."""
-        unit = units.unit
-        n = int(unit.max(initial=NOBODY)) + 1
-        first = np.unique(unit, return_index=True)[1]
-        box = self.box[rows[first]].copy()
-        for column, best in enumerate((np.minimum, np.maximum) * 2):
-            best.at(box[:, column], unit, self.box[rows, column])
-        level = np.full(n, np.iinfo(np.int64).max)
-        np.minimum.at(level, unit, self.bricks.corner[rows, 2].astype(np.int64))
-        lot = self.lot[rows[first]].copy()
-        shapes = {shape: turn for turn, shape in enumerate(dict.fromkeys(self.shape.values()))}
-        for each, number in of_unit.items():
-            lot[each] = -1 - shapes.get(self.shape.get(number, ()), -1 - number)
-        return Items(
-            box=box,
-            level=level,
-            size=np.bincount(unit, minlength=n),
-            lot=lot,
-            temporary=self.temporary[rows[first]],
-            image=self._images(rows, unit, n),
-            tile=tiles_of(box, level),
-        )
-
-    def _images(self, rows: Ints, unit: Ints, n: int) -> Ints:
-        """Return the mirrored unit of each: that to which the images of all its bricks belong."""
-        of_row = np.full(len(self.bricks) + 1, NOBODY, dtype=np.int64)
-        of_row[rows] = unit
-        other = of_row[self.image[rows]]
-        low, high = np.full(n, n), np.full(n, NOBODY)
-        np.minimum.at(low, unit, other)
-        np.maximum.at(high, unit, other)
-        size = np.bincount(unit, minlength=n)
-        found = np.where((low == high) & (low != NOBODY), low, NOBODY)
-        same = (found != NOBODY) & (size[found] == size)
-        return np.where(same & (found != np.arange(n)), found, NOBODY)
-
-    def _removals(self, gone: Ints) -> list[list[int]]:
-        """Return the steps in which supports are taken out, from below."""
-        if not len(gone):
-            return []
-        n = len(gone)
-        before = blocking(self.bricks.take(gone), self.catalogue)
-        nothing = np.full(n, NOBODY, dtype=np.int64)
-        level = self.bricks.corner[gone, 2].astype(np.int64)
-        ones, all_ = np.ones(n, dtype=np.int64), np.ones(n, dtype=bool)
-        tile = np.zeros(n, dtype=np.int64)
-        steps = group(Items(self.box[gone], level, ones, self.lot[gone], all_, nothing, tile), before)
-        return [gone[step].tolist() for step in steps]
-
-
-def _some(items: Items, before: Rows, which: Ints, progress: Progress) -> list[list[int]]:
-    """Return the steps of some of the items."""
-    local = np.full(len(items), NOBODY, dtype=np.int64)
-    local[which] = np.arange(len(which))
-    inside = local[before]
-    image = items.image[which]
-    image = np.where(image == NOBODY, NOBODY, local[image])
-    fields = {name: getattr(items, name)[which] for name in Items.__slots__ if name != "image"}
-    inside = inside[(inside != NOBODY).all(axis=1)].astype(np.int32)
-    steps = group(Items(**fields, image=image), inside, progress=progress)
-    return [which[step].tolist() for step in steps]
-
-
-def _numbers(columns: Ints) -> Ints:
-    """Return a number of each row, the same of equal ones."""
-    found: Ints = np.unique(columns, axis=0, return_inverse=True)[1].reshape(-1).astype(np.int64)
-    return found
+    Returns
+    -------
+    Steps
+    """
+    temporary = assembly.bricks.role == Role.SUPPORT_OUTSIDE
+    contacts = building_contacts(assembly, temporary=temporary)
+    return plan_steps(assembly.bricks, assembly.catalogue, contacts.pairs, temporary=temporary)
 
 
 class _Writer:
     """The moves of all tables, one after the other."""
 
-    def __init__(self, planner: _Planner) -> None:
+    def __init__(self, planner: Planner) -> None:
         self.planner = planner
         self.rows: list[tuple[int, int, int, int, bool, int]] = []
         self.step = NOBODY
         self.built: set[int] = set()
+        # the first of equal submodels that are built together
+        self.like: dict[int, int] = {}
 
     def build(self, numbers: Sequence[int]) -> None:
         """Build equal submodels, and before each step what it needs."""
         self.built.update(numbers)
         tables = [self.planner.tables[number] for number in numbers]
         for turn in range(len(tables[0].steps)):
-            for ahead in range(turn, turn + 1):
-                self._prepare([put.submodel for table in tables for put in table.steps[ahead]], tables[0], turn)
+            self._prepare(tables, turn)
             self.step += 1
             for number, table in zip(numbers, tables, strict=True):
                 for put in table.steps[turn]:
@@ -283,13 +116,35 @@ class _Writer:
             step=table[:, 5].astype(np.int32),
         )
 
-    def _prepare(self, needed: Sequence[int], table: _Table, turn: int) -> None:
-        """Build the submodels that a step needs."""
-        for number in needed:
-            if number != NOBODY and number not in self.built:
-                self.build([number])
+    def _prepare(self, tables: Sequence[Table], turn: int) -> None:
+        """Build the submodels that a step needs, and with each those equal ones that are needed soon."""
+        soon = [
+            put.submodel
+            for ahead in range(turn, min(turn + SOON, len(tables[0].steps)))
+            for table in tables
+            for put in table.steps[ahead]
+            if put.submodel != NOBODY
+        ]
+        for number in [put.submodel for table in tables for put in table.steps[turn] if put.submodel != NOBODY]:
+            if number not in self.built:
+                self._build_alike(number, [each for each in soon if each not in self.built])
 
-    def _note(self, number: int, put: _Put) -> None:
+    def _alike(self, one: int, other: int) -> bool:
+        shape = self.planner.shape
+        return one == other or (one in shape and shape[one] == shape.get(other))
+
+    def _build_alike(self, number: int, others: Sequence[int]) -> None:
+        """Build a submodel, together with equal ones that belong near it."""
+        alike, rows = [number], self.planner.all_rows(number)
+        most = MOST // len(rows)
+        for other in others:
+            near = [*rows, *self.planner.all_rows(other)] if self._alike(other, number) else []
+            if near and other != number and len(alike) < most and span(self.planner.box[near]) <= REACH:
+                alike, rows = [*alike, other], near
+        self.like.update(dict.fromkeys(alike, min(alike)))
+        self.build(sorted(alike))
+
+    def _note(self, number: int, put: Put) -> None:
         if put.submodel == NOBODY:
             self._row(Action.PLACE, put.brick, number, pressed=put.pressed)
         else:

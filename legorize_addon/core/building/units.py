@@ -13,12 +13,10 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ..arrays import Ints, Mask
 from ..model import NOBODY, Rows, components, stacked
-from .blocking import of_nodes, unique_pairs
+from .blocking import knots, of_nodes, unique_pairs
 
 LARGEST: Final = 0.25
 """Share of the bricks on a table that one sub-assembly of them has at most: a larger one is no detail any more."""
@@ -59,7 +57,7 @@ def find_units(node: Ints, level: Ints, pairs: Rows, below: Rows, *, ground: Mas
     pairs : (k, 2) int32 array
         Lower and upper brick of each contact.
     below : (l, 2) int32 array
-        Lower and upper brick of those in a stud column, see :func:`blocking`.
+        Lower and upper brick of those in a stud column, see :func:`column_pairs`.
     ground : (n,) bool array
         Bricks that stand on the table.
 
@@ -156,8 +154,7 @@ class _Hanging:
     def _untie(self) -> bool:
         """Merge units that each must come before the other, or give them up; tell whether anything changed."""
         edges = of_nodes(self._constraints(), self.owner, self.n)
-        graph = coo_array((np.ones(len(edges), dtype=bool), (edges[:, 0], edges[:, 1])), shape=(self.n, self.n))
-        knot = connected_components(graph, directed=True, connection="strong")[1]
+        knot = knots(edges, self.n)
         used = np.bincount(knot[np.unique(self.owner)], minlength=int(knot.max(initial=NOBODY)) + 1)
         changed = False
         for number in np.flatnonzero(used > 1).tolist():

@@ -1,39 +1,38 @@
-"""A model, its pieces and its supports as one LDraw multi-part document.
+"""A model in building order as one LDraw multi-part document.
+
+The model, its pieces and its sub-assemblies are sub-models with steps of their
+own; supports stand among the bricks, in the steps in which they are built.
+There is no command of LDraw itself that takes something out again. Two that are
+widely read say it: LPub3D removes groups, LeoCAD hides parts from a step on.
 
 References
 ----------
-LDraw.org, "MPD Extension".
+LDraw.org, "MPD Extension"; MLCad's ``GROUP``, ``MLCAD BTG`` and ``ROTSTEP``;
+LPub3D's ``!LPUB REMOVE GROUP``; LeoCAD's ``!LEOCAD PIECE STEP_HIDE``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Final
+from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import Assembly, Bricks, Role
+from ..building import MAIN, Action, Step, Steps, Submodel
+from ..model import Assembly, Role
 from ..safe_text import one_line
-from .ldraw import LINE_END, MAIN_COLOUR, MATRICES, body, header
-
-_REMOVED: Final = "support-outside"
-_SUPPORTS: Final = (Role.SUPPORT_OUTSIDE, Role.SUPPORT_INSIDE)
+from ..units import PLATE_LDU, STUD_LDU
+from .ldraw import LINE_END, MAIN_COLOUR, MATRICES, brick_lines, header
 
 
-def write_mpd(assembly: Assembly, *, name: str, title: str) -> str:
-    """Write bricks as a multi-part document in assembly order.
-
-    The supports of a piece come before the piece, pieces by their number, each
-    as a sub-model with its own steps; the main model calls them one by one. What
-    is taken out of a piece before it is joined would lie in the others' way: it
-    is called, together with the piece, by a sub-model "on-table" that the main
-    model leaves out. A model in one piece without supports is not divided.
+def write_mpd(assembly: Assembly, steps: Steps, *, name: str, title: str) -> str:
+    """Write bricks as a multi-part document in building order.
 
     Parameters
     ----------
     assembly : Assembly
-        The model and its supports, in any order.
+        The model and its supports.
+    steps : Steps
+        How they are built.
     name : str
         Name of the main model, "model.ldr"; "model-" is put before one that a
         sub-model has.
@@ -43,45 +42,97 @@ def write_mpd(assembly: Assembly, *, name: str, title: str) -> str:
     Returns
     -------
     str
-        The text with CRLF line ends.
+        The text with CRLF line ends. Each step ends in one ``0 STEP`` of the
+        model in which it is done, and begins with its number through all of
+        them; sub-models that are built together are one, called for each.
     """
-    groups = _groups(assembly.bricks)
-    name = _main_name(name, groups)
-    if len(groups) <= 1:
-        return LINE_END.join([f"0 FILE {name}", *header(name, title), *body(assembly), "0 NOFILE", ""])
-    aside = [group for group in groups if group.startswith(_REMOVED) and group != f"{_REMOVED}-0"]
-    lines = [f"0 FILE {name}", *header(name, title), *_calls(group for group in groups if group not in aside)]
-    for group, rows in groups.items():
-        lines += _file(group, title)
-        lines += body(assembly.take(rows))
-    for removed in aside:
-        piece = removed.removeprefix(_REMOVED)
-        lines += _file(f"on-table{piece}", title)
-        lines += _calls(group for group in groups if group.endswith(piece))
-    return LINE_END.join([*lines, "0 NOFILE", ""])
+    return LINE_END.join([*_Document(assembly, steps, one_line(name), title).lines(), ""])
 
 
-def _main_name(name: str, groups: Iterable[str]) -> str:
-    """Return the name of the main model, in one line; two models of one name would be one that contains itself."""
-    line = one_line(name)
-    stem = line.lower().removesuffix(".ldr")
-    return f"model-{line}" if stem in groups or stem.startswith("on-table") else line
+class _Document:
+    """The lines of all models."""
+
+    def __init__(self, assembly: Assembly, steps: Steps, name: str, title: str) -> None:
+        bricks = self.bricks = assembly.bricks
+        self.steps, self.title = steps, title
+        self.brick_lines = brick_lines(assembly)
+        self.kinds = np.column_stack([bricks.role, bricks.piece]).tolist()
+        taken = {each.name for each in steps.submodels[1:]}
+        self.name = f"model-{name}" if name.lower().removesuffix(".ldr") in taken else name
+        self.of_submodel: dict[int, list[Step]] = {}
+        for step in steps:
+            self.of_submodel.setdefault(step.submodel, []).append(step)
+        self.hidden = self._hidden()
+
+    def lines(self) -> Iterator[str]:
+        """Yield all lines, the main model first."""
+        for submodel in self.steps.submodels:
+            if submodel.like == submodel.number:
+                yield from self._model(submodel)
+
+    def _hidden(self) -> dict[int, tuple[int, int]]:
+        """Return of each support that is taken out the step, and its place among the steps of its model, from 1."""
+        return {
+            row: (step.number, turn)
+            for steps in self.of_submodel.values()
+            for turn, step in enumerate(steps, start=1)
+            if step.action == Action.REMOVE
+            for row in step.bricks.tolist()
+        }
+
+    def _model(self, submodel: Submodel) -> Iterator[str]:
+        main = submodel.number == MAIN
+        name = self.name if main else f"{submodel.name}.ldr"
+        yield f"0 FILE {name}"
+        yield from header(name, self.title if main else f"{self.title}, {submodel.name}")
+        kind: list[int] = []
+        own = set(submodel.rows.tolist())
+        steps = self.of_submodel.get(submodel.number, [])
+        for step in steps:
+            yield f"0 // Step {step.number + 1}{_remark(step)}"
+            if step.action == Action.REMOVE:
+                yield f'0 !LPUB REMOVE GROUP "{_group(step.number)}"'
+            # equal ones are built in the same steps, and written once
+            for row in [row for row in step.bricks.tolist() if row in own and step.action == Action.PLACE]:
+                if kind != self.kinds[row]:
+                    kind = self.kinds[row]
+                    yield f"0 !LEGORIZE ROLE {Role(kind[0]).name} PIECE {kind[1]}"
+                yield from self._brick(row)
+            for number in step.joined:
+                if self.steps.submodels[number].parent == submodel.number:
+                    yield self._call(number)
+            yield "0 STEP"
+        for step in steps:
+            if step.action == Action.REMOVE:
+                yield f"0 GROUP {sum(row in own for row in step.bricks.tolist())} {_group(step.number)}"
+        yield "0 NOFILE"
+
+    def _brick(self, row: int) -> Iterator[str]:
+        if row in self.hidden:
+            step, turn = self.hidden[row]
+            yield f"0 !LEOCAD PIECE STEP_HIDE {turn}"
+            yield f"0 MLCAD BTG {_group(step)}"
+        yield self.brick_lines[row]
+
+    def _call(self, number: int) -> str:
+        """Return the line that puts a submodel where it belongs, wherever the one that is written stands."""
+        first = self.steps.submodels[number].like
+        x, y, z = (self._low(number) - self._low(first)).tolist() if first != number else (0, 0, 0)
+        place = f"{x * STUD_LDU} {-z * PLATE_LDU} {y * STUD_LDU}"
+        return f"1 {MAIN_COLOUR} {place} {MATRICES[0]} {self.steps.submodels[first].name}.ldr"
+
+    def _low(self, number: int) -> np.ndarray:
+        low: np.ndarray = self.bricks.corner[self.steps.all_rows(number)].min(axis=0)
+        return low
 
 
-def _file(name: str, title: str) -> list[str]:
-    return ["0 NOFILE", f"0 FILE {name}.ldr", *header(f"{name}.ldr", f"{title}, {name}")]
+def _group(step: int) -> str:
+    """Return the name of what is taken out in a step."""
+    return f"supports-{step + 1}"
 
 
-def _calls(groups: Iterable[str]) -> list[str]:
-    return [f"1 {MAIN_COLOUR} 0 0 0 {MATRICES[0]} {group}.ldr{LINE_END}0 STEP" for group in groups]
-
-
-def _groups(bricks: Bricks) -> dict[str, NDArray[np.intp]]:
-    """Return the rows of each sub-model by its name, in assembly order."""
-    groups = {}
-    for piece in np.unique(bricks.piece).tolist():
-        mine = bricks.piece == piece
-        for role in _SUPPORTS:
-            groups[f"{role.name.lower().replace('_', '-')}-{piece}"] = np.flatnonzero(mine & (bricks.role == role))
-        groups[f"piece-{piece}"] = np.flatnonzero(mine & ~np.isin(bricks.role, _SUPPORTS))
-    return {group: rows for group, rows in groups.items() if len(rows)}
+def _remark(step: Step) -> str:
+    """Return what is to be said of a step."""
+    if step.action == Action.REMOVE:
+        return ": take these supports out"
+    return (f", {step.times} times" if step.times > 1 else "") + (", pressed from below" if step.pressed else "")

@@ -280,6 +280,7 @@ def _building(build: Build) -> dict[str, Any]:
         "held_by_hand": len(supports.unsteady),
         "ends_as_model": len(found.wrong_end) == 0,
         "pieces": len(supports.pieces),
+        "components_of_pieces": _components(supports),
         "joints": [asdict(joint) for joint in build.joints],
         "proof": None
         if build.proof is None
@@ -289,6 +290,13 @@ def _building(build: Build) -> dict[str, Any]:
             "undecided": (build.proof.undecided + 1).tolist(),
         },
     }
+
+
+def _components(supports: AssemblyPlan) -> list[int]:
+    """Return in how many parts the finished bricks of each piece fall apart: one each, if it is a piece."""
+    final = supports.final
+    pieces = (final.take(final.bricks.piece == piece) for piece in np.unique(final.bricks.piece).tolist())
+    return [piece.graph.n_components for piece in pieces]
 
 
 def _supports(supports: AssemblyPlan, catalogue: Catalogue) -> dict[str, Any]:

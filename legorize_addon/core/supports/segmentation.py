@@ -2,7 +2,8 @@
 
 A horizontal cut lets what lies above it be built on the table by itself; whatever
 hung over the cut lies on the table then. A cut is worth its trouble if it saves
-a fifth of the supports.
+a fifth of the supports. Each piece hangs together by itself: where a cut leaves
+several parts below it, as wheels, each of them becomes a piece of its own.
 
 References
 ----------
@@ -20,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Ints, Mask
+from ..building import column_pairs, tangled
 from ..model import Assembly, Bricks, Catalogue, ContactGraph, Rows, components
 from .demand import support_demand
 from .tree import tree
@@ -31,7 +33,13 @@ INTERFACE: Final = 4
 """Studs that hold a piece at least."""
 
 LEAST: Final = 0.02
-"""Share of the bricks that a piece has at least."""
+"""Share of the bricks that lie on either side of a cut at least."""
+
+SMALLEST: Final = 2
+"""Bricks of each part at least where a cut leaves several below it: one alone is no piece."""
+
+ROUNDS: Final = 4
+"""Times that a cut is moved up where something would hang from it."""
 
 TRIED: Final = 4
 """Cuts that are tried in earnest, of those that promise most."""
@@ -48,7 +56,7 @@ class Joint:
     piece : int
         Number of the upper piece.
     studs : int
-        Studs of other pieces on which it sits.
+        Studs of other pieces on which it sits; 0 if it stands on the table beside them.
     before, after : int
         Support bricks without and with the cut, as estimated when it was chosen.
     """
@@ -80,23 +88,32 @@ def segment(assembly: Assembly, *, most: int, deepest: int) -> tuple[Assembly, t
     joints : tuple of Joint
         By the number of the piece.
     """
-    piece = np.zeros(len(assembly.bricks), dtype=np.int16)
-    price = {0: _price(assembly.bricks, assembly.catalogue, deepest)}
+    bricks, catalogue, graph = assembly.bricks, assembly.catalogue, assembly.graph
+    piece = np.zeros(len(bricks), dtype=np.int16)
+    price = {0: _price(bricks, catalogue, deepest)}
     joints: list[Joint] = []
+    below = column_pairs(bricks, catalogue)
     while len(price) < most:
-        options = [option for number in price for option in _options(assembly, piece, number, price[number], deepest)]
+        options = [
+            option
+            for number in price
+            for option in _options(assembly, piece, number, price[number], deepest)
+            if len(price) + len(option.lower) <= most and not tangled(below, _nodes(option.pieces(piece)))
+        ]
         if not options:
             break
         best = min(options, key=lambda option: option.price)
-        number = len(price)
         before = sum(each.bricks for each in price.values())
-        piece = np.where(best.upper, np.int16(number), piece)
-        price[best.of], price[number] = best.below, best.above
-        joints.append(Joint(best.level, number, best.studs, before, sum(each.bricks for each in price.values())))
+        new = range(len(price), len(price) + len(best.lower))
+        piece = best.pieces(piece)
+        for number in (best.of, *new):
+            price[number] = _price(bricks.take(piece == number), catalogue, deepest)
+        after = sum(each.bricks for each in price.values())
+        levels = [int(bricks.corner[piece == number, 2].min()) for number in new]
+        joints += [Joint(level, number, 0, before, after) for level, number in zip(levels, new, strict=True)]
     # a piece that is cut again leaves some of the studs below it to its upper part
-    graph = assembly.graph
     final = (replace(joint, studs=_joint(graph, piece == joint.piece, piece != joint.piece)) for joint in joints)
-    return replace(assembly, bricks=replace(assembly.bricks, piece=piece)), tuple(final)
+    return replace(assembly, bricks=replace(bricks, piece=piece)), tuple(final)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,19 +131,28 @@ class _Price:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Option:
-    """A cut through a piece: which bricks come off, and what both parts cost."""
+    """A cut through a piece: which bricks come off, and what both sides cost."""
 
     of: int
-    level: int
     upper: Mask
-    studs: int
+    lower: tuple[Mask, ...]
+    """Parts below the cut, the greatest first."""
+
     below: _Price
     above: _Price
 
     @property
     def price(self) -> int:
-        """Support bricks of both parts, and bricks that none can carry."""
+        """Support bricks of both sides, and bricks that none can carry."""
         return self.below.bricks + self.above.bricks
+
+    def pieces(self, piece: NDArray[np.int16]) -> NDArray[np.int16]:
+        """Return the piece of each brick after the cut: the greatest lower part keeps the number, the upper is last."""
+        found, number = piece.copy(), int(piece.max())
+        for part in (*self.lower[1:], self.upper):
+            number += 1
+            found[part] = number
+        return found
 
 
 def _price(bricks: Bricks, catalogue: Catalogue, deepest: int) -> _Price:
@@ -144,26 +170,26 @@ def _options(
     deepest: int,
 ) -> Iterator[_Option]:
     """Yield the cuts through a piece that save enough, of the few that promise most."""
+    bricks, catalogue, graph = assembly.bricks, assembly.catalogue, assembly.graph
     mine = piece == number
-    levels = np.unique(assembly.bricks.corner[mine, 2])[1:]
+    levels = np.unique(bricks.corner[mine, 2])[1:]
     tried = 0
     for level in levels[np.argsort(_promise(price, levels), kind="stable")].tolist():
-        upper = _upper(assembly.bricks, assembly.graph, mine, level)
+        upper = _whole(bricks, graph, mine, _upper(graph, mine & (bricks.corner[:, 2] >= level)), first=number == 0)
         lower = mine & ~upper
-        studs = _joint(assembly.graph, upper, lower)
-        if min(upper.sum(), lower.sum()) < LEAST * len(assembly.bricks) or studs < INTERFACE:
+        studs = _joint(graph, upper, lower)
+        if min(upper.sum(), lower.sum()) < LEAST * len(bricks) or studs < INTERFACE:
             continue
-        # the first piece goes on growing when others are joined to it; each of those is joined as a whole, by what
-        # is left of its own joint
-        if number and (_n_components(assembly.graph, lower) > 1 or _joint(assembly.graph, lower, ~mine) < INTERFACE):
+        parts = _parts(graph, lower)
+        if len(parts) > 1 and min(int(part.sum()) for part in parts) < SMALLEST:
             continue
-        below = _price(assembly.bricks.take(lower), assembly.catalogue, deepest)
-        above = _price(assembly.bricks.take(upper), assembly.catalogue, deepest)
-        option = _Option(number, level, upper, studs, below, above)
+        if not all(_is_piece(bricks, graph, part, mine, first=number == 0) for part in parts):
+            continue
+        below = _price(bricks.take(lower), catalogue, deepest)
+        above = _price(bricks.take(upper), catalogue, deepest)
+        option = _Option(number, upper, parts, below, above)
         # what hangs from bricks above the cut is not in place yet when the upper part is joined
-        firm = _joint(
-            assembly.graph, upper, np.isin(np.arange(len(assembly.bricks)), np.flatnonzero(lower)[below.stands])
-        )
+        firm = _joint(graph, upper, np.isin(np.arange(len(bricks)), np.flatnonzero(lower)[below.stands]))
         if firm >= INTERFACE and option.price < price.bricks and option.price <= (1 - SAVING) * price.bricks:
             yield option
         tried += 1
@@ -178,11 +204,29 @@ def _promise(price: _Price, levels: Ints) -> Ints:
     return left
 
 
-def _upper(bricks: Bricks, graph: ContactGraph, mine: Mask, level: int) -> Mask:
-    """Return the greatest part of a piece that hangs together above a level."""
-    above = mine & (bricks.corner[:, 2] >= level)
+def _upper(graph: ContactGraph, above: Mask) -> Mask:
+    """Return the greatest part that hangs together of what lies above a level."""
     component = _components(graph, above)
     upper: Mask = above & (component == np.bincount(component[above]).argmax())
+    return upper
+
+
+def _whole(bricks: Bricks, graph: ContactGraph, mine: Mask, upper: Mask, *, first: bool) -> Mask:
+    """Leave to the lower part what hangs below a cut from the upper one alone, with the bricks that it hangs from."""
+    first_row, second_row = graph.pairs.T
+    for _ in range(ROUNDS):
+        parts = _parts(graph, mine & ~upper)
+        loose = np.zeros(len(upper), dtype=bool)
+        for part in parts[1:]:
+            if not _is_piece(bricks, graph, part, mine, first=first) or part.sum() < SMALLEST:
+                loose |= part
+        if not loose.any():
+            break
+        hold = np.zeros(len(upper), dtype=bool)
+        hold[second_row[loose[first_row] & upper[second_row]]] = True
+        if not (upper & ~hold).any():
+            break
+        upper = _upper(graph, upper & ~hold)
     return upper
 
 
@@ -191,8 +235,25 @@ def _components(graph: ContactGraph, members: Mask) -> Rows:
     return components(graph.pairs[members[graph.pairs].all(axis=1)], len(members))
 
 
-def _n_components(graph: ContactGraph, members: Mask) -> int:
-    return len(np.unique(_components(graph, members)[members]))
+def _parts(graph: ContactGraph, members: Mask) -> tuple[Mask, ...]:
+    """Return what hangs together among some bricks, the greatest part first."""
+    component = _components(graph, members)
+    number, first, count = np.unique(component[members], return_index=True, return_counts=True)
+    order = np.lexsort((first, -count))
+    return tuple(members & (component == each) for each in number[order].tolist())
+
+
+def _is_piece(bricks: Bricks, graph: ContactGraph, part: Mask, mine: Mask, *, first: bool) -> bool:
+    """Whether a part below a cut can be a piece: on the table, or held by other pieces below."""
+    level = bricks.corner[:, 2]
+    stands = first and level[part].min() == level[mine].min()
+    return bool(stands or _joint(graph, part, ~mine) >= INTERFACE)
+
+
+def _nodes(piece: NDArray[np.int16]) -> Ints:
+    """Return what bricks are put on with: those of the first piece one by one, the others as pieces."""
+    node = np.arange(len(piece), dtype=np.int64)
+    return np.where(piece > 0, len(piece) + piece.astype(np.int64), node)
 
 
 def _joint(graph: ContactGraph, upper: Mask, lower: Mask) -> int:

@@ -335,7 +335,7 @@ def test_tiles_go_row_by_row() -> None:
 
 def test_contact_sheet(tmp_path: Path) -> None:
     """The sheet has a picture for each step asked for, with more and more bricks; the build is as it was before."""
-    build, _, _ = show_storeys(0, 1)
+    build, _, _ = show_storeys(*[0] * 9)
     show_role(build, Role.SUPPORT_OUTSIDE, visible=False)
     before, whole = content(), seen()
     path = tmp_path / "sheet.png"

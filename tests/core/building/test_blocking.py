@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from legorize_addon.core.building.blocking import blocking, of_nodes, unique_pairs
+from legorize_addon.core.building.blocking import column_pairs, of_nodes, unique_pairs
 from tests.core.standing import CATALOGUE, table
 
 
 def test_neighbours_in_a_column_touching_or_not():
     """Of three bricks over each other each knows the next, across a gap as well; the third follows from that."""
     bricks = table(("3001", 0, 0, 9), ("3003", 0, 0, 0), ("3004", 2, 0, 0), ("3005", 0, 0, 3))
-    assert blocking(bricks, CATALOGUE).tolist() == [[1, 0], [1, 3], [2, 0], [3, 0]]
+    assert column_pairs(bricks, CATALOGUE).tolist() == [[1, 0], [1, 3], [2, 0], [3, 0]]
 
 
 def test_pairs_of_nodes_are_told_once():

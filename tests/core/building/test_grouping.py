@@ -6,17 +6,19 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.building.grouping import FEW, LOTS, MANY, MOST, REACH, TILE_MOST, Items, group, span
+from legorize_addon.core.building.grouping import FEW, LOTS, MANY, group
+from legorize_addon.core.building.items import MOST, REACH, TILE_MOST, Items, span
 from legorize_addon.core.building.tiles import tiles_of
 from legorize_addon.core.model.bricks import NOBODY
 
 
-def items(box, level, *, lot=None, image=None, temporary=None, tile=None, size=None):
+def items(box, level, *, lot=None, image=None, temporary=None, tile=None, size=None, due=None):
     """Return items of given places, all alike where nothing else is said."""
     n = len(level)
     return Items(
         box=np.array(box, np.int64).reshape(-1, 4),
         level=np.array(level, np.int64),
+        due=np.array(level if due is None else due, np.int64),
         size=np.ones(n, np.int64) if size is None else np.array(size, np.int64),
         lot=np.zeros(n, np.int64) if lot is None else np.array(lot, np.int64),
         temporary=np.zeros(n, bool) if temporary is None else np.array(temporary, bool),
@@ -87,6 +89,17 @@ def test_supports_and_bricks_are_not_mixed():
     temporary = np.arange(24) % 2 == 0
     for step in group(items(box, np.zeros(24), temporary=temporary), NONE):
         assert len(set(temporary[step].tolist())) == 1
+
+
+def test_supports_come_when_they_are_wanted():
+    """A support under a high brick waits until the bricks up to there are laid; one under a low brick comes first."""
+    beside = floor(5, 1) + np.array([0, 0, 9, 9])
+    box = np.concatenate([floor(6, 2), floor(6, 2), beside, beside])
+    level = np.array([0] * 12 + [3] * 12 + [0] * 10)
+    found = group(items(box, level, temporary=np.arange(34) >= 24, due=[*level[:24], *[0] * 5, *[9] * 5]), NONE)
+    first = {item: number for number, step in enumerate(found) for item in step}
+    assert max(first[item] for item in range(24, 29)) == 0
+    assert min(first[item] for item in range(29, 34)) > max(first[item] for item in range(12))
 
 
 def test_a_brick_left_alone_moves_to_others():

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.building.check import walk
 from legorize_addon.core.building.contacts import building_contacts
-from legorize_addon.core.building.grouping import MOST
+from legorize_addon.core.building.items import MOST
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.steps import Kind

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from legorize_addon.core.building.blocking import blocking
+from legorize_addon.core.building.blocking import column_pairs
 from legorize_addon.core.building.units import find_units
 from legorize_addon.core.model.contacts import contact_graph
 from tests.core.standing import CATALOGUE, table
@@ -17,7 +17,7 @@ def units(*rows, node=None, ground=None):
     node = np.arange(len(bricks)) if node is None else np.array(node)
     ground = level == level.min() if ground is None else np.array(ground)
     pairs = contact_graph(bricks, CATALOGUE).pairs
-    return find_units(node, level, pairs, blocking(bricks, CATALOGUE), ground=ground)
+    return find_units(node, level, pairs, column_pairs(bricks, CATALOGUE), ground=ground)
 
 
 def groups(found):

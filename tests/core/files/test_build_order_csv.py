@@ -55,8 +55,8 @@ def test_joins_name_the_piece():
     found = plan_assembly(Assembly(replace(bricks, piece=np.array([0, 1, 1], np.int16)), CATALOGUE), deepest=3)
     rows, _ = followed(build_order_csv(found.steps, Assembly(found.bricks, CATALOGUE), by_hand=found.by_hand))
     assert [(row["action"], row["piece"]) for row in rows] == [
-        ("place", "1"),
-        ("place", "1"),
         ("place", "0"),
+        ("place", "1"),
+        ("place", "1"),
         ("join", "1"),
     ]

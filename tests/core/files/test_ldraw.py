@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from legorize_addon.core.building.order import steps_of
 from legorize_addon.core.errors import BuildError
 from legorize_addon.core.files.ldraw import ldraw_matrix, read_ldr, write_ldr
 from legorize_addon.core.files.ldraw_mpd import write_mpd
@@ -57,9 +58,8 @@ def test_text_does_not_depend_on_the_order_of_the_bricks(bricks, random):
         shuffled.piece,
         shuffled.step,
     )
-    for write in (write_ldr, write_mpd):
-        texts = {write(Assembly(each, CATALOGUE), name="m.ldr", title="m") for each in (turned, bricks)}
-        assert len(texts) == 1
+    texts = {write_ldr(Assembly(each, CATALOGUE), name="m.ldr", title="m") for each in (turned, bricks)}
+    assert len(texts) == 1
 
 
 @pytest.mark.parametrize(("row", "turn"), ORIENTATIONS, ids=lambda value: str(value))
@@ -98,8 +98,9 @@ def test_golden_file_reads_as_the_catalogue_model():
 
 def test_lines_end_as_in_the_library():
     """Every line ends in CRLF, and no bare line end is left."""
-    for write in (write_ldr, write_mpd):
-        text = write(Assembly(everything(), CATALOGUE), name="m.ldr", title="m")
+    assembly = Assembly(everything(), CATALOGUE)
+    document = write_mpd(assembly, steps_of(assembly), name="m.ldr", title="m")
+    for text in (write_ldr(assembly, name="m.ldr", title="m"), document):
         assert text.endswith("\r\n")
         assert "\n" not in text.replace("\r\n", "")
         assert "\r" not in text.replace("\r\n", "")
@@ -132,8 +133,10 @@ def test_sub_model_is_turned_moved_and_coloured_by_its_call():
 
 def test_empty_model_is_a_header():
     """No bricks are written as three lines of header and read back as no bricks."""
-    for write in (write_ldr, write_mpd):
-        assert len(read_ldr(write(Assembly(table([]), CATALOGUE), name="m.ldr", title="m"), CATALOGUE)) == 0
+    nothing = Assembly(table([]), CATALOGUE)
+    document = write_mpd(nothing, steps_of(nothing), name="m.ldr", title="m")
+    for text in (write_ldr(nothing, name="m.ldr", title="m"), document):
+        assert len(read_ldr(text, CATALOGUE)) == 0
     assert len(read_ldr("", CATALOGUE)) == 0
 
 

@@ -1,0 +1,70 @@
+"""Steps that are too small are given up: what they put on moves into others, where the order lets it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..model import NOBODY
+from .items import REACH, Atoms, in_turn, span
+
+
+class Tidying:
+    """Steps whose parts may move."""
+
+    def __init__(self, atoms: Atoms, found: Sequence[Sequence[int]]) -> None:
+        """Begin with the steps as they were found."""
+        self.g = atoms
+        self.found = [list(step) for step in found]
+        self.step_of = np.zeros(len(atoms), dtype=np.int64)
+        for number, step in enumerate(self.found):
+            self.step_of[step] = number
+
+    def steps(self) -> list[list[int]]:
+        """Return the steps, each in an order in which it can be built."""
+        for few in (1, 2, 3):
+            for number in range(len(self.found)):
+                if 0 < self.g.size[self.found[number]].sum() <= few:
+                    self._dissolve(number)
+        return [in_turn(step, self.g.below, self.g.box, self.g.level) for step in self.found if step]
+
+    def _dissolve(self, number: int) -> None:
+        """Move all parts of a step into others, or none."""
+        moved: list[int] = []
+        for atom in list(self.found[number]):
+            target = self._target(atom, number)
+            if target is None:
+                for each in moved:
+                    self._move(each, number)
+                return
+            self._move(atom, target)
+            moved.append(atom)
+
+    def _move(self, atom: int, target: int) -> None:
+        self.found[int(self.step_of[atom])].remove(atom)
+        self.found[target].append(atom)
+        self.step_of[atom] = target
+
+    def _target(self, atom: int, number: int) -> int | None:
+        """Return the step nearest in order that a part may move into."""
+        g = self.g
+        first = max((int(self.step_of[each]) for each in g.below[atom]), default=0)
+        last = min((int(self.step_of[each]) for each in g.above[atom]), default=len(self.found) - 1)
+        image = int(g.image[atom])
+        if image != NOBODY:
+            beside = int(self.step_of[image])
+            first, last = max(first, beside - 1), min(last, beside + 1)
+        for target in sorted(range(first, last + 1), key=lambda each: (abs(each - number), each)):
+            step = self.found[target]
+            if target != number and step and self._fits(atom, step):
+                return target
+        return None
+
+    def _fits(self, atom: int, step: list[int]) -> bool:
+        g = self.g
+        return (
+            int(g.size[[*step, atom]].sum()) <= g.most
+            and span(g.box[[*step, atom]]) <= REACH
+            and bool((g.tile[step] == g.tile[atom]).all())
+        )

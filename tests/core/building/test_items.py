@@ -1,0 +1,61 @@
+"""What is put on in a step, and in which order."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.building.items import MOST, TILE_MOST, Atoms, Items, in_turn, span
+from legorize_addon.core.model.bricks import NOBODY
+
+NONE = np.zeros((0, 2), np.int32)
+
+
+def pair(gap, *, level=(0, 0), tile=(0, 0)):
+    """Return two mirrored items, some studs apart."""
+    return Items(
+        box=np.array([[0, 1, 0, 1], [2 + gap, 3 + gap, 0, 1]], np.int64),
+        level=np.array(level, np.int64),
+        due=np.array(level, np.int64),
+        size=np.ones(2, np.int64),
+        lot=np.zeros(2, np.int64),
+        temporary=np.zeros(2, bool),
+        image=np.array([1, 0], np.int64),
+        tile=np.array(tile, np.int64),
+    )
+
+
+def test_span_is_the_longer_side():
+    """Studs from the first to the last square."""
+    assert span(np.array([[0, 3, 0, 1], [5, 6, -2, 0]])) == 7
+
+
+def test_mirrored_parts_in_one_picture_are_one_atom():
+    """Up to 16 studs they are put on together; then each knows its image."""
+    near, far = Atoms(pair(12), NONE), Atoms(pair(13), NONE)
+    assert near.members == [[0, 1]]
+    assert near.size.tolist() == [2]
+    assert near.box.tolist() == [[0, 15, 0, 1]]
+    assert near.image.tolist() == [NOBODY]
+    assert far.members == [[0], [1]]
+    assert far.image.tolist() == [1, 0]
+
+
+@pytest.mark.parametrize("apart", [{"level": (0, 3)}, {"tile": (1, 2)}])
+def test_levels_and_tiles_are_kept_apart(apart):
+    """Mirrored parts of two levels or tiles stay two atoms."""
+    assert len(Atoms(pair(2, **apart), NONE)) == 2
+
+
+def test_limit_of_a_mosaic_is_higher():
+    """Tiles have room for more bricks a step."""
+    assert Atoms(pair(2), NONE).most == MOST
+    assert Atoms(pair(2, tile=(1, 1)), NONE).most == TILE_MOST
+
+
+def test_lowest_first_unless_something_waits():
+    """The order of a step goes by level and place, and never against what must come before."""
+    box = np.array([[4, 4, 0, 0], [0, 0, 0, 0], [2, 2, 0, 0]])
+    level = np.array([0, 0, 3])
+    assert in_turn([2, 1, 0], [[], [], []], box, level) == [1, 0, 2]
+    assert in_turn([2, 1, 0], [[], [2], []], box, level) == [0, 2, 1]
