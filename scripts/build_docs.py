@@ -121,7 +121,13 @@ def reference_pages() -> dict[str, str]:
     pages = {f"{name}.rst": package_page(name) for name in packages}
     pages |= {f"{name}.rst": module_page(name) for name in SHARED if (CORE / f"{name}.py").exists()}
     entries = [name.removesuffix(".rst") for name in pages]
-    head = ["Reference", "=========", "", "What each package of the core offers. All else in a package is its own.", ""]
+    head = [
+        "Reference",
+        "=========",
+        "",
+        "What each package of the core offers. Everything else in a package is private.",
+        "",
+    ]
     tree = [".. toctree::", "   :maxdepth: 1", "", *(f"   {name}" for name in entries)]
     return {**pages, "index.rst": "\n".join([*head, *tree, ""])}
 

@@ -55,7 +55,7 @@ def main() -> None:
     here = HERE.get((platform.system(), platform.machine()))
     parser = argparse.ArgumentParser(description="Build the Blender extension.")
     parser.add_argument(
-        "--platform", choices=TAGS, action="append", help="give it several times for several; default: this machine's"
+        "--platform", choices=TAGS, action="append", help="can be given several times; default: this machine's"
     )
     parser.add_argument("--out", type=Path, default=ROOT / "dist", help="folder for the zips and the cached wheels")
     chosen = parser.parse_args()

@@ -58,6 +58,7 @@ try:
     from legorize_addon.core.report.checks import failed_checks
     from legorize_addon.core.report.outputs import output_texts
     from legorize_addon.core.report.report import report
+    from legorize_addon.core.report.summary import summary
     from legorize_addon.core.settings import Settings, choices, renamed, setting_type
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.reading.importers import load
@@ -71,7 +72,11 @@ try:
     from legorize_addon.view.steps import explode
     from legorize_addon.view.visibility import cut_away, roles_shown, show_role
 except ModuleNotFoundError as missing:
-    print(f"Legorize needs the Python package {missing.name}: install its extension, or the packages.", file=sys.stderr)
+    print(
+        f"The Python package {missing.name} is missing: install Legorize as an extension, or run python3 "
+        "scripts/run.py.",
+        file=sys.stderr,
+    )
     sys.exit(1)
 
 SIZES: Final = ("size_by", "width", "height", "scale")
@@ -124,9 +129,9 @@ class Wanted(NamedTuple):
             drawn = self.render or (name == "outlines" and self.contact_sheet)
             if getattr(self, name) and not drawn:
                 flag = name.replace("_", "-")
-                raise SettingsError(f"--{flag} is only to be seen in the picture: add --render, or leave it out.")
+                raise SettingsError(f"--{flag} only changes the picture: add --render, or leave it out.")
         if self.actual_size and not self.layers:
-            raise SettingsError("--actual-size is only to be seen in layer maps: add --layers, or leave it out.")
+            raise SettingsError("--actual-size only changes layer maps: add --layers, or leave it out.")
 
 
 class Parser(argparse.ArgumentParser):
@@ -159,15 +164,16 @@ def parser() -> Parser:
     made.add_argument("source", metavar="IN", type=lambda text: named(text, "file"), help="file with the mesh")
     made.add_argument(
         "--out", metavar="DIR", type=lambda text: named(text, "folder"), required=True,
-        help="folder for the results, or a link to one; results of an earlier run in it are replaced, all or none, and "
-        "your own files stay",
+        help="folder for the results, or a link to one; it replaces the results of an earlier run and keeps your "
+             "own files",
     )  # fmt: skip
     add_source(made)
     add_pictures(made)
     add_paper(made)
     made.add_argument(
         "--bound", action="store_true",
-        help="prove for the report how few bricks any layout of the model needs; takes longer than the layout itself",
+        help=("prove for the report how many bricks any layout of the model needs at least; takes longer than the "
+             "layout itself"),
     )  # fmt: skip
     made.add_argument("--save-blend", action="store_true", help="write the scene with the bricks, build.blend")
     sizes = made.add_mutually_exclusive_group()
@@ -180,13 +186,12 @@ def add_source(made: Parser) -> None:
     """Add the flags for what is taken of the file."""
     made.add_argument(
         "--frame", metavar="N", type=frame,
-        help="take the pose of a frame, as Blender counts them (default: the rest pose, without animation; of a .blend "
-        "the frame at which it was saved)",
+        help="take the pose of this frame (default: the rest pose, or the frame at which a .blend was saved)",
     )  # fmt: skip
     made.add_argument(
         "--object", metavar="NAME", action="append", default=[],
-        help="take this object, or if it has no surface what is parented to it; may be given several times (default: "
-        "all that renders show)",
+        help="take this object, or its children if it has no surface; can be given several times (default: "
+             "everything that renders show)",
     )  # fmt: skip
 
 
@@ -195,30 +200,28 @@ def add_pictures(made: Parser) -> None:
     made.add_argument("--render", action="store_true", help="write a picture, render.png")
     made.add_argument(
         "--view", choices=tuple(AZIMUTH),
-        help="corner from which the model is seen in the picture; below shows its undersides (default: front_right, "
-        "with a section the side that is cut open)",
+        help="corner from which the picture shows the model; below shows its undersides (default: front_right; with "
+             "a section, the side that is cut open)",
     )  # fmt: skip
     made.add_argument(
         "--section", metavar="AXIS=SHARE", type=section,
-        help="hide the bricks beyond a cut in the picture, which looks onto it: x=0.5 shows the half with x below the "
-        "middle of the model",
+        help="cut the model open in the picture: x=0.5 shows the half with x below the middle, seen from the cut",
     )  # fmt: skip
-    made.add_argument("--outlines", action="store_true", help="tell the bricks in the picture apart by dark lines")
+    made.add_argument("--outlines", action="store_true", help="draw dark lines around the bricks in the picture")
     made.add_argument(
-        "--heat-map", action="store_true", help="show in the picture what each brick has left, not its colour"
+        "--heat-map", action="store_true", help="colour each brick in the picture by the friction that it has left"
     )
     made.add_argument(
         "--explode", metavar="SHARE", type=share, default=0.0,
-        help="lift the pieces of a split model off each other in the picture, by a share of the model's height",
+        help="draw the pieces of a split model apart in the picture, by a share of the model's height",
     )  # fmt: skip
     made.add_argument(
         "--show-supports", action=argparse.BooleanOptionalAction, default=False,
-        help="show in the picture also the supports that are taken out again (default: the finished model)",
+        help="also show temporary supports in the picture (default: the finished model)",
     )  # fmt: skip
     made.add_argument(
         "--contact-sheet", metavar="N", type=pictures, default=0,
-        help="write N small pictures of the building order, from the first steps to the finished model, side by side "
-        "in one image, contact-sheet.png",
+        help="write N pictures of the building order side by side in one image, contact-sheet.png",
     )  # fmt: skip
 
 
@@ -232,7 +235,7 @@ def add_paper(made: Parser) -> None:
     made.add_argument("--layers", action="store_true", help="write a map of each layer, layers/001.svg and so on")
     made.add_argument(
         "--actual-size", action="store_true",
-        help="draw the layer maps in the size of the bricks, to lay these on their prints",
+        help="draw the layer maps in the real size of the bricks, so that these can be laid on the prints",
     )  # fmt: skip
     made.add_argument("--paper", choices=tuple(PAPERS), default="A4", help="size of the pages (default: A4)")
 
@@ -263,7 +266,9 @@ def section(text: str) -> Section:
     except ValueError:
         at = -1.0
     if axis not in AXES or not 0.0 <= at <= 1.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is no section, which is x, y or z, =, and a number from 0 to 1")
+        raise argparse.ArgumentTypeError(
+            f"{text!r} is not a section: write x, y or z, =, and a number from 0 to 1, such as x=0.5"
+        )
     return Section(axis=axis, at=at)
 
 
@@ -274,7 +279,7 @@ def share(text: str) -> float:
     except ValueError:
         found = -1.0
     if not 0.0 <= found <= 1.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number from 0 to 1")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 0 to 1")
     return found
 
 
@@ -285,14 +290,14 @@ def frame(text: str) -> int:
     except ValueError:
         found = LAST_FRAME + 1
     if abs(found) > LAST_FRAME:
-        raise argparse.ArgumentTypeError(f"{text!r} is no whole number from {-LAST_FRAME} to {LAST_FRAME}")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from {-LAST_FRAME} to {LAST_FRAME}")
     return found
 
 
 def pictures(text: str) -> int:
     """Return a number of pictures."""
     if not (text.isdecimal() and 1 <= int(text) <= MOST_PICTURES):
-        raise argparse.ArgumentTypeError(f"{text!r} is no whole number from 1 to {MOST_PICTURES}")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 to {MOST_PICTURES}")
     return int(text)
 
 
@@ -339,14 +344,14 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         if wanted.any_picture:
             with rest.stage("pictures"):
                 show(build, folder, wanted, name=source.stem, sources=objects)
-        left = [name for name in changed(out) if not (folder / name).exists()]
+        files = [path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()]
+        left = [name for name in changed(out) if name not in files]
         stop.too_late()
     for name in left:
-        print(f"{out / name} was changed after an earlier run wrote it: it stays.", file=sys.stderr)
-    # what was lost of the file is told here too: few open the report of a run that went well
-    for sentence in facts["notes"]:
+        print(f"{out / name} was kept, because it was changed after an earlier run had written it.", file=sys.stderr)
+    # losses are printed too: few open the report of a run that went well
+    for sentence in (*facts["notes"], *summary(facts, str(out), files)):
         print(sentence)
-    print(f"{out}: {facts['counts']['bricks']} bricks in {facts['grid']['layers']} layers.")
     for sentence in facts["failed_checks"]:
         print(sentence, file=sys.stderr)
     return 2 if facts["failed_checks"] else 0
@@ -448,7 +453,7 @@ def save(path: Path) -> None:
     try:
         bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True, compress=True, relative_remap=False)
     except RuntimeError as error:
-        raise BuildError(f"The scene cannot be saved: {str(error).strip()}") from error
+        raise BuildError(f"The scene cannot be saved ({str(error).strip()}): choose another folder.") from error
 
 
 @contextmanager

@@ -81,15 +81,15 @@ def citation_faults(version: str, date: str, text: str) -> Iterator[str]:
     for key, value in (("version", version), ("date-released", date)):
         found = re.search(rf"^{key}: *\"?([^\"\n]*)\"?$", text, re.MULTILINE)
         if value and (found is None or found[1].strip() != value):
-            yield f"CITATION.cff has not {key}: {value}: set it."
+            yield f"CITATION.cff does not have {key}: {value}: set it."
 
 
 def git_faults(tag: str, root: Path) -> Iterator[str]:
     """Yield what is wrong with the working tree and the tag."""
     if git(root, "status", "--porcelain"):
-        yield "Files are changed and not committed: commit them, or put them aside."
+        yield "There are uncommitted changes: commit or stash them."
     if not git(root, "tag", "--list", tag):
-        yield f"There is no tag {tag}: make it with git tag -a {tag}."
+        yield f"There is no tag {tag}: create it with git tag -a {tag}."
     elif git(root, "rev-list", "-n", "1", tag) != git(root, "rev-parse", "HEAD"):
         yield f"The tag {tag} is on another commit: check that one out."
 

@@ -120,7 +120,7 @@ def _docs(rest: list[str]) -> int:
     """Build the documentation in its environment, by a Python of its version."""
     python = next((each for each in _pythons(DOCS_PYTHON) if _version(each) == DOCS_PYTHON), "")
     if not python:
-        raise Missing(f"The documentation needs Python {DOCS_PYTHON}, and none was found: install it first.", NO_PYTHON)
+        raise Missing(f"The documentation needs Python {DOCS_PYTHON}, but none was found: install it first.", NO_PYTHON)
     if python != sys.executable:
         os.execv(python, [python, *sys.argv])
     return _run([str(_installed(DOCS, python)), "scripts/build_docs.py", *rest])
@@ -135,7 +135,7 @@ def _find(blender: str | None) -> tuple[str, str]:
             if _version(python) == PYTHONS[name]:
                 return name, python
     versions = " or ".join(PYTHONS[name] for name in wanted)
-    raise Missing(f"Legorize needs Python {versions}, and none was found on this machine: install it first.", NO_PYTHON)
+    raise Missing(f"Legorize needs Python {versions}, but none was found on this machine: install it first.", NO_PYTHON)
 
 
 def _pythons(version: str) -> Iterator[str]:
@@ -181,7 +181,7 @@ def _make_tree() -> None:
         )
     print(f"Setting up {TREE} (once; about two minutes, 1.3 GB) ...", flush=True)
     if _run(["sh", "tests/gui/make_blender.sh", str(TREE)]):
-        raise Missing(f"The tree {TREE} could not be made: see above.")
+        raise Missing(f"The tree {TREE} could not be set up: see above.")
 
 
 def _installed(group: str, python: str) -> Path:

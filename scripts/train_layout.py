@@ -48,10 +48,10 @@ WIDTHS: Final = (24, 28, 32, 36, 40)
 
 def main(arguments: Sequence[str]) -> int:
     """Train or judge; return the exit status."""
-    parser = argparse.ArgumentParser(description="Train the machine that chooses exchanges in the fast layout.")
+    parser = argparse.ArgumentParser(description="Train the support vector machine of the fast layout.")
     parser.add_argument("meshes", metavar="MESH", type=Path, nargs="*", help="model files for the report")
     parser.add_argument("--out", metavar="FILE", type=Path, default=SHIPPED, help="where to write the samples")
-    parser.add_argument("--report", action="store_true", help="judge what is shipped instead of training")
+    parser.add_argument("--report", action="store_true", help="judge the built-in training instead of training anew")
     parser.add_argument("--width", type=int, default=48, help="studs of the model files (default: %(default)s)")
     options = parser.parse_args(arguments)
     if options.report:

@@ -37,7 +37,7 @@ def test_missing_python_is_one_sentence(
     assert run.main() == 3
     said = capsys.readouterr()
     assert said.out == ""
-    assert said.err == "Legorize needs Python 3.9, and none was found on this machine: install it first.\n"
+    assert said.err == "Legorize needs Python 3.9, but none was found on this machine: install it first.\n"
 
 
 def test_failed_installation_is_one_sentence(tmp_path: Path) -> None:

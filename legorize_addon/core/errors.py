@@ -59,5 +59,5 @@ def enough_memory() -> Iterator[None]:
         yield
     except MemoryError as error:
         raise BuildError(
-            "The memory does not suffice for a model of this size: choose a smaller size, or close other programs."
+            "There is not enough memory for a model of this size: choose a smaller size, or close other programs."
         ) from error

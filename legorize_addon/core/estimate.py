@@ -95,7 +95,7 @@ class Estimate:
         cost = f" and take about {duration(self.seconds)} and {_number(self.megabytes / 1000)} GB"
         return (
             f"The model would be {_metres(self.cm[2])} high ({_number(self.layers)} layers) on {_number(wide)} x "
-            f"{_number(deep)} studs, of about {_number(self.bricks)} bricks,"
+            f"{_number(deep)} studs, have about {_number(self.bricks)} bricks,"
         ).removesuffix("," if self.seconds > _ENDLESS else "") + ("" if self.seconds > _ENDLESS else cost)
 
 
@@ -221,7 +221,7 @@ def _smaller(settings: Settings, passed: Mapping[str, float]) -> str:
     if name == "scale":
         step = 10.0 ** (math.floor(math.log10(fitting)) - 1)
         return f"a scale of {math.floor(fitting / step) * step:g} or less"
-    return f"a {name} of {math.floor(fitting)} or less" if fitting >= 1 else f"another size than by {name}"
+    return f"a {name} of {math.floor(fitting)} or less" if fitting >= 1 else f"a size by something else than {name}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,7 +23,7 @@ def setting(
     Parameters
     ----------
     default : bool, int, float or str
-        Value when nothing is said.
+        Value if none is given.
     text : str
         One sentence for the tooltip and the command line's help.
     group : str
@@ -44,146 +44,146 @@ def setting(
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Settings:
-    """What a user may choose. Values out of range are refused with one sentence."""
+    """What a user can choose. Wrong values are refused with one sentence."""
 
     # fmt: off
     size_by: Literal["width", "height", "scale"] = setting(
-        "width", "Which of the following numbers sets the size of the model.", group="Size")
+        "width", "Which of the numbers below sets the size of the model.", group="Size")
     width: int = setting(
         48, "Studs along the longer horizontal side.", group="Size", low=1, high=1000)
     height: int = setting(
         40, "Height of the model in bricks.", group="Size", low=1, high=1000)
     scale: float = setting(
-        10.0, "Scale factor k of the paper: 10 keeps the object's own size, 5 halves it (section 3).",
+        10.0, "Scale factor: 10 keeps the object's own size, 5 halves it (k in section 3 of the paper).",
         group="Size", low=1e-4, high=1e6)
     up: Literal["auto", "x", "y", "z"] = setting(
-        "auto", "Axis of the object that points up; auto keeps what stands in Blender, and goes by the shape in files "
-        "that do not say (.obj, .ply, .stl).", group="Size")
+        "auto", "Axis of the object that points up; auto keeps the object as it is in Blender, and decides by the "
+        "shape for files that do not say (.obj, .ply, .stl).", group="Size")
 
     colours: int = setting(
-        256, "Most dominant colours to look for in the textures; those alike become one brick colour (Algorithm 1).",
+        256, "Largest number of dominant colours to find in the textures; similar ones become one brick colour "
+        "(Algorithm 1 of the paper).",
         group="Colours", low=1, high=256)
     sampling: Literal["surface", "image"] = setting(
-        "surface", "Whether texels count by the surface they cover, or every texel of the whole image counts once "
-        "(the paper's literal way).", group="Colours")
+        "surface", "Whether texels count by the surface that they cover, or every texel of the image counts once "
+        "(as in the paper).", group="Colours")
     palette: str = setting(
-        "", "LDraw codes of the colours to use, with commas between; empty for all colours made today.",
+        "", "LDraw codes of the colours to use, separated by commas; empty for all colours that are made today.",
         group="Colours")
     one_to_one: bool = setting(
-        False, "Never let two dominant colours become the same brick colour.", group="Colours")
+        False, "Give each dominant colour a brick colour of its own.", group="Colours")
     cell_colour: Literal["likeness", "longest"] = setting(
-        "likeness", "Whether a brick takes the colour most like all the surface on it, or the one with the greatest "
-        "trajectory length (the paper's literal way).", group="Colours")
+        "likeness", "Whether a brick takes the colour closest to all of its surface, or the colour with the "
+        "greatest length of trajectory (as in the paper).", group="Colours")
     fine_texture: Literal["mean", "texels"] = setting(
-        "mean", "What becomes of a texture that changes within a stud, as checkers and noise do: its mean as seen from "
-        "afar, or whichever of its colours wins on each brick.", group="Colours")
+        "mean", "What to do with textures that change within a stud, such as checkers and noise: take their mean, "
+        "as seen from afar, or the colour that wins on each brick.", group="Colours")
     dithering: Literal["none", "ordered", "diffusion"] = setting(
-        "none", "How bricks show shades that no brick has: each in its likeliest colour, colours of the palette mixed "
-        "in a fixed pattern, or each brick's error passed on to the next ones, for flat pictures and reliefs.",
+        "none", "How to show shades that no brick has: each brick in the closest colour, colours mixed in a fixed "
+        "pattern, or each brick's error passed on to the next ones (for flat pictures and reliefs).",
         group="Colours")
     least_alpha: float = setting(
-        0.5, "Alpha from which on a surface is built: glass, and what of the picture of a leaf or a decal is clear, is "
-        "left out; 0 builds all.", group="Colours", low=0.0, high=1.0)
+        0.5, "Smallest alpha of a surface that is built: glass and the clear parts of leaves and decals are left "
+        "out; 0 builds everything.", group="Colours", low=0.0, high=1.0)
 
     cusp: float = setting(
-        3.2, "Cusp height in mm that one slice a brick may leave; smaller means three slices more often.",
+        3.2, "Largest cusp height in mm with one slice per brick; a smaller value gives three slices more often.",
         group="Slicing", low=0.1, high=9.6)
     chord_deviation: float = setting(
-        0.0, "How far in mm a simplified trajectory may leave the cut of the mesh.", group="Slicing",
+        0.0, "Largest distance in mm between a simplified trajectory and the cut of the mesh.", group="Slicing",
         low=0.0, high=4.0)
 
     plates: Literal["none", "pays", "all"] = setting(
-        "pays", "Where plates may lie instead of bricks: nowhere, where they pay, or wherever the surface cuts "
+        "pays", "Where to use plates instead of bricks: nowhere, where they pay, or wherever the surface cuts "
         "through a brick.", group="Detail")
     plate_gain: float = setting(
-        0.2, "Error that plates must save to pay: a share of a brick's volume, or of a clear difference in colour on "
+        0.2, "Error that plates must save to pay, as a share of a brick's volume or of a clear colour difference on "
         "its faces.", group="Detail", low=0.0, high=1.0)
     fewer_parts: float = setting(
-        0.3, "Error, as above, that one part less is worth: neighbours agree on their plates and colours where that "
-        "costs less; 0 lets every column decide by itself.", group="Detail", low=0.0, high=2.0)
+        0.3, "Error, as above, to accept for one part less: neighbours then share plates and colours; 0 lets every "
+        "column decide by itself.", group="Detail", low=0.0, high=2.0)
     layer_difference: float = setting(
-        0.1, "Share by which trajectories of neighbouring layers may differ in length or area before their layers are "
-        "sliced plate by plate.", group="Detail", low=0.0, high=1.0)
+        0.1, "Share by which trajectories of neighbouring layers may differ in length or area before these layers "
+        "are sliced plate by plate.", group="Detail", low=0.0, high=1.0)
     critical_angle: float = setting(
-        45.0, "Steepest slope in degrees from the vertical that bricks carry by themselves; wider steps get offset "
+        45.0, "Largest slope in degrees from the vertical that bricks carry by themselves; wider steps get offset "
         "bricks in their own colours.", group="Detail", low=1.0, high=89.0)
     backing: int = setting(
-        0, "Layers or rows of bricks behind a flat picture or relief, to hold it together.", group="Detail",
+        0, "Layers or rows of bricks that hold a flat picture or relief together from behind.", group="Detail",
         low=0, high=16)
 
     keep_thin: bool = setting(
         True, "Keep legs, ears and walls that cover less than half a stud.", group="Bricks")
     symmetric: bool = setting(
-        True, "Lay the grid symmetrically over the model.", group="Bricks")
+        True, "Centre the grid on the model, so that a symmetric object becomes a symmetric model.", group="Bricks")
     hollow: bool = setting(
         True, "Leave the inside empty.", group="Bricks")
     shell: int = setting(
-        1, "Thickness in studs of the shell that must be built; one more stud inwards may be used.",
+        1, "Thickness of the shell in studs; one more stud inwards may be used.",
         group="Bricks", low=1, high=100)
     hollow_rule: Literal["both", "upper"] = setting(
-        "both", "Whether a layer is compared with the layers above and below to find what must stay, or with the one "
-        "above alone (the paper's literal way).", group="Bricks")
+        "both", "Whether a layer is compared with the layers above and below to find what must stay, or only with "
+        "the one above (as in the paper).", group="Bricks")
     ceilings: Literal["cheaper", "corbels", "pillars", "free"] = setting(
         "cheaper", "What carries ceilings inside the model while it is built: walls that lean inwards, pillars, "
         "whichever takes fewer bricks, or nothing.", group="Bricks")
     open_bottom: bool = setting(
-        False, "Leave the side on the ground open.", group="Bricks")
+        False, "Leave the bottom of the model open.", group="Bricks")
     layout: Literal["fast", "standard", "exact"] = setting(
-        "standard", "How much is done for few and well bonded bricks: a quick choice, linear programmes, or the fewest "
-        "bricks that can be found, which takes several times as long.", group="Bricks")
+        "standard", "How much work goes into few and well bonded bricks: a quick choice, linear programmes, or the "
+        "fewest bricks that can be found, which takes several times as long.", group="Bricks")
 
     learned: bool = setting(
-        True, "Let the quick layout make the exchanges of bricks that a trained support vector machine proposes.",
+        True, "Let the fast layout exchange bricks as a trained support vector machine proposes.",
         group="Learning")
     learned_from: str = setting(
-        "", "File with the samples that the machine learned from, as learning from own models writes it; empty for the "
-        "samples that are shipped.", group="Learning")
+        "", "Training file, as written by Learn from Models; empty for the built-in training.", group="Learning")
 
     supports: Literal["best", "tree", "columns", "beams", "none"] = setting(
-        "best", "What stands under overhangs while the model is built and is taken out again: trees, columns, beams on "
-        "pillars, the lightest of them that holds, or nothing.", group="Supports")
+        "best", "Temporary supports under overhangs while the model is built: the best of all kinds, trees, "
+        "columns, beams on pillars, or none.", group="Supports")
     hanging: int = setting(
-        3, "Plates that bricks may hang one under another while building, pressed from below; 0 puts something below "
+        3, "How many plates deep bricks may hang under others while the model is built; 0 puts a support under "
         "every brick.", group="Supports", low=0, high=30)
     split: int = setting(
-        1, "Most pieces in which the model may be built, each on the table by itself, where that saves a fifth of the "
-        "supports.", group="Supports", low=1, high=8)
+        1, "Largest number of pieces to build separately and join, where that saves a fifth of the supports.",
+        group="Supports", low=1, high=8)
 
     clutch: float = setting(
-        0.98, "Pull in N that the friction of one contact point of a stud bears; 0.7 is cautious.",
+        0.98, "Pull in N that the friction of one contact point of a stud can bear; 0.7 is cautious.",
         group="Check", low=0.05, high=5.0, was="hold")
 
     prove_steps: bool = setting(
-        False, "Test by forces after every building step whether what is in place stands, supports included; it "
-        "takes several times as long as all the rest.", group="Check")
+        False, "Test by forces whether the model stands after every building step, with its supports; this takes "
+        "several times as long as everything else.", group="Check")
 
     limit_size: int = setting(
-        300, "Longest side in cm up to which a model is built without asking; larger ones are refused where nobody "
-        "can be asked.", group="Limits", low=1, high=1_000_000)
+        300, "Longest side in cm of a model that is built without asking; the command line refuses larger ones.",
+        group="Limits", low=1, high=1_000_000)
     limit_bricks: int = setting(
-        50_000, "Bricks, at a guess, up to which a model is built without asking.", group="Limits",
+        50_000, "Estimated number of bricks up to which a model is built without asking.", group="Limits",
         low=1, high=100_000_000)
     limit_memory: int = setting(
-        6000, "Memory in MB, at a guess, up to which a model is built without asking.", group="Limits",
+        6000, "Estimated memory in MB up to which a model is built without asking.", group="Limits",
         low=200, high=10_000_000)
 
     seed: int = setting(
-        0, "Seed of everything random: the same seed gives the same model.", group="Run", low=0, high=2**31 - 1)
+        0, "Seed of all random numbers: the same seed gives the same model.", group="Run", low=0, high=2**31 - 1)
     # fmt: on
 
     def __post_init__(self) -> None:
-        """Refuse values of a wrong type or out of range."""
+        """Refuse values of a wrong type or out of range, and settings that exclude each other."""
         for entry in fields(self):
             _check(entry, getattr(self, entry.name))
         if self.open_bottom and not self.hollow:
             raise SettingsError(
-                "open_bottom is on but hollow is off: a solid model has no open side; turn one of them."
+                "open_bottom is on but hollow is off: a solid model has no open bottom; turn hollow on or "
+                "open_bottom off."
             )
         if self.dithering != "none" and (self.one_to_one or self.cell_colour == "longest"):
             other = "one_to_one is on" if self.one_to_one else "cell_colour is 'longest'"
             raise SettingsError(
-                f"dithering is {self.dithering!r} but {other}: a mixture of colours leaves no such choice; change "
-                "one of them."
+                f"dithering is {self.dithering!r} but {other}: they exclude each other; change one of them."
             )
         if self.hollow_rule == "upper" and not self.hollow:
             raise SettingsError("hollow_rule is 'upper' but hollow is off: turn hollow on, or set the rule to 'both'.")
@@ -200,13 +200,13 @@ def _types() -> dict[str, Any]:
 
 
 def choices(entry: Field[Any]) -> tuple[str, ...]:
-    """Return the allowed words of a setting, empty where any value may stand."""
+    """Return the allowed words of a setting; empty if it is not a choice of words."""
     return tuple(str(choice) for choice in get_args(setting_type(entry)))
 
 
 def renamed(entry: Field[Any]) -> str:
-    """Return what to tell who still uses the earlier name of a setting."""
-    return f"The setting {entry.metadata['was']} is called {entry.name} now: its value was taken."
+    """Return the remark for a setting that was given by its earlier name."""
+    return f"The setting {entry.metadata['was']} is now called {entry.name}: its value was used."
 
 
 def _check(entry: Field[Any], value: Any) -> None:

@@ -222,8 +222,8 @@ def _xatlas(name: str) -> Any:
         import xatlas
     except ImportError as error:
         raise MeshError(
-            f"The colours of {name!r} are made by nodes that must be baked, for which the Python package xatlas is "
-            "missing: install the extension with its wheels, or give the object an image texture."
+            f"The colours of {name!r} are made by nodes and must be baked, but the Python package xatlas is missing: "
+            "install the extension with its wheels, or give the object an image texture."
         ) from error
     return xatlas
 
@@ -319,7 +319,7 @@ def _bake(undo: ExitStack, mesh: bpy.types.Mesh, source: Bakeable) -> None:
     try:
         scene.render.engine = "CYCLES"
     except TypeError as error:
-        raise MeshError("Baking needs Cycles: enable the add-on Cycles Render Engine.") from error
+        raise MeshError("Baking needs Cycles: enable it in Preferences > Add-ons (Cycles Render Engine).") from error
     scene.cycles.device, scene.cycles.samples = "CPU", _SAMPLES
     layer = scene.view_layers[0]
     layer.objects.active = obj

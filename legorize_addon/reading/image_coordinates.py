@@ -58,8 +58,8 @@ def _beside_unknown(paint: Paint, uvs: Floats, known: np.ndarray, album: Album) 
     """Give the average colour to faces whose image coordinates are no numbers."""
     count, name = np.count_nonzero(~known), paint.placed.image.name
     album.remark(
-        f"{count} {'triangle has' if count == 1 else 'triangles have'} image coordinates on {name!r} that are "
-        "infinite or no numbers: the average colour of the image was taken; unwrap the mesh again."
+        f"{count} {'triangle has' if count == 1 else 'triangles have'} image coordinates on {name!r} that are not "
+        "finite numbers: the average colour of the image was used; unwrap the mesh again."
     )
     found, rows = np.full_like(uvs, 0.5), np.full(len(uvs), _average(paint, album), dtype=np.int32)
     if known.any():
@@ -78,6 +78,6 @@ def _in_tiles(paint: Paint, uvs: Floats, album: Album) -> tuple[Floats, Ints]:
         if faces.any():
             rows[faces] = _row(paint, album, tile.number)
     if (rows < 0).any():
-        album.remark(f"Some faces lie outside the tiles of the image {image.name!r}: its first tile was taken.")
+        album.remark(f"Some faces lie outside the tiles of the image {image.name!r}: its first tile was used.")
         rows[rows < 0] = _row(paint, album, image.tiles[0].number)
     return uvs - place[:, None], rows

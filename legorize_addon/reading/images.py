@@ -135,7 +135,7 @@ class Album:
         step = step_of(image)
         if step > 1:
             self.remark(
-                f"The image {image.name!r} is larger than {LARGEST_SIDE} texels: it was taken at 1/{step} of its size."
+                f"The image {image.name!r} is larger than {LARGEST_SIDE} texels: it was used at 1/{step} of its size."
             )
         if tile == 0:
             return read_pixels(image)
@@ -172,12 +172,12 @@ def remark_on_missing(image: bpy.types.Image | None, material: str) -> str:
     """
     if image is None:
         return (
-            f"The material {material!r} has an image texture without an image: its plain colour was taken; choose an "
+            f"The material {material!r} has an image texture without an image: its plain colour was used; choose an "
             "image for it."
         )
     return (
-        f"The material {material!r} needs the image file {image.filepath or image.name!r}, which is missing or cannot "
-        "be read: its plain colour was taken; put the file there, or choose another image."
+        f"The material {material!r} needs the image file {image.filepath or image.name!r}, which is missing or "
+        "cannot be read: its plain colour was used; put the file there, or choose another image."
     )
 
 

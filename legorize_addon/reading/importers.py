@@ -141,7 +141,7 @@ def _chosen(objects: list[bpy.types.Object], names: Sequence[str]) -> list[bpy.t
     if missing:
         there = ", ".join(sorted(repr(obj.name) for obj in objects)[:_NAMED]) or "none"
         more = f" and {len(objects) - _NAMED} more" if len(objects) > _NAMED else ""
-        raise MeshError(f"There is no object {missing[0]!r} that renders show: choose of {there}{more}.")
+        raise MeshError(f"There is no object {missing[0]!r} that renders show: choose one of {there}{more}.")
     return [obj for obj in objects if not names or any(own.name in names for own in _standing_for(obj))]
 
 

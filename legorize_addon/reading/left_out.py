@@ -26,8 +26,8 @@ class Why(Enum):
     """Why an object is left out: what it has, and what to do where nothing else is left."""
 
     FLAT = "a scale of zero", "choose another scale"
-    NOWHERE = "a place, rotation or scale that is no number or infinite", "clear the transform"
-    NO_NUMBERS = "vertices whose coordinates are no numbers or infinite", "remove those vertices"
+    NOWHERE = "a location, rotation or scale that is not finite", "clear the transform"
+    NO_NUMBERS = "vertices whose coordinates are not finite numbers", "remove those vertices"
     NO_FACES = "no faces", "choose an object with a surface"
 
 

@@ -40,7 +40,7 @@ def _ignored(source: Path, said: bytes) -> Iterator[str]:
     count = said.count(_IGNORED)
     if count:
         faces = "1 face that names" if count == 1 else f"{count} faces that name"
-        yield f"Left out of {source.name}: {faces} a vertex, normal or image coordinate that is not there."
+        yield f"Left out of {source.name}: {faces} a vertex, normal or image coordinate that does not exist."
 
 
 def _newer(source: Path) -> Iterator[str]:
@@ -49,7 +49,7 @@ def _newer(source: Path) -> Iterator[str]:
     if bpy.data.filepath and version > bpy.app.version[:2]:
         yield (
             f"{source.name} was saved by Blender {version[0]}.{version[1]}, which is newer than this one: what only "
-            "that one knows is missing."
+            "the newer version knows is missing."
         )
 
 
@@ -62,12 +62,15 @@ def _unlinked(source: Path) -> Iterator[str]:
     for library, names in sorted(lost.items()):
         shown = ", ".join(sorted(names)[:_NAMES]) + (" and others" if len(names) > _NAMES else "")
         there = Path(bpy.path.abspath(library)).is_file()
-        what = f"no longer holds {shown}" if there else f"is missing, and with it {shown}"
-        yield f"The file {library} that {source.name} links to {what}: put it there, or make all local and save again."
+        what = f"no longer holds {shown}" if there else f"is missing, and {shown} with it"
+        yield (
+            f"The file {library} that {source.name} links to {what}: put it there, or make everything local and "
+            "save again."
+        )
 
 
 def _check_images(source: Path) -> None:
     for image in bpy.data.images:
         path = Path(bpy.path.abspath(image.filepath, library=image.library))
         if image.filepath and not image.packed_file and path.exists() and not path.is_file() and not path.is_dir():
-            raise MeshError(f"{source.name} names {image.filepath!r}, which is no file: name a file there.")
+            raise MeshError(f"{source.name} names {image.filepath!r}, which is not a file: choose an image file.")

@@ -134,7 +134,7 @@ def when_rendered(context: bpy.types.Context, read: Callable[[bpy.types.Depsgrap
             bpy.ops.render.render(scene=context.scene.name, layer=context.view_layer.name)
         except RuntimeError as error:
             reason = str(error).strip().removeprefix("Error: ").rstrip(".")
-            raise MeshError(f"Blender refuses to render the scene ({reason}): mend its render settings.") from error
+            raise MeshError(f"Blender refuses to render the scene ({reason}): correct its render settings.") from error
     return reading.result()
 
 

@@ -193,7 +193,7 @@ def _remark_on_hidden(paint: Paint, slot: int, material: bpy.types.Material, wea
     if len(colours) and np.ptp(colours, axis=0).any():
         wearer.album.remark(
             f"{wearer.obj.name!r} has painted colours, {attribute.name!r}, that its material {material.name!r} does "
-            "not show: link them to its base colour, or take the material away."
+            "not show: link them to its base colour, or remove the material."
         )
 
 
@@ -241,12 +241,12 @@ def _with_uv_map(paint: Paint, material: bpy.types.Material, wearer: _Wearer) ->
     if not names:
         wearer.album.remark(
             f"{name!r} has no UV map for the image of its material {material.name!r}: "
-            "the average colour of the image was taken."
+            "the average colour of the image was used."
         )
         return _moved(paint, None)
     active = next((layer.name for layer in mesh.uv_layers if layer.active_render), names[0])
     if texture.uv_map:
-        wearer.album.remark(f"{name!r} has no UV map called {texture.uv_map!r}: {active!r} was taken.")
+        wearer.album.remark(f"{name!r} has no UV map called {texture.uv_map!r}: {active!r} was used.")
     return _moved(paint, active)
 
 
@@ -266,14 +266,14 @@ def _with_attribute(paint: Paint, slot: int, material: bpy.types.Material, weare
     if attribute is None:
         wearer.album.remark(
             f"{wearer.obj.name!r} has no colour attribute {paint.attribute!r} for its material {material.name!r}: "
-            "white was taken."
+            "white was used."
         )
         return replace(paint, attribute=None)
     colours = _corner_colours(mesh, paint.attribute)[_slot_loops(slot, wearer), :3]
     if not colours.any():
         wearer.album.remark(
             f"The colour attribute {attribute.name!r} of {wearer.obj.name!r} is black all over and makes the material "
-            f"{material.name!r} black: paint it, or take it out of the material."
+            f"{material.name!r} black: paint it, or unlink it in the material."
         )
     if paint.texture is None:
         return paint

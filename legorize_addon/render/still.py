@@ -138,7 +138,7 @@ def _corners(studio: bpy.types.Scene, corners_of: Callable[[bpy.types.Collection
         matrix = np.array(state_of(build).root.matrix_world)
         found.append(corners_of(build) @ matrix[:3, :3].T + matrix[:3, 3])
     if not found:
-        raise BuildError("The scene has 0 brick models to take a picture of: legorize an object first.")
+        raise BuildError("The scene has no brick model to render: legorize an object first.")
     return np.concatenate(found)
 
 
@@ -162,9 +162,7 @@ def _set_up_render(studio: bpy.types.Scene, samples: int, resolution: tuple[int,
     try:
         studio.render.engine = "CYCLES"
     except TypeError as error:
-        raise BuildError(
-            "Blender has 0 ray tracers at hand: switch the add-on Cycles on in the preferences."
-        ) from error
+        raise BuildError("Cycles is disabled: enable it in Preferences > Add-ons.") from error
     cycles = studio.cycles
     cycles.device = "CPU"
     cycles.samples = samples

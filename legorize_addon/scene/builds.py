@@ -47,11 +47,14 @@ def damage(build: bpy.types.Collection) -> str | None:
     """Return what is wrong with a build, in a sentence with its cure; None for a whole one."""
     state = state_of(build)
     if state.version > VERSION:
-        return f"{build.name!r} is of a newer version of Legorize: update the extension, or remove the model."
+        return f"{build.name!r} was built by a newer version of Legorize: update the extension, or remove the model."
     there = set(build.all_objects)
     whole = state.root in there and state.plane in there and state.parts is not None
     if not whole or not all(map(bricks_modifier, point_objects(build))):
-        return f"{build.name!r} lacks objects that were deleted: undo that, or remove the model and build it again."
+        return (
+            f"{build.name!r} is damaged, because some of its objects were deleted: undo that, or remove the model "
+            "and build it again."
+        )
     return None
 
 
@@ -109,5 +112,5 @@ def show_sources(build: bpy.types.Collection, *, visible: bool, linked_only: boo
 def bricks_of(build: bpy.types.Collection, found: Sequence[bpy.types.Object]) -> Bricks:
     """Return the table of the bricks that some point objects of a build hold, as :func:`read_bricks` does."""
     if not found:
-        raise BuildError(f"The collection {build.name!r} has 0 bricks to show: legorize the object again.")
+        raise BuildError(f"The collection {build.name!r} has no bricks to show: legorize the object again.")
     return read_points([points.data for points in found], state_of(build).part_numbers, load_catalogue())

@@ -123,7 +123,7 @@ def show_build(
         There are no bricks, or one of a colour outside the catalogue.
     """
     if not len(bricks):
-        raise BuildError("The model has 0 bricks: make it larger or choose another object.")
+        raise BuildError("The model has no bricks: make it larger or choose another object.")
     kinds, variant = np.unique(np.stack([bricks.part, bricks.colour], axis=1), axis=0, return_inverse=True)
     pairs = [(catalogue.parts[part], catalogue.colours[catalogue.colour_row(code)]) for part, code in kinds.tolist()]
     earlier = builds_of(scene, sources) if replaces is None else replaces

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..core.statics import Stability
 
 ICONS: Final = {"stable": "CHECKMARK", "collapses": "CANCEL", "undecided": "QUESTION"}
-UNCHECKED: Final = "Not checked: legorize the object again to find out whether the model stands."
+UNCHECKED: Final = "Not checked: legorize the object again to check whether the model stands."
 
 
 def judged_rows(stability: Stability, bricks: Bricks) -> Ints:

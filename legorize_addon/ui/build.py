@@ -66,7 +66,7 @@ class Working(Reporting):
         if job.running():
             cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
         elif context.mode != "OBJECT":
-            cls.poll_message_set("Leave the edit mode first.")
+            cls.poll_message_set("Leave Edit Mode first.")
         elif not chosen_sources(context):
             cls.poll_message_set(cls.nothing_chosen)
         else:
@@ -141,8 +141,8 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
     bl_idname = "legorize.build"
     bl_label = "Legorize"
     bl_description = (
-        "Build the selected objects of bricks, in place of an earlier model of theirs; "
-        "the objects are hidden, not changed, and come back when the model is removed"
+        "Turn the selected objects into a brick model, which replaces their earlier one; the objects are hidden, "
+        "not changed, and come back when the model is removed"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -150,7 +150,7 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
 
     larger: bpy.props.BoolProperty(
         name="Larger Than the Limits",
-        description="Build also what is larger than the limits of the settings",
+        description="Also build models above the limits of the settings",
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
@@ -188,7 +188,7 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         view.show_sources = False
         if scene == context.scene:
             _select_only(context, state_of(collection).root)
-        self.report({"INFO"}, f"Built of {len(build.bricks)} bricks.")
+        self.report({"INFO"}, f"Model built: {len(build.bricks)} bricks.")
         for note in notes:
             self.report({"WARNING"}, note)
         return {"FINISHED"}
@@ -224,7 +224,7 @@ class LEGORIZE_OT_clear(OnBuild, bpy.types.Operator):
 
     bl_idname = "legorize.clear"
     bl_label = "Remove Model"
-    bl_description = "Remove the brick model and show the objects that it was made of again"
+    bl_description = "Remove the brick model and show its original objects again"
     bl_options = {"REGISTER", "UNDO"}
     mends = True
 
@@ -239,13 +239,13 @@ class LEGORIZE_OT_show_originals(bpy.types.Operator):
 
     bl_idname = "legorize.show_originals"
     bl_label = "Show Originals"
-    bl_description = "Show the objects again whose brick model was deleted, as they were before it was built"
+    bl_description = "Show the original objects of brick models that were deleted"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Tell whether there are such objects."""
-        cls.poll_message_set("No object is hidden for a model that was deleted.")
+        cls.poll_message_set("There are no hidden originals of deleted models.")
         return bool(orphans(context.scene))
 
     def execute(self, context: bpy.types.Context) -> set[str]:

@@ -22,12 +22,12 @@ class LEGORIZE_OT_build_larger(bpy.types.Operator):
 
     bl_idname = "legorize.build_larger"
     bl_label = "Build This Large Model?"
-    bl_description = "Build the chosen objects also if the model gets larger than the limits of the settings"
+    bl_description = "Build the model although it is above the limits of the settings"
     bl_options = {"INTERNAL"}
 
     reason: bpy.props.StringProperty(
         name="Reason",
-        description="Sentence on the size of the model",
+        description="The estimated size of the model",
         options={"HIDDEN", "SKIP_SAVE"},
     )
 

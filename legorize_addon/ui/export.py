@@ -52,8 +52,7 @@ class LEGORIZE_OT_export_mpd(OnBuild, bpy.types.Operator, ExportHelper):
     bl_idname = "legorize.export_mpd"
     bl_label = "Export LDraw with Supports"
     bl_description = (
-        "Write the model, its pieces and its supports as sub-models of one LDraw document, in the order in which they "
-        "are put together"
+        "Write the model, its pieces and its supports as sub-models of one LDraw document, in building order"
     )
     bl_options = {"REGISTER"}
     filename_ext = ".mpd"
@@ -79,24 +78,22 @@ class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
 
     bl_idname = "legorize.render_still"
     bl_label = "Render Picture"
-    bl_description = (
-        "Take a picture of the brick model with light and ground of its own; Blender waits until it is done"
-    )
+    bl_description = "Render the brick model with its own light and ground; Blender waits until it is done"
     bl_options = {"REGISTER"}
     filename_ext = ".png"
     filter_glob: StringProperty(default="*.png", options={"HIDDEN"})
     samples: IntProperty(
-        name="Samples", description="Light paths a pixel; more is cleaner and slower", default=24, min=1
+        name="Samples", description="Light paths per pixel; more is cleaner and slower", default=24, min=1
     )
     width: IntProperty(name="Width", description="Width of the picture in pixels", default=1280, min=16, max=16384)
     height: IntProperty(name="Height", description="Height of the picture in pixels", default=960, min=16, max=16384)
     view: EnumProperty(
         name="View",
-        description="The corner from which the model is seen, or the side on which it is cut open",
+        description="Corner from which the model is seen, or the side where it is cut open",
         items=VIEWS,
         default="front_right",
     )
-    outlines: BoolProperty(name="Outlines", description="Tell the bricks apart by dark lines", default=False)
+    outlines: BoolProperty(name="Outlines", description="Draw dark lines around the bricks", default=False)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Render and write the file."""

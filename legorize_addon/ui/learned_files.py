@@ -65,9 +65,11 @@ def own_folder() -> Path:
         # run from its sources, and not installed as an extension
         folder = bpy.utils.user_resource("CONFIG", path="legorize", create=True)
     except OSError as error:
-        raise BuildError(f"The user's folder cannot be made ({error.strerror}): check its rights.") from error
+        raise BuildError(
+            f"Blender's user folder cannot be created ({error.strerror}): check its permissions."
+        ) from error
     if not folder:
-        raise BuildError("There is no folder for the user's files: set one in the preferences of Blender.")
+        raise BuildError("Blender has no user folder: set one in the preferences.")
     return Path(folder)
 
 

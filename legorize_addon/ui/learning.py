@@ -91,8 +91,8 @@ class LEGORIZE_OT_learn(Working, bpy.types.Operator):
     bl_idname = "legorize.learn"
     bl_label = "Learn from Models"
     bl_description = (
-        "Find out in the selected brick models, or in what the selected objects would become, which exchanges of "
-        "bricks pay, and add this to what the quick layout has learned; what was learned before is kept as a file"
+        "Learn from the selected brick models or objects which exchanges of bricks save parts, and add this to the "
+        "training of the fast layout; the earlier training is kept as a file"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -123,8 +123,8 @@ class LEGORIZE_OT_forget(Reporting, bpy.types.Operator):
     """Go back to the samples that are shipped."""
 
     bl_idname = "legorize.forget"
-    bl_label = "Use What Is Shipped"
-    bl_description = "Let the quick layout use the shipped samples again; the files of what was learned stay"
+    bl_label = "Reset to Built-in Training"
+    bl_description = "Let the fast layout use its built-in training again; your training files are kept"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

@@ -65,7 +65,7 @@ class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
         """Draw what was deleted by other ways than ours, and the button that mends it."""
         lost = [entry.source.name for entry in orphans(context.scene)]
         if lost:
-            _wrapped(context, self.layout, f"Hidden, and its model was deleted: {', '.join(lost)}", "ERROR")
+            _wrapped(context, self.layout, f"Hidden, although the model was deleted: {', '.join(lost)}", "ERROR")
             self.layout.operator(LEGORIZE_OT_show_originals.bl_idname, icon="HIDE_OFF")
         build = current_build(context.scene)
         sentence = build and damage(build)

@@ -36,13 +36,13 @@ from ..view import (
 CUTS: Final = ("none", *AXES)
 CUT_ITEMS: Final = [("none", "Off", ""), *((axis, axis.upper(), "") for axis in AXES)]
 ROLE_TEXTS: Final = {
-    Role.SHELL: "the bricks that are seen from outside",
-    Role.INSIDE: "the bricks that only carry",
+    Role.SHELL: "the bricks that can be seen from outside",
+    Role.INSIDE: "the bricks inside that carry others",
     Role.PLATE: "the plates of finer layers",
     Role.OFFSET: "the bricks under overhanging faces",
-    Role.SUPPORT_OUTSIDE: "the supports to be taken away in the end",
+    Role.SUPPORT_OUTSIDE: "the supports that are removed in the end",
     Role.SUPPORT_INSIDE: "the supports that stay inside",
-    Role.SUPPORT_KEPT: "the supports outside that stay, as they alone hold a part of the model",
+    Role.SUPPORT_KEPT: "the supports outside that stay, because a part of the model would fall without them",
 }
 
 
@@ -273,32 +273,33 @@ class LegorizeView(bpy.types.PropertyGroup):
 
     settings: PointerProperty(type=LegorizeSettings)
     build: PointerProperty(
-        type=bpy.types.Collection, poll=_is_build, name="Model", description="The brick model that this panel is about"
+        type=bpy.types.Collection, poll=_is_build, name="Model", description="The brick model that these panels show"
     )
     top_layer: IntProperty(
         name="Top layer",
-        description="The highest layer of bricks that is shown, in the viewport and in renders",
+        description="Highest layer of bricks that is shown, in the viewport and in renders",
         min=1,
         get=_top_layer,
         set=_set_top_layer,
     )
     show_sources: BoolProperty(
         name="Show original",
-        description="Show the objects that the model was made of; building hides them and removing the model "
-        "brings them back",
+        description="Show the original objects, which building hides; removing the model shows them again",
         update=_update_sources,
     )
     roles: PointerProperty(type=LegorizeRoles)
     section_axis: EnumProperty(
         name="Section",
-        description="The axis that a cut through the model is upright to; bricks beyond it are hidden, not removed",
+        description="Cut the model open at right angles to this axis; bricks beyond the cut are hidden, not removed",
         items=CUT_ITEMS,
         get=_section_axis,
         set=_set_section_axis,
     )
     section_at: FloatProperty(
         name="Cut at",
-        description="Share of the model's extent at which the cut lies: bricks are hidden whose middle lies beyond",
+        description=(
+            "Position of the cut, as a share of the model's extent; bricks are hidden if their centre lies beyond it"
+        ),
         subtype="FACTOR",
         min=0.0,
         max=1.0,
@@ -307,14 +308,13 @@ class LegorizeView(bpy.types.PropertyGroup):
     )
     section_flip: BoolProperty(
         name="Other side",
-        description="Hide the bricks on this side of the cut instead of those beyond it",
+        description="Hide the bricks on the other side of the cut",
         get=_section_flip,
         set=_set_section_flip,
     )
     exploded: FloatProperty(
         name="Explode",
-        description="How far each piece is lifted off the one below it, as a share of the model's height, in the "
-        "viewport and in renders",
+        description="Distance between the pieces, as a share of the model's height, in the viewport and in renders",
         subtype="FACTOR",
         min=0.0,
         max=1.0,
@@ -323,14 +323,14 @@ class LegorizeView(bpy.types.PropertyGroup):
     )
     by_steps: BoolProperty(
         name="Building steps",
-        description="Show what is there after a number of building steps: pieces that are not joined yet stand beside "
-        "the model, and supports are there until they are taken out",
+        description="Show the model after a number of building steps, with its supports; pieces that are not joined "
+        "yet stand beside it",
         get=_by_steps,
         set=_set_by_steps,
     )
     step: IntProperty(
         name="Step",
-        description="Building steps that are done, in the viewport and in renders",
+        description="Number of building steps that are done, in the viewport and in renders",
         min=1,
         get=_step,
         set=_set_step,
@@ -338,13 +338,13 @@ class LegorizeView(bpy.types.PropertyGroup):
     heat_map: BoolProperty(
         name="Heat map",
         description="Colour each brick by the friction that it has left, in the viewport and in renders: green much, "
-        "yellow half, red none, black asked for more than it bears, magenta hangs in the air",
+        "yellow half, red none, black loaded beyond its friction, magenta hangs in the air",
         get=_heat_map,
         set=_set_heat_map,
     )
     detail: EnumProperty(
         name="Detail",
-        description="How finely the parts are drawn; low keeps very large models quick",
+        description="How finely the parts are drawn; low keeps very large models fast",
         items=[
             ("low", "Low", "Plain boxes with eight-sided studs"),
             ("high", "High", "Bevelled edges, round studs, hollow from below"),

@@ -40,8 +40,8 @@ HEAT: Final = "heat"
 """Attribute that chooses the instanced object while the map is on."""
 
 LEGEND: Final = (
-    "Friction left: green much, yellow half, red none; black: asked for more than it bears; magenta: hangs in the air; "
-    "grey: a support, which is not checked"
+    "Friction left: green much, yellow half, red none. Black: loaded beyond its friction. Magenta: hangs in the "
+    "air. Grey: a support, not checked"
 )
 
 HANGING: Final = (214, 20, 190)
@@ -96,7 +96,7 @@ def show_heat_map(build: bpy.types.Collection, *, visible: bool) -> None:
     """
     check_whole(build)
     if not has_margins(build):
-        raise BuildError(f"{build.name!r} has 0 bricks that were checked: legorize the object again.")
+        raise BuildError(f"The stability of {build.name!r} was not checked: legorize the object again.")
     if visible == heat_map_shown(build):
         return
     own_parts(state_of(build), point_objects(build))

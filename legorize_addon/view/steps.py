@@ -102,7 +102,9 @@ def check_steps(build: bpy.types.Collection) -> None:
     """
     check_whole(build)
     if not n_steps(build):
-        raise BuildError(f"{build.name!r} has 0 building steps: legorize the object again.")
+        raise BuildError(
+            f"{build.name!r} was built by an older version and has no building steps: legorize the object again."
+        )
 
 
 def bricks_there(build: bpy.types.Collection, found: Sequence[bpy.types.Object]) -> Mask:

@@ -241,5 +241,5 @@ def _in_renders(build: bpy.types.Collection) -> tuple[Bricks, Mask, list[bpy.typ
     bricks = bricks_of(build, found)
     shown = ~beyond(state_of(build).plane, middles(bricks, load_catalogue())) & bricks_there(build, found)
     if not shown.any():
-        raise BuildError(f"The cut leaves 0 bricks of {build.name!r} to show: move the section.")
+        raise BuildError(f"The section hides all bricks of {build.name!r}: move it.")
     return bricks, shown, found

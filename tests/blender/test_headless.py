@@ -267,7 +267,7 @@ def test_frame_and_objects_are_flags(script: ModuleType, tmp_path: Path, capsys:
         assert script.main([str(source), "--out", str(tmp_path / name), "--scale", "0.32", *flags]) in (0, 2)
         facts = report(tmp_path / name)
         told = [line for line in capsys.readouterr().out.splitlines() if not re.match(r" *\d+% [a-z]", line)]
-        assert told[:-1] == facts["notes"]
+        assert told[:-3] == facts["notes"]
         found[name] = tuple(facts["grid"].values()), [note for note in facts["notes"] if "--frame" in note]
     remark = "The animation in box.glb was left out: --frame takes the pose of a frame."
     width = {name: grid[0] for name, (grid, _) in found.items()}
@@ -485,24 +485,24 @@ def test_every_setting_is_a_flag(script: ModuleType) -> None:
         (["--width", "3", "--height", "4"], "not allowed with"),
         (["--widht", "3"], "--widht"),
         (["--palette", "99999"], "99999"),
-        (["--frame", "1.5"], "'1.5' is no whole number from -1048574 to 1048574"),
-        (["--frame", "2000000"], "'2000000' is no whole number from -1048574 to 1048574"),
-        (["--object", "nose"], "There is no object 'nose' that renders show: choose of 'Cube'."),
-        (["--section", "x=0.5"], "--section is only to be seen in the picture: add --render"),
-        (["--view", "below"], "--view is only to be seen in the picture: add --render"),
+        (["--frame", "1.5"], "'1.5' is not a whole number from -1048574 to 1048574"),
+        (["--frame", "2000000"], "'2000000' is not a whole number from -1048574 to 1048574"),
+        (["--object", "nose"], "There is no object 'nose' that renders show: choose one of 'Cube'."),
+        (["--section", "x=0.5"], "--section only changes the picture: add --render"),
+        (["--view", "below"], "--view only changes the picture: add --render"),
         (["--view", "above", "--render"], "--view: invalid choice: 'above'"),
-        (["--outlines"], "--outlines is only to be seen in the picture: add --render"),
-        (["--heat-map"], "--heat-map is only to be seen in the picture: add --render"),
-        (["--show-supports"], "--show-supports is only to be seen in the picture: add --render"),
-        (["--explode", "0.5"], "--explode is only to be seen in the picture: add --render"),
-        (["--explode", "1.5", "--render"], "'1.5' is no number from 0 to 1"),
-        (["--explode", "nan", "--render"], "'nan' is no number from 0 to 1"),
-        (["--actual-size"], "--actual-size is only to be seen in layer maps"),
-        (["--contact-sheet", "0"], "'0' is no whole number from 1 to 400"),
-        (["--contact-sheet", "2.5"], "'2.5' is no whole number from 1 to 400"),
-        (["--section", "w=0.5", "--render"], "'w=0.5' is no section"),
-        (["--section", "x", "--render"], "'x' is no section"),
-        (["--section", "x=half", "--render"], "'x=half' is no section"),
+        (["--outlines"], "--outlines only changes the picture: add --render"),
+        (["--heat-map"], "--heat-map only changes the picture: add --render"),
+        (["--show-supports"], "--show-supports only changes the picture: add --render"),
+        (["--explode", "0.5"], "--explode only changes the picture: add --render"),
+        (["--explode", "1.5", "--render"], "'1.5' is not a number from 0 to 1"),
+        (["--explode", "nan", "--render"], "'nan' is not a number from 0 to 1"),
+        (["--actual-size"], "--actual-size only changes layer maps"),
+        (["--contact-sheet", "0"], "'0' is not a whole number from 1 to 400"),
+        (["--contact-sheet", "2.5"], "'2.5' is not a whole number from 1 to 400"),
+        (["--section", "w=0.5", "--render"], "'w=0.5' is not a section"),
+        (["--section", "x", "--render"], "'x' is not a section"),
+        (["--section", "x=half", "--render"], "'x=half' is not a section"),
         (["--section", "z=1.5", "--render"], "from 0 to 1"),
         (["--section", "y=nan", "--render"], "from 0 to 1"),
     ],
@@ -585,13 +585,13 @@ def missing_image(path: Path) -> Path:
     ("make", "words"),
     [
         (no_file, "There is no file"),
-        (unknown_kind, "no known kind"),
+        (unknown_kind, "not a kind of file"),
         (broken, "is incomplete or damaged"),
         (empty_blend, "nothing to build from"),
         (no_faces, "no faces"),
-        (no_numbers, "no numbers"),
+        (no_numbers, "not finite numbers"),
         (zero_scale, "scale of zero"),
-        (no_rotation, "a place, rotation or scale that is no number"),
+        (no_rotation, "a location, rotation or scale that is not finite"),
         (one_triangle, "triangle"),
     ],
 )
@@ -722,7 +722,7 @@ def test_old_pictures_do_not_stay_beside_a_new_model(
         capsys.readouterr()
         assert script.main([str(source), "--out", str(tmp_path / "link"), "--width", "5"]) == 0
         assert set(contents(out)) == FILES | ({"build.blend"} if change else set())
-        told = "build.blend was changed after an earlier run wrote it: it stays."
+        told = "build.blend was kept, because it was changed after an earlier run had written it."
         assert (told in capsys.readouterr().err) == change
     assert (tmp_path / "link").is_symlink()
 
@@ -751,6 +751,13 @@ def test_parser_complains_by_exception(script: ModuleType) -> None:
         script.parser().parse_args(["in.obj"])
 
 
+def top_level(folder: Path) -> list[str]:
+    """Return the names in a folder, those of folders with the number of their files."""
+    return sorted(
+        f"{path.name}/ ({len(list(path.iterdir()))})" if path.is_dir() else path.name for path in folder.iterdir()
+    )
+
+
 @pytest.mark.parametrize("before", [[], ["blender", "-b", "-P", "legorize.py", "--"]])
 def test_whole_process(before: list[str], tmp_path: Path) -> None:
     """As a process of its own, called as Python does or as Blender does, it ends with the status of the run."""
@@ -760,9 +767,11 @@ def test_whole_process(before: list[str], tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert report(tmp_path / "out")["counts"]["bricks"] > 0
     # nothing of what the importer says between the stages
-    *stages, result = done.stdout.splitlines()
+    *stages, model, files, verdict = done.stdout.splitlines()
     assert all(re.match(r" *\d+% [a-z]", stage) for stage in stages)
-    assert re.fullmatch(r".*out: \d+ bricks in \d+ layers\.", result)
+    assert re.match(r"Model: \d+ bricks in \d+ layers, ", model)
+    assert files == f"Files in {tmp_path / 'out'}: {', '.join(top_level(tmp_path / 'out'))}."
+    assert verdict == "Verdict: the model is proven to stand; every check passed."
     assert done.stderr == ""
 
 
@@ -879,7 +888,7 @@ def test_end_of_the_memory_is_a_sentence_everywhere(
         with monkeypatch.context() as patch:
             patch.setattr(script, step, full)
             flags = ["--width", "4", "--save-blend"]
-            assert_refused(script, source, out, "The memory does not suffice", capsys, flags)
+            assert_refused(script, source, out, "There is not enough memory", capsys, flags)
 
 
 def test_flags_of_an_earlier_version_are_read(script, capsys) -> None:
@@ -887,7 +896,7 @@ def test_flags_of_an_earlier_version_are_read(script, capsys) -> None:
     parser = script.parser()
     options = vars(parser.parse_args(["in.obj", "--out", "out", "--hold", "0.5"]))
     assert script.settings_of({"hold": options["hold"]}) == Settings(clutch=0.5)
-    assert capsys.readouterr().err == "The setting hold is called clutch now: its value was taken.\n"
+    assert capsys.readouterr().err == "The setting hold is now called clutch: its value was used.\n"
     assert "--hold" not in parser.format_help()
     assert script.settings_of({"clutch": 0.5}) == Settings(clutch=0.5)
     assert not capsys.readouterr().err

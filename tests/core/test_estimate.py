@@ -114,7 +114,7 @@ def refusal(mesh, settings):
 def test_a_thin_pole_is_refused_with_its_height():
     """A pole forty times as high as wide would be 15 m high: the sentence says so, and which width would do."""
     sentence = refusal(POLE, Settings())
-    assert sentence.startswith("The model would be 15 m high (1,600 layers) on 48 x 48 studs, of about 4")
+    assert sentence.startswith("The model would be 15 m high (1,600 layers) on 48 x 48 studs, have about 4")
     assert sentence.endswith("choose a width of 9 or less, or raise limit_size to 1600.")
     assert ". " not in sentence
     for width in (9, 48):

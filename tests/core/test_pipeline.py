@@ -246,7 +246,7 @@ def test_end_of_the_memory_is_a_sentence():
         if stage == "layout":
             np.empty(1 << 62, dtype=np.uint8)
 
-    with pytest.raises(BuildError, match=r"^The memory does not suffice .*: choose a smaller size.*\.$") as refusal:
+    with pytest.raises(BuildError, match=r"^There is not enough memory .*: choose a smaller size.*\.$") as refusal:
         legorize(sphere(6, 10.0), SMALL, greedy)
     assert isinstance(refusal.value.__cause__, MemoryError)
 

@@ -73,9 +73,7 @@ def test_citation(old: str, new: str) -> None:
 def test_changed_files_are_refused(tree: Path) -> None:
     """What is not committed would not be in the tag."""
     (tree / "new.txt").write_text("new")
-    assert list(release.reasons("v1.2.0", tree)) == [
-        "Files are changed and not committed: commit them, or put them aside."
-    ]
+    assert list(release.reasons("v1.2.0", tree)) == ["There are uncommitted changes: commit or stash them."]
 
 
 def test_tag_is_on_this_commit(tree: Path) -> None:
@@ -84,7 +82,7 @@ def test_tag_is_on_this_commit(tree: Path) -> None:
     commit(tree)
     assert list(release.reasons("v1.2.0", tree)) == ["The tag v1.2.0 is on another commit: check that one out."]
     git(tree, "tag", "-d", "v1.2.0")
-    assert list(release.reasons("v1.2.0", tree)) == ["There is no tag v1.2.0: make it with git tag -a v1.2.0."]
+    assert list(release.reasons("v1.2.0", tree)) == ["There is no tag v1.2.0: create it with git tag -a v1.2.0."]
 
 
 def test_nothing_is_built_where_something_is_wrong(

@@ -242,8 +242,8 @@ def brick_colours(centres: Bytes, catalogue: Catalogue, *, palette: Codes, one_t
         return nearest
     if len(centres) > len(palette):
         raise SettingsError(
-            f"{len(centres)} dominant colours cannot each have one of {len(palette)} brick colours of their own: "
-            f"ask for at most {len(palette)} colours or allow a larger palette."
+            f"{len(centres)} dominant colours need as many brick colours, but there are {len(palette)}: set colours "
+            f"to at most {len(palette)}, allow a larger palette, or turn one_to_one off."
         )
     chosen: Codes = palette[linear_sum_assignment(difference)[1]]
     return chosen

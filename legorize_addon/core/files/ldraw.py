@@ -262,7 +262,7 @@ def _kind(line: int, words: list[str]) -> tuple[int, int]:
             raise ValueError(piece)
         return int(Role[role]), int(piece)
     except (KeyError, ValueError) as error:
-        raise BuildError(f"Line {line} names no role and piece that exist: remove it.") from error
+        raise BuildError(f"Line {line} names no known role and piece: remove it.") from error
 
 
 def _item(line: int, words: list[str]) -> _Item:
@@ -271,7 +271,7 @@ def _item(line: int, words: list[str]) -> _Item:
         x, y, z, *entries = (_whole(word) for word in words[2:14])
         turn = MATRICES.index(" ".join(str(entry) for entry in entries))
     except ValueError as error:
-        raise BuildError(f"Line {line} is no part standing upright on the grid ({error}): remove it.") from error
+        raise BuildError(f"Line {line} is not an upright part on the grid ({error}): remove it.") from error
     return _Item(line, " ".join(words[14:]).lower(), colour, turn, (x, y, z))
 
 
@@ -292,5 +292,5 @@ def _seat(item: _Item, catalogue: Catalogue) -> tuple[int, ...]:
     if x % STUD_LDU or y % STUD_LDU or minus_z % PLATE_LDU:
         raise BuildError(f"Line {item.line}: part {part.number} lies between the cells of the grid: move it.")
     if not 0 <= item.colour < 2**15 or item.colour == MAIN_COLOUR:
-        raise BuildError(f"Line {item.line}: colour {item.colour} is no brick colour: choose another one.")
+        raise BuildError(f"Line {item.line}: colour {item.colour} is not a brick colour: choose another one.")
     return row, x // STUD_LDU, y // STUD_LDU, -minus_z // PLATE_LDU, turn, item.colour, item.role, item.piece

@@ -37,7 +37,7 @@ def named(path: str, what: str, error: type[LegorizeError] = SettingsError) -> P
     if not path.strip():
         raise error(f"The {what} has no name: give it one.")
     if "\0" in path:
-        raise error(f"The name of the {what} has a character NUL in it: give it another one.")
+        raise error(f"The name of the {what} contains a NUL character: choose another one.")
     try:
         absolute = os.path.abspath(path).encode("utf-8")
     except UnicodeEncodeError as reason:

@@ -118,7 +118,7 @@ def lay(
     """
     required = with_margins(grid.cover == Fill.REQUIRED, False)
     if not required.any():
-        raise BuildError("The model has 0 cells to build: make it larger.")
+        raise BuildError("The model has no cells to build: make it larger.")
     codes = np.unique(grid.colour[grid.colour >= 0])
     work = [(each, shapes(catalogue, each.height, codes, filler)) for each in split(grid)]
     owner = np.full(required.shape, NOBODY, dtype=np.int32)
@@ -234,6 +234,6 @@ def _check_covered(sheets: Sheets, missing: Mask) -> None:
         return
     code = sheets.colour.reshape(-1)[sheets.cells[missing]][0]
     raise BuildError(
-        f"{np.count_nonzero(missing)} cells cannot be covered, the first of them in colour {code}, because no part "
-        "of one cell is made in it: leave it out of the palette."
+        f"{np.count_nonzero(missing)} cells cannot be covered, because no part of one cell is made in their colour: "
+        f"leave colour {code} out of the palette."
     )

@@ -59,7 +59,7 @@ def scale_of_extent(extent: Floats, *, size_by: str, width: int, height: int, sc
     else:
         wanted, along, word = height * BRICK, extent[2], "height"
     if along <= 1e-9 * extent.max():
-        raise SettingsError(f"The mesh has a {word} of {along:g} mm: set the size by another measure than {word}.")
+        raise SettingsError(f"The mesh has a {word} of {along:g} mm: set the size by something else than {word}.")
     return float(wanted / along)
 
 
@@ -86,7 +86,7 @@ def check_any(grid: UnitGrid, mesh: TriangleMesh, *, keep_thin: bool) -> None:
     small = (size < (STUD, STUD, BRICK)).all()
     if not (small or keep_thin):
         raise SettingsError(
-            f"{model}, but nowhere fills half of a cell of {STUD:g} x {STUD:g} mm: turn keep_thin on, or choose a "
+            f"{model}, but it never fills half of a cell of {STUD:g} x {STUD:g} mm: turn keep_thin on, or choose a "
             "larger size."
         )
     raise SettingsError(

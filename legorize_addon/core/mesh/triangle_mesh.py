@@ -123,7 +123,7 @@ class Repairs:
             (self.duplicate, f"Removed {_number(self.duplicate, 'triangle')} on top of others."),
             (self.filled, f"Filled {_number(self.filled, 'small hole')}."),
             (self.open_edges, f"The mesh is open along {_number(self.open_edges, 'edge')}: slices are closed there."),
-            (self.one_sided, f"Left {_number(self.one_sided, 'surface')} that has no inside, like a Moebius strip."),
+            (self.one_sided, f"Kept {_number(self.one_sided, 'surface')} without an inside, like a Moebius strip."),
         )
         return tuple(sentence for count, sentence in told if count)
 
@@ -249,7 +249,7 @@ def _referenced(mesh: TriangleMesh) -> tuple[Floats, Ints]:
         raise MeshError(f"The mesh has {_number(n_vertices, 'vertex')} and no faces: choose an object with a surface.")
     if n_faces < FEWEST_TRIANGLES:
         raise MeshError(
-            f"The mesh has only {_number(n_faces, 'triangle')}: a picture has {FEWEST_TRIANGLES}, a body more."
+            f"The mesh has only {_number(n_faces, 'triangle')}: choose an object with at least {FEWEST_TRIANGLES}."
         )
     worst = int(mesh.faces.min()) if mesh.faces.min() < 0 else int(mesh.faces.max())
     if not 0 <= worst < n_vertices:
@@ -259,7 +259,7 @@ def _referenced(mesh: TriangleMesh) -> tuple[Floats, Ints]:
     vertices = mesh.vertices[used]
     bad = int((~np.isfinite(vertices)).any(axis=1).sum())
     if bad:
-        raise MeshError(f"The coordinates of {_number(bad, 'vertex')} are not finite numbers: delete what hangs there.")
+        raise MeshError(f"The coordinates of {_number(bad, 'vertex')} are not finite numbers: delete these vertices.")
     bad = int((~np.isfinite(mesh.uvs)).sum())
     if bad:
         raise MeshError(f"{_number(bad, 'image coordinate')} of the UV map not finite: unwrap the mesh again.")
@@ -288,7 +288,9 @@ def _sound(points: Floats, faces: NDArray[np.int32], mesh: TriangleMesh) -> tupl
     n_duplicate = 0
     while True:
         if len(rows) < FEWEST_TRIANGLES:
-            raise MeshError(f"Only {len(rows)} of {len(faces)} triangles have an area of their own: no body is left.")
+            raise MeshError(
+                f"Only {len(rows)} of {len(faces)} triangles have an area: choose an object with a surface."
+            )
         kept = faces[rows]
         edges = edges_of(kept)
         area, longest = areas_and_longest_sides(points[kept])

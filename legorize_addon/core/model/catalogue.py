@@ -273,7 +273,7 @@ def _read(path: Path, convert: Callable[[dict[str, str]], _Row]) -> tuple[_Row, 
 def _part(cells: dict[str, str]) -> Part:
     length, width = int(cells["length"]), int(cells["width"])
     if not length >= width > 0:
-        raise ValueError(f"{length} x {width} is not a longer side times a shorter one")
+        raise ValueError(f"{length} x {width} does not name the longer side first")
     return Part(
         number=cells["number"],
         title=cells["title"],

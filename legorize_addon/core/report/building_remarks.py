@@ -51,9 +51,9 @@ def remarks_on_split(supports: AssemblyPlan, *, most: int) -> tuple[str, ...]:
     if most == 1 or len(supports.pieces) > 1:
         return ()
     hanging = any(len(piece.need.bricks) for piece in supports.pieces)
-    cuts = f"no cut between parts that hold together would save {SAVING:.0%} of its supports"
+    cuts = f"no cut would save {SAVING:.0%} of its supports"
     saving = cuts if hanging else "it needs no supports that a cut could save"
-    return (f"The model stays in one piece, though split allows {most}: {saving}.",)
+    return (f"The model stays in one piece, although split allows {most}: {saving}.",)
 
 
 def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
@@ -74,12 +74,14 @@ def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
     sentences = []
     for steps, what in (
         (proof.collapsing, "fall unless they are held"),
-        (proof.undecided, "may fall: no proof was found"),
+        (proof.undecided, "may fall (there is no proof that they stand)"),
     ):
         if len(steps):
             which = ", ".join(str(step + 1) for step in steps[:SHOWN].tolist())
             more = f" and {len(steps) - SHOWN} more" if len(steps) > SHOWN else ""
-            sentences.append(f"Bricks in place after {count_of(len(steps), 'step', 'steps')} ({which}{more}) {what}.")
+            sentences.append(
+                f"The bricks placed so far {what} after {count_of(len(steps), 'step', 'steps')} ({which}{more})."
+            )
     return tuple(sentences)
 
 
@@ -88,7 +90,7 @@ def _staying(supports: AssemblyPlan) -> Iterator[str]:
     outside = int(np.count_nonzero(supports.final.bricks.role == Role.SUPPORT_KEPT))
     inside = sum(len(piece.pillars) for piece in supports.pieces)
     for number, where in (
-        (outside, "in the model, under parts of it that would fall without them"),
+        (outside, "in the model, under parts that would fall without them"),
         (inside, "inside, under closed ceilings"),
     ):
         if number:
@@ -100,22 +102,25 @@ def _by_hand(supports: AssemblyPlan) -> Iterator[str]:
     deep = sum(len(piece.need.left) for piece in supports.pieces)
     if deep and any(piece.plan.way != "none" for piece in supports.pieces):
         yield (
-            f"{count_of(deep, 'brick hangs', 'bricks hang')} deeper than the limit while building, over parts of the "
-            "model from which no support could be taken out: press them under those above."
+            f"{count_of(deep, 'brick hangs', 'bricks hang')} deeper than the limit while building, because supports "
+            "there could not be taken out again: press them from below under the bricks above."
         )
     if supports.unsteady:
         towers = count_of(len(supports.unsteady), "tower has", "towers have")
-        yield f"{towers} to be held by hand on the way, the first in step {supports.unsteady[0].step + 1}."
+        yield f"{towers} to be held by hand while building, the first in step {supports.unsteady[0].step + 1}."
 
 
 def _faults(supports: AssemblyPlan) -> Iterator[str]:
     """Name what the check of the order found."""
     found = supports.walk
     for rows, what in (
-        (found.in_air, "without hold when placed: let supports stand under the model"),
-        (found.squeezed, "between others that are in place already: put them together with those above first"),
-        (found.covered, "under others that are in place already: put them in from the side"),
-        (found.cramped, "pressed from below where less than three bricks of room are left: put them in from the side"),
+        (found.in_air, "with nothing to hold them when placed: turn supports on"),
+        (
+            found.squeezed,
+            "with no way in between bricks that are in place already: join them first to the bricks above",
+        ),
+        (found.covered, "under bricks that are in place already: put them in from the side"),
+        (found.cramped, "pressed from below with less than three bricks of room: put them in from the side"),
         (found.stuck, "of supports that cannot be pulled out: take them apart by hand"),
     ):
         if len(rows):
@@ -125,5 +130,8 @@ def _faults(supports: AssemblyPlan) -> Iterator[str]:
                 f"{brick_name(supports.assembly, first)} in layer {layer_of(supports.bricks, first)}."
             )
     if loose := len(found.loose_pieces):
-        pieces = count_of(loose, "piece that finds", "pieces that find")
-        yield f"The building order has {pieces} no hold or no way when joined: build the model in fewer pieces."
+        pieces = count_of(loose, "piece that has", "pieces that have")
+        yield (
+            f"The building order has {pieces} nothing to hold or no way in when joined: build the model in fewer "
+            "pieces."
+        )

@@ -9,15 +9,15 @@ def failed_checks(facts: dict[str, Any]) -> list[str]:
     """Return a line for each check that a finished model failed."""
     graph, colours = facts["connection"], facts["unavailable_part_colours"]
     counts = (
-        (graph["components"], 1, "Components that no brick joins to one model: {}."),
-        (graph["floating"], 0, "Bricks that float, held by nothing below or above: {}."),
-        (graph["collisions"], 0, "Cells that more than one brick claims: {}."),
+        (graph["components"], 1, "Components that are not joined: {}."),
+        (graph["floating"], 0, "Floating bricks, joined to nothing on the ground: {}."),
+        (graph["collisions"], 0, "Cells that more than one brick fills: {}."),
         (facts["building"]["steps"] - facts["buildable_steps"], 0, "Steps that cannot be built: {}."),
-        (colours["bricks"], 0, "Bricks in a colour in which their part was never made: {}."),
+        (colours["bricks"], 0, "Bricks in a colour in which their part is not made: {}."),
     )
     failed = [sentence.format(count) for count, allowed, sentence in counts if count > allowed]
     if not facts["building"]["ends_as_model"]:
-        failed.append("The building order does not end with the model.")
+        failed.append("The building order does not end with the finished model.")
     proof = facts["building"]["proof"]
     if proof and proof["collapsing"] + proof["undecided"]:
         failed.append(f"Steps not proven to stand: {len(proof['collapsing'] + proof['undecided'])}.")

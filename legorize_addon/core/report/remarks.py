@@ -101,7 +101,7 @@ def _apart(found: Stability, why: str) -> Iterator[str]:
     pieces = np.unique(found.component[found.statics.rows], return_counts=True)[1]
     if len(pieces) > 1:
         yield (
-            f"The model stands in {len(pieces)} pieces that no brick joins, the smallest of "
+            f"The model stands in {len(pieces)} pieces that are not joined, the smallest of "
             f"{count_of(int(pieces.min()), 'brick', 'bricks')}: {why}."
         )
 
@@ -136,9 +136,9 @@ def _undecided(assembly: Assembly, found: Stability) -> str:
     """Name the brick in doubt."""
     weakest = int(found.statics.rows[found.margin[found.statics.rows].argmin()])
     return (
-        "Whether the model stands could not be decided: there is no proof that it does, and none that it collapses; in "
-        f"doubt is first the {brick_name(assembly, weakest)} in layer {layer_of(assembly.bricks, weakest)}; try the "
-        "exact layout, or make the model thicker there."
+        "It could not be decided whether the model stands: there is no proof that it does, and none that it "
+        f"collapses; the weakest is the {brick_name(assembly, weakest)} in layer "
+        f"{layer_of(assembly.bricks, weakest)}; try the exact layout, or make the model thicker there."
     )
 
 

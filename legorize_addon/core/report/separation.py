@@ -19,9 +19,9 @@ _STEPS: Final = tuple(step for step in np.ndindex(2, 3, 3) if step > (0, 1, 1))
 """Steps, more by one along y and x, to the neighbours of a cell above it and beside it, one of each opposite pair."""
 
 _REASONS: Final = (
-    "{} nothing else: let the meshes touch if it should be one",
-    "{} others at edges or corners alone, where no stud can hold: let the meshes overlap there by a stud",
-    "{} others side by side, but no part across the seam found room in a colour that may show there: allow plates, or "
+    "{} nothing else: let the meshes touch if they should be one model",
+    "{} others only at edges or corners, where no stud can hold: let the meshes overlap there by a stud",
+    "{} others side by side, but no part of a fitting colour could be laid across the seam: allow plates, or "
     "make the model a stud thicker or of one colour where they meet",
     "{} others side by side in a layer one plate thick, with nothing below or above it that could hold them: make the "
     "model thicker there, or give a picture a backing",

@@ -185,7 +185,7 @@ def remarks_on_unseen(share: float, *, least: float) -> tuple[str, ...]:
     if share == 0:
         return ()
     if share == 1:
-        return (f"All of the surface has an alpha below {least:g}: it is built as if it were opaque.",)
+        return (f"The whole surface has an alpha below {least:g}: it is built as if it were opaque.",)
     percent = "Less than 1" if share < 0.01 else f"{100 * share:.0f}"
     return (
         f"{percent} % of the surface is not built, as its alpha is below {least:g}: the setting least_alpha changes "

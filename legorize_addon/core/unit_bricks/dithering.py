@@ -127,8 +127,8 @@ def remarks_on_dithering(mesh: TriangleMesh, kind: str) -> tuple[str, ...]:
     if kind != "diffusion" or is_flat(mesh):
         return ()
     return (
-        "The colours are dithered in a fixed pattern, as by the setting 'ordered', because diffusion needs a flat "
-        "picture or relief.",
+        "The colours are mixed in a fixed pattern (dithering 'ordered'), because 'diffusion' needs a flat picture "
+        "or relief.",
     )
 
 

@@ -105,8 +105,8 @@ def facing_of(mesh: TriangleMesh, surface: SurfaceColours) -> Facing:
     if not is_flat(mesh):
         thickness, breadth, _ = np.sort(size)
         raise SettingsError(
-            f"The model is {thickness:.0f} mm thick and {breadth:.0f} mm broad, but only pictures and reliefs at most "
-            "a quarter as thick as they are broad can be backed: set backing to 0 or make the model flatter."
+            f"The model is {thickness:.0f} mm thick and {breadth:.0f} mm broad, but backing needs a picture or "
+            "relief that is at most a quarter as thick as broad: set backing to 0 or make the model flatter."
         )
     axis = int(size.argmin())
     if axis == _UP:

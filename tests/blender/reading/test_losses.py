@@ -120,7 +120,7 @@ def test_image_that_is_a_pipe(tmp_path: Path) -> None:
     assert load(scene).remarks == ()
     (tmp_path / "paint.png").unlink()
     os.mkfifo(tmp_path / "paint.png")
-    with pytest.raises(MeshError, match=r"paint\.png', which is no file"):
+    with pytest.raises(MeshError, match=r"paint\.png', which is not a file"):
         load(scene)
 
 

@@ -390,7 +390,7 @@ def test_image_coordinates_that_are_no_numbers_are_told() -> None:
     shapes = sorted(mesh.images[row].shape for row in mesh.face_image)
     assert shapes == [(1, 1, 3), (2, 3, 3)]
     assert len(remarks) == 1
-    assert remarks[0].startswith("1 triangle has image coordinates on 'image' that are infinite")
+    assert remarks[0].startswith("1 triangle has image coordinates on 'image' that are not finite")
 
 
 def lost_image(tmp_path: Path) -> bpy.types.Image:
@@ -567,7 +567,7 @@ def test_vertices_that_are_no_numbers_are_refused() -> None:
     """A single NaN is found."""
     obj = cube()
     obj.data.vertices[3].co.x = float("nan")
-    with pytest.raises(MeshError, match="no numbers"):
+    with pytest.raises(MeshError, match="not finite numbers"):
         read(obj)
 
 
@@ -630,11 +630,11 @@ def far_vertex() -> bpy.types.Object:
     [
         (nothing_in_size, "a scale of zero"),
         (flattened, "a scale of zero"),
-        (turned_nowhere, "a place, rotation or scale that is no number or infinite"),
-        (moved_nowhere, "a place, rotation or scale that is no number or infinite"),
+        (turned_nowhere, "a location, rotation or scale that is not finite"),
+        (moved_nowhere, "a location, rotation or scale that is not finite"),
         (without_faces, "no faces"),
-        (far_vertex, "vertices whose coordinates are no numbers or infinite"),
-        (bad_vertex, "vertices whose coordinates are no numbers or infinite"),
+        (far_vertex, "vertices whose coordinates are not finite numbers"),
+        (bad_vertex, "vertices whose coordinates are not finite numbers"),
     ],
 )
 def test_what_cannot_be_built_is_left_out(make: Callable[[], bpy.types.Object], words: str) -> None:

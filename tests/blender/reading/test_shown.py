@@ -263,7 +263,7 @@ def test_no_drawing_on_the_graphics_card() -> None:
 def test_a_refusal_to_render_is_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     """Should Blender refuse to render, the reason is told."""
     monkeypatch.setattr(shown, "_QUICK", {**shown._QUICK, "resolution_percentage": 1})
-    with pytest.raises(MeshError, match=r"^Blender refuses to render the scene \(.*\): mend its render settings\.$"):
+    with pytest.raises(MeshError, match=r"^Blender refuses to render the scene \(.*\): correct its render settings\.$"):
         in_renders([cube(0)])
 
 

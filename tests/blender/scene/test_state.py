@@ -173,7 +173,9 @@ def test_newer_build_is_refused_and_can_be_removed(cube) -> None:
     bpy.ops.legorize.build()
     build = current_build(bpy.context.scene)
     build[BUILD_KEY]["version"] = VERSION + 1
-    with pytest.raises(BuildError, match="of a newer version of Legorize: update the extension, or remove the model"):
+    with pytest.raises(
+        BuildError, match="built by a newer version of Legorize: update the extension, or remove the model"
+    ):
         cut_away(build, Section("x", 0.5))
     with pytest.raises(RuntimeError, match="newer version"):
         bpy.ops.legorize.export_ldr(filepath="x.ldr")

@@ -242,7 +242,7 @@ def test_buttons_say_why_they_are_grey(box, monkeypatch) -> None:
     with pytest.raises(RuntimeError, match="Legorize an object first"):
         bpy.ops.legorize.export_ldr(filepath="x.ldr")
     bpy.ops.object.mode_set(mode="EDIT")
-    with pytest.raises(RuntimeError, match="edit mode"):
+    with pytest.raises(RuntimeError, match="Edit Mode"):
         bpy.ops.legorize.build()
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.object.select_all(action="DESELECT")
@@ -562,5 +562,5 @@ def test_end_of_the_memory_is_one_sentence(box, monkeypatch) -> None:
         raise MemoryError
 
     monkeypatch.setattr(operators, "show_result", full)
-    with pytest.raises(RuntimeError, match=r"^Error: The memory does not suffice[^\n]*\.\n?$"):
+    with pytest.raises(RuntimeError, match=r"^Error: There is not enough memory[^\n]*\.\n?$"):
         bpy.ops.legorize.build()

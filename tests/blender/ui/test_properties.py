@@ -73,7 +73,7 @@ def test_floats_come_back_as_they_were_typed(view) -> None:
 def test_settings_of_an_earlier_version_are_taken(view) -> None:
     """A value under an earlier name counts under today's name, is told once, and is gone from where it was."""
     view.settings.hold = 0.5
-    assert take_renamed(view.settings) == ("The setting hold is called clutch now: its value was taken.",)
+    assert take_renamed(view.settings) == ("The setting hold is now called clutch: its value was used.",)
     assert settings_of(view.settings).clutch == 0.5
     assert take_renamed(view.settings) == ()
     view.settings.property_unset("clutch")
@@ -199,6 +199,10 @@ class Layout:
         getattr(group, name)
         self.drawn.append(name)
 
+    def operator(self, name: str, **_: object) -> None:
+        """Note a button."""
+        self.drawn.append(name)
+
     def row(self, **_: object) -> Layout:
         """Return the same layout."""
         return self
@@ -218,6 +222,7 @@ def test_layers_panel_offers_what_the_build_knows(known: bool, pieces: int) -> N
     drawing._draw_building = lambda *arguments: panel._draw_building(drawing, *arguments)
     panel.draw(drawing, bpy.context)
     assert ("step" in drawing.layout.drawn) == ("by_steps" in drawing.layout.drawn) == known
+    assert ("legorize.booklet" in drawing.layout.drawn) == ("legorize.layer_maps" in drawing.layout.drawn) == known
     assert ("exploded" in drawing.layout.drawn) == (pieces > 1)
     assert {"top_layer", "section_axis", "shell", "detail"} <= set(drawing.layout.drawn)
 

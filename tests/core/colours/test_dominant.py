@@ -236,7 +236,7 @@ def test_no_two_dominant_colours_collapse_one_to_one():
 
 def test_too_few_brick_colours_for_one_to_one_are_refused():
     """Seven dominant colours cannot have one of three brick colours each."""
-    with pytest.raises(SettingsError, match=r"^7 dominant colours .* 3 brick colours .*\.$"):
+    with pytest.raises(SettingsError, match=r"^7 dominant colours need as many brick colours, but there are 3: .*\.$"):
         colours_of(textured(sheet(), SEVEN[None]), palette=[0, 4, 15], one_to_one=True)
 
 

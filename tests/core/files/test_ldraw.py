@@ -165,7 +165,7 @@ def test_only_upright_parts_are_read():
         if matrix[1, 1] == 1 and round(np.linalg.det(matrix)) == 1:
             upright += len(read_ldr(text, CATALOGUE))
         else:
-            with pytest.raises(BuildError, match="Line 1 is no part standing upright"):
+            with pytest.raises(BuildError, match="Line 1 is not an upright part"):
                 read_ldr(text, CATALOGUE)
     assert upright == 4
 
@@ -177,17 +177,17 @@ def test_only_upright_parts_are_read():
         ("1 4 12 -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1: part 3005 lies between the cells"),
         ("1 4 10 -23 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1: part 3005 lies between the cells"),
         ("1 4 10.4 -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "10.4 is not a whole number"),
-        ("1 4 x -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1 is no part standing upright"),
-        ("1 4 nan -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1 is no part standing upright"),
-        ("1 4 inf -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1 is no part standing upright"),
-        ("1 4 1e12 -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1 is no part standing upright"),
-        ("1 4 10", "Line 1 is no part standing upright"),
-        ("1 16 10 -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1: colour 16 is no brick colour"),
-        ("1 0x2FF0000 10 -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1: colour 50266112 is no brick colour"),
+        ("1 4 x -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1 is not an upright part"),
+        ("1 4 nan -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1 is not an upright part"),
+        ("1 4 inf -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1 is not an upright part"),
+        ("1 4 1e12 -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1 is not an upright part"),
+        ("1 4 10", "Line 1 is not an upright part"),
+        ("1 16 10 -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1: colour 16 is not a brick colour"),
+        ("1 0x2FF0000 10 -24 10 1 0 0 0 1 0 0 0 1 3005.dat", "Line 1: colour 50266112 is not a brick colour"),
         ("0 title\n2 24 0 0 0 1 0 0", "Line 2 draws geometry"),
-        ("0 !LEGORIZE ROLE ROOF PIECE 0", "Line 1 names no role"),
-        ("0 !LEGORIZE ROLE SHELL PIECE 99999", "Line 1 names no role"),
-        ("0 !LEGORIZE ROLE SHELL PIECE -1", "Line 1 names no role"),
+        ("0 !LEGORIZE ROLE ROOF PIECE 0", "Line 1 names no known role"),
+        ("0 !LEGORIZE ROLE SHELL PIECE 99999", "Line 1 names no known role"),
+        ("0 !LEGORIZE ROLE SHELL PIECE -1", "Line 1 names no known role"),
         ("0 FILE a\n1 16 0 0 0 1 0 0 0 1 0 0 0 1 a", "Line 2 puts the model a into itself"),
     ],
 )

@@ -30,7 +30,7 @@ def test_thin_walls_are_told_apart_from_a_small_model(size):
     """A model of many studs without a cell that is half full asks for thin parts to be kept, unless they are."""
     cells = np.zeros((1, 3, 2, 2), np.uint8)
     nothing = UnitGrid(np.full(cells.shape, COLOUR_EMPTY, np.int16), cells + Fill.EMPTY, cells, np.zeros(3))
-    with pytest.raises(SettingsError, match=r" mm, but nowhere fills half of a cell .*keep_thin"):
+    with pytest.raises(SettingsError, match=r" mm, but it never fills half of a cell .*keep_thin"):
         check_any(nothing, box((0, 0, 0), size), keep_thin=False)
     with pytest.raises(SettingsError, match=r" mm, too thin for one brick .*: choose a larger size\.$"):
         check_any(nothing, box((0, 0, 0), size), keep_thin=True)

@@ -260,7 +260,7 @@ def test_a_moebius_strip_is_counted_and_left():
     assert repairs.one_sided == repairs.patches == 1
     assert not repairs.watertight
     assert area(mesh) == pytest.approx(area(moebius()))
-    assert "Left 1 surface that has no inside, like a Moebius strip." in repairs.sentences()
+    assert "Kept 1 surface without an inside, like a Moebius strip." in repairs.sentences()
 
 
 def test_a_closed_surface_without_an_inside_is_not_watertight():

@@ -38,13 +38,13 @@ def test_nothing_to_tell():
 def test_post_that_stays_is_told():
     """A part that touches nothing else has one of one brick."""
     [sentence] = told(("3003", 0, 0, 0), ("3003", 0, 0, 6), posts=True)
-    assert sentence == "1 support brick stays in the model, under parts of it that would fall without them."
+    assert sentence == "1 support brick stays in the model, under parts that would fall without them."
 
 
 def test_brick_in_the_air_is_named():
     """Without supports, a brick that floats is named by colour, part and layer."""
     [sentence] = told(("3003", 0, 0, 0), ("3001", 0, 0, 6), wish="none")
-    assert "1 brick without hold" in sentence
+    assert "1 brick with nothing to hold" in sentence
     assert "Brick 2 x 4 in layer 3" in sentence
 
 
@@ -52,13 +52,13 @@ def test_piece_without_hold_is_told():
     """A piece that touches nothing when it is joined is counted."""
     bricks = replace(table(("3003", 0, 0, 0), ("3003", 6, 0, 3)), piece=np.array([0, 1], np.int16))
     [sentence] = remarks_on_building(plan_assembly(Assembly(bricks, CATALOGUE), wish="none", deepest=3))
-    assert "1 piece that finds no hold" in sentence
+    assert "1 piece that has nothing to hold" in sentence
 
 
 def test_tower_to_hold_is_told_with_its_step():
     """A beam that tips its foot over, with nothing put under it."""
     [sentence] = told(("3005", 0, 0, 0), ("3008", 0, 0, 3), wish="none")
-    assert sentence == "1 tower has to be held by hand on the way, the first in step 1."
+    assert sentence == "1 tower has to be held by hand while building, the first in step 1."
 
 
 def test_deep_hanging_is_told():
@@ -76,7 +76,7 @@ def in_one_piece(*rows):
 def test_model_that_stays_in_one_piece_says_why():
     """Whoever asks for pieces and gets one reads why: no supports, or none worth a cut."""
     [tower] = in_one_piece(("3003", 0, 0, 0), ("3003", 0, 0, 3))
-    assert tower == "The model stays in one piece, though split allows 3: it needs no supports that a cut could save."
+    assert tower == "The model stays in one piece, although split allows 3: it needs no supports that a cut could save."
     [gate] = in_one_piece(
         ("3003", 0, 0, 0),
         ("3003", 6, 0, 0),
@@ -85,7 +85,7 @@ def test_model_that_stays_in_one_piece_says_why():
         ("3005", 4, 0, 3),
         ("3007", 0, 0, 6),
     )
-    assert gate.startswith("The model stays in one piece, though split allows 3: no cut ")
+    assert gate.startswith("The model stays in one piece, although split allows 3: no cut ")
     assert gate.endswith(" would save 20% of its supports.")
 
 

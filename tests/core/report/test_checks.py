@@ -26,9 +26,9 @@ def test_good_model_fails_nothing() -> None:
     ("place", "value", "words"),
     [
         (("connection", "components"), 2, "Components .*: 2"),
-        (("connection", "floating"), 1, "float.*: 1"),
-        (("connection", "collisions"), 4, "more than one brick claims: 4"),
-        (("unavailable_part_colours", "bricks"), 5, "never made: 5"),
+        (("connection", "floating"), 1, "Floating.*: 1"),
+        (("connection", "collisions"), 4, "more than one brick fills: 4"),
+        (("unavailable_part_colours", "bricks"), 5, "not made: 5"),
         (("building", "steps"), 5, "cannot be built: 2"),
         (("building", "ends_as_model"), False, "does not end"),
         (("building", "proof"), {"collapsing": [1], "undecided": [2, 3]}, "not proven to stand: 3"),

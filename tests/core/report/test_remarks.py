@@ -56,7 +56,7 @@ def test_what_hangs_is_counted(rows: list[tuple[str, int, int, int]], start: str
 def test_pieces_that_stand_apart_are_counted() -> None:
     """Two bodies on the ground are told, with the smaller one's size."""
     [sentence] = told(table(("3001", 0, 0, 0), ("3001", 0, 0, 3), ("3003", 9, 0, 0)))
-    assert sentence.startswith("The model stands in 2 pieces that no brick joins, the smallest of 1 brick:")
+    assert sentence.startswith("The model stands in 2 pieces that are not joined, the smallest of 1 brick:")
 
 
 def test_tipping_is_told_in_mm() -> None:
@@ -112,4 +112,4 @@ def test_doubt_is_told_with_its_place() -> None:
     found = replace(judged(bricks), standing=Verdict.UNDECIDED, margin=np.array([0.5, -0.1, -1.0]))
     hanging, doubt = remarks(Assembly(bricks, CATALOGUE), found)
     assert "hangs in the air" in hanging
-    assert "in doubt is first the Yellow Brick 2 x 2 in layer 2;" in doubt
+    assert "the weakest is the Yellow Brick 2 x 2 in layer 2;" in doubt

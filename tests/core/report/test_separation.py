@@ -19,9 +19,7 @@ def sentence(*rows) -> str:
     """Return the one remark on bricks."""
     bricks = table(*rows)
     [told] = [
-        each
-        for each in remarks(Assembly(bricks, CATALOGUE), judged(bricks))
-        if "no brick joins" in each or "hang" in each
+        each for each in remarks(Assembly(bricks, CATALOGUE), judged(bricks)) if "not joined" in each or "hang" in each
     ]
     return told
 
@@ -30,9 +28,9 @@ def sentence(*rows) -> str:
     ("row", "words"),
     [
         (ALONE, "the smaller one touches nothing else: let the meshes touch"),
-        (EDGE, "the smaller one touches others at edges or corners alone"),
-        (CORNER, "the smaller one touches others at edges or corners alone"),
-        (BESIDE, "the smaller one touches others side by side, but no part across the seam found room"),
+        (EDGE, "the smaller one touches others only at edges or corners"),
+        (CORNER, "the smaller one touches others only at edges or corners"),
+        (BESIDE, "the smaller one touches others side by side, but no part of a fitting colour could be laid"),
     ],
 )
 def test_the_nearest_meeting_is_named(row, words: str):

@@ -102,7 +102,7 @@ def test_a_model_of_which_nothing_is_seen_is_built() -> None:
     mesh = replace(box((0, 0, 0), (40, 32, 30)), opacities=(np.zeros((1, 1), dtype=np.uint8),))
     hidden, opaque = (legorize(mesh, Settings(width=5, least_alpha=least)) for least in (0.5, 0.0))
     np.testing.assert_array_equal(hidden.grid.colour, opaque.grid.colour)
-    said = "All of the surface has an alpha below 0.5: it is built as if it were opaque."
+    said = "The whole surface has an alpha below 0.5: it is built as if it were opaque."
     assert [said in build.notes for build in (hidden, opaque)] == [True, False]
 
 

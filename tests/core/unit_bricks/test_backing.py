@@ -254,5 +254,5 @@ def test_relief_stands_on_a_level_back(standing):
 
 def test_not_flat():
     """Backing for what is not flat is refused in one sentence."""
-    with pytest.raises(SettingsError, match=r"can be backed: set backing to 0 or make the model flatter\.$"):
+    with pytest.raises(SettingsError, match=r"as thick as broad: set backing to 0 or make the model flatter\.$"):
         legorize(sphere(4, 40.0), Settings(width=8, backing=2))

@@ -15,5 +15,7 @@ def check_blend(source: Path) -> tuple[str, ...]:
     """Refuse what is no Blender file."""
     with source.open("rb") as file:
         if not file.read(7).startswith(_MAGIC):
-            raise MeshError(f"{source.name} is no Blender file, whatever its name says: save it again with Blender.")
+            raise MeshError(
+                f"{source.name} is not a Blender file, although its name says so: save it again with Blender."
+            )
     return ()

@@ -22,7 +22,7 @@ def check_fbx(source: Path) -> tuple[str, ...]:
     with source.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
         start = data[:4096]
         if not start.startswith(_BINARY) and not _TEXT.search(start):
-            raise MeshError(f"{source.name} is no FBX file, whatever its name says: export it again.")
+            raise MeshError(f"{source.name} is not an FBX file, although its name says so: export it again.")
         names = named_files(data)
     check_regular(source, names)
     return ()

@@ -47,9 +47,9 @@ def read_gltf(source: Path) -> tuple[Json, memoryview | None]:
         # null stands for nothing, for Blender too
         document = json.loads(bytes(text).decode(), object_hook=_without_null)
     except (ValueError, RecursionError) as error:
-        raise damaged(source, "its description is no JSON") from error
+        raise damaged(source, "its description is not JSON") from error
     if not isinstance(document, dict):
-        raise damaged(source, "its description is no JSON object")
+        raise damaged(source, "its description is not a JSON object")
     return document, binary
 
 
@@ -65,11 +65,13 @@ def _chunks(source: Path, data: memoryview) -> tuple[memoryview, memoryview | No
     except struct.error as error:
         raise damaged(source, "its header is cut off") from error
     if version != 2:
-        raise MeshError(f"{source.name} is of version {version} of .glb, and Blender reads version 2: export it again.")
+        raise MeshError(
+            f"{source.name} is a .glb file of version {version}, but Blender reads version 2: export it again."
+        )
     if length != len(data):
-        raise damaged(source, f"its header promises {length} bytes, and it has {len(data)}")
+        raise damaged(source, f"its header says {length} bytes, but it has {len(data)}")
     if kind != b"JSON" or 20 + size > len(data):
-        raise damaged(source, "its first part is no complete JSON")
+        raise damaged(source, "its first part is not complete JSON")
     return data[20 : 20 + size], _binary(source, data[20 + size :])
 
 
@@ -80,7 +82,7 @@ def _binary(source: Path, rest: memoryview) -> memoryview | None:
         raise damaged(source, "its second part is cut off")
     size, kind = struct.unpack_from("<I4s", rest)
     if size > len(rest) - 8:
-        raise damaged(source, f"its second part promises {size} bytes, and {len(rest) - 8} follow")
+        raise damaged(source, f"its second part should have {size} bytes, but {len(rest) - 8} follow")
     return rest[8 : 8 + size] if kind == b"BIN\0" else None
 
 
@@ -88,5 +90,5 @@ def _check_version(source: Path, document: Json) -> None:
     asset = document.get("asset")
     version = asset.get("version") if isinstance(asset, dict) else None
     if version != _VERSION:
-        found = f"says that it is of version {version}" if isinstance(version, str) else "does not say its version"
-        raise MeshError(f"{source.name} {found} of glTF, and Blender reads version {_VERSION}: export it again.")
+        found = f"names version {version}" if isinstance(version, str) else "does not name its version"
+        raise MeshError(f"{source.name} {found} of glTF, but Blender reads version {_VERSION}: export it again.")

@@ -56,7 +56,7 @@ def check_arrays(source: Path, document: Json, buffers: Buffers) -> None:
         _check_accessor(source, place, accessor, views)
         # of an array that is zero elsewhere each element stands beside others that are in the file
         if "bufferView" not in accessor and not packed and accessor["count"] > room:
-            raise damaged(source, f"{place} promises {accessor['count']} elements, and there are {room} bytes")
+            raise damaged(source, f"{place} should have {accessor['count']} elements, but there are {room} bytes")
     for place, primitive in _primitives(document):
         if DRACO not in primitive.get("extensions", {}):
             _check_primitive(source, place, primitive, document, buffers)
@@ -71,7 +71,7 @@ def lost_places(source: Path, document: Json, buffers: Buffers) -> tuple[str, ..
         return ()
     which = "1 vertex whose coordinates are" if lost == 1 else f"{lost} vertices whose coordinates are"
     moved = "it was" if lost == 1 else "they were"
-    return (f"{source.name} has {which} no numbers or infinite: {moved} put at the origin.",)
+    return (f"{source.name} has {which} not finite numbers: {moved} put at the origin.",)
 
 
 def _without_place(accessor: Json, views: list[Json], buffers: Buffers) -> int:
@@ -116,7 +116,7 @@ def _check_view(source: Path, place: str, view: Json, buffers: Buffers) -> None:
     if _is_compressed(view):
         return
     if buffer is None:
-        raise damaged(source, f"the data of buffers/{view['buffer']} are nowhere")
+        raise damaged(source, f"the data of buffers/{view['buffer']} are missing")
     if end > len(buffer):
         raise damaged(source, f"{place} ends at byte {end} of buffers/{view['buffer']}, which has {len(buffer)}")
 
@@ -148,10 +148,10 @@ def _check_room(
     view = views[_whole(source, place, part, "bufferView")]
     stride = _whole(source, place, view, "byteStride", size * components, least=1)
     if stride % size:
-        raise damaged(source, f"{place} has rows of {stride} bytes, which is no multiple of {size}")
+        raise damaged(source, f"{place} has rows of {stride} bytes, not a multiple of {size}")
     end = _whole(source, place, part, "byteOffset", 0) + max(count - 1, 0) * stride + size * components * (count > 0)
     if end > view["byteLength"]:
-        raise damaged(source, f"{place} needs {end} bytes, and its buffer view has {view['byteLength']}")
+        raise damaged(source, f"{place} needs {end} bytes, but its buffer view has {view['byteLength']}")
 
 
 def _primitives(document: Json) -> Iterator[tuple[str, Json]]:
@@ -170,18 +170,18 @@ def _check_primitive(source: Path, place: str, primitive: Json, document: Json, 
     vertices = accessors[attributes["POSITION"]]["count"]
     for name, number in attributes.items():
         if accessors[number]["count"] != vertices:
-            raise damaged(source, f"{place} has {vertices} vertices, and {accessors[number]['count']} values of {name}")
+            raise damaged(source, f"{place} has {vertices} vertices, but {accessors[number]['count']} values of {name}")
     corners = accessors[primitive["indices"]]["count"] if "indices" in primitive else vertices
     multiple, least = _CORNERS[primitive.get("mode", _TRIANGLES)]
     if corners % multiple or 0 < corners < least:
-        raise damaged(source, f"{place} has {corners} corners, which make no whole faces or edges")
+        raise damaged(source, f"{place} has {corners} corners, which do not make whole faces or edges")
     if "indices" in primitive:
         accessor = accessors[primitive["indices"]]
         largest = _largest_index(accessor, document.get("bufferViews", []), buffers)
         if accessor["componentType"] not in _INDEX or accessor["type"] != "SCALAR":
-            raise damaged(source, f"{place} has indices that are no whole numbers")
+            raise damaged(source, f"{place} has indices that are not whole numbers")
         if largest >= vertices:
-            raise damaged(source, f"{place} names vertex {largest}, and there are {vertices} from 0 on")
+            raise damaged(source, f"{place} names vertex {largest}, but there are {vertices}, counted from 0")
 
 
 def _largest_index(accessor: Json, views: list[Json], buffers: Buffers) -> int:

@@ -36,7 +36,7 @@ def buffers(source: Path, document: Json, binary: memoryview | None) -> list[mem
     for number, (row, data) in enumerate(zip(rows, found, strict=True)):
         length = row.get("byteLength")
         if data is not None and isinstance(length, int) and length > len(data):
-            raise damaged(source, f"buffers/{number} promises {length} bytes, and there are {len(data)}")
+            raise damaged(source, f"buffers/{number} should have {length} bytes, but there are {len(data)}")
     return found
 
 
@@ -47,7 +47,7 @@ def _is_inside(address: Any) -> bool:
 def _file_name(source: Path, address: Any) -> str:
     """Return the name of a file from its address, which has to be in the folder of the glTF file."""
     if not isinstance(address, str):
-        raise damaged(source, f"the address {address!r} is no text")
+        raise damaged(source, f"the address {address!r} is not text")
     name = posixpath.normpath(unquote(address).replace("\\", "/"))
     if _SCHEME.match(address) or name.startswith(("/", "../")) or name == ".." or "\0" in name:
         raise MeshError(

@@ -76,18 +76,21 @@ def check_structure(source: Path, document: Json) -> None:
     for table in _TABLES:
         rows = document.get(table, [])
         if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
-            raise damaged(source, f"its {table!r} are no list of objects")
+            raise damaged(source, f"its {table!r} are not a list of objects")
     for paths, kind in ((_OBJECTS, dict), (_LISTS, list)):
         for place, part in (found for path in paths for found in _values(document, path.split("/"))):
             if not isinstance(part, kind):
-                raise damaged(source, f"{place} is {part!r}, no {'list' if kind is list else 'object'}")
+                raise damaged(
+                    source,
+                    f"{place} is {part!r}, not a{'n' * (kind is not list)} {'list' if kind is list else 'object'}",
+                )
     for path, table in _NAMED.items():
         for place, number in _values(document, path.split("/")):
             if not _is_row(number, document.get(table, [])):
-                raise damaged(source, f"{place} is {number!r}, and there are {len(document.get(table, []))} {table!r}")
+                raise damaged(source, f"{place} is {number!r}, but there are {len(document.get(table, []))} {table!r}")
     for place, mode in _values(document, ["meshes", "*", "primitives", "*", "mode"]):
         if not _is_row(mode, range(_MODES)):
-            raise damaged(source, f"{place} is {mode!r}, which is no kind of primitive")
+            raise damaged(source, f"{place} is {mode!r}, which is not a kind of primitive")
     _check_tree(source, document.get("nodes", []))
 
 

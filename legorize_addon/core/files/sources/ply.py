@@ -177,7 +177,7 @@ def _numbers(source: Path, element: Element, rows: list[bytes]) -> Ints:
     try:
         return np.array(list(map(int, found)), dtype=np.int64)
     except (ValueError, OverflowError) as error:
-        raise damaged(source, f"its table {element.name!r} has an index that is no whole number") from error
+        raise damaged(source, f"its table {element.name!r} has an index that is not a whole number") from error
 
 
 # -- both --------------------------------------------------------------------------------------------------------------
@@ -194,8 +194,10 @@ def _check_indices(source: Path, element: Element, indices: NDArray[Any], vertic
     least = -1 if element.name == "tristrips" else 0
     if indices.size and not (least <= indices.min() and indices.max() < vertices):
         wrong = int(indices.max()) if indices.max() >= vertices else int(indices.min())
-        raise damaged(source, f"its table {element.name!r} names vertex {wrong}, and there are {vertices} from 0 on")
+        raise damaged(
+            source, f"its table {element.name!r} names vertex {wrong}, but there are {vertices}, counted from 0"
+        )
 
 
 def _short(source: Path, element: Element) -> MeshError:
-    return damaged(source, f"its header promises {element.count} rows of {element.name!r}, and fewer follow")
+    return damaged(source, f"its header says {element.count} rows of {element.name!r}, but fewer follow")

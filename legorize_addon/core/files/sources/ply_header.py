@@ -87,7 +87,7 @@ def read_header(source: Path, data: bytes) -> Header:
     """
     found = re.search(rb"^end_header[ \t]*\r?\n", data[:LONGEST_LINE], re.MULTILINE)
     if data[:3] != b"ply" or found is None:
-        reason = "its header has no end" if data[:3] == b"ply" else "it does not begin with ply"
+        reason = "its header has no end" if data[:3] == b"ply" else "it does not begin with the word ply"
         raise damaged(source, reason)
     lines = [line.decode(errors="replace").split() for line in data[: found.start()].splitlines()]
     order = next((_ORDERS.get(words[1]) for words in lines if words[:1] == ["format"] and len(words) > 1), None)

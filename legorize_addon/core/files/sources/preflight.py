@@ -48,7 +48,7 @@ def check_source(source: Path, extensions: Collection[str]) -> tuple[str, ...]:
         ".stl": check_stl,
     }
     if kind not in checks:
-        raise MeshError(f"{source.name} is of no known kind: use one of {', '.join(checks)}.")
+        raise MeshError(f"{source.name} is not a kind of file that can be read: use one of {', '.join(checks)}.")
     try:
         return checks[kind](source)
     except OSError as error:
@@ -59,7 +59,7 @@ def _check_file(source: Path) -> None:
     if not source.exists():
         raise MeshError(f"There is no file {source}: name one that exists.")
     if not source.is_file():
-        raise MeshError(f"{source} is no file: name a file with a model.")
+        raise MeshError(f"{source} is not a file: name a file with a model.")
     try:
         str(source.resolve()).encode()
     except UnicodeEncodeError as error:

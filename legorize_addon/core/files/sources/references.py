@@ -26,7 +26,7 @@ def check_regular(source: Path, names: Iterable[str]) -> None:
     for name in names:
         path = beside(source, name)
         if path is not None and _exists(path) and not path.is_file():
-            raise MeshError(f"{source.name} names {name!r}, which is no file: name a file there.")
+            raise MeshError(f"{source.name} names {name!r}, which is not a file: choose a file.")
 
 
 def is_missing(source: Path, name: str) -> bool:

@@ -26,8 +26,8 @@ def check_stl(source: Path) -> tuple[str, ...]:
             return ()
     if not head.lstrip().lower().startswith(b"solid") or b"\0" in head:
         whole = max(size - _HEADER, 0) // _TRIANGLE
-        promised = f"promises {count} triangles" if size >= _HEADER else "is incomplete"
-        raise damaged(source, f"its header {promised}, and {whole} whole ones follow")
+        promised = f"says {count} triangles" if size >= _HEADER else "is incomplete"
+        raise damaged(source, f"its header {promised}, but {whole} whole ones follow")
     if tail.rfind(b"facet normal") > tail.rfind(b"endfacet"):
         raise damaged(source, "it ends within a facet")
     return ()

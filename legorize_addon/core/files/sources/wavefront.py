@@ -23,7 +23,7 @@ def check_obj(source: Path) -> tuple[str, ...]:
     """Refuse what is no text or names textures that are no files; tell which materials are not there."""
     with source.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
         if b"\0" in data[:4096]:
-            raise MeshError(f"{source.name} is no text in UTF-8, which an .obj file is: export it again.")
+            raise MeshError(f"{source.name} is not text in UTF-8, as an .obj file must be: export it again.")
         libraries = list(dict.fromkeys(_names(_LIBRARY, data)))
         used = set(_names(_USED, data))
     # Blender looks into a library that has the name of the model, too
@@ -44,11 +44,11 @@ def _remarks(source: Path, lost: list[str], undefined: list[str], *, found: bool
     shown = ", ".join(undefined[:_NAMES]) + (" and others" if len(undefined) > _NAMES else "")
     if lost:
         files = ", ".join(lost)
-        yield f"The material file {files} is missing, and with it the colours of {shown}: put it beside {source.name}."
+        yield f"The material file {files} is missing, so {shown} have no colours: put it beside {source.name}."
     elif found:
-        yield f"The materials {shown} are in no material file of {source.name}: what has them is white."
+        yield f"The materials {shown} are in no material file of {source.name}: their faces are white."
     else:
-        yield f"{source.name} names no material file, so that its materials {shown} are white: add an mtllib line."
+        yield f"{source.name} names no material file, so its materials {shown} are white: add an mtllib line."
 
 
 def _text(source: Path, name: str) -> bytes:

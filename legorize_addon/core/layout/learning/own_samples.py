@@ -27,7 +27,7 @@ SHIPPED_VERSION: Final = 1
 EACH: Final = 60
 """Samples taken from each model."""
 
-_ADVICE: Final = "choose a file that learning from models wrote, or leave it empty."
+_ADVICE: Final = "choose a file that Learn from Models wrote, or leave it empty."
 _KEPT: Final = 4
 """Machines of files that are kept."""
 

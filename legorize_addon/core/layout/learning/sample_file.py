@@ -59,7 +59,7 @@ def file_text(path: Path) -> str:
         It cannot be opened or read.
     """
     if "\0" in str(path):
-        raise SampleFileError("has a character in its name that no file can have")
+        raise SampleFileError("has a character in its name that file names cannot have")
     # a pipe would wait for a writer while it is opened, so what it is comes first
     _check_kind(path.stat())
     with path.open("rb") as file:
@@ -74,14 +74,14 @@ def file_text(path: Path) -> str:
         # some programs begin such a file with a byte order mark
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise SampleFileError("is no text in UTF-8") from error
+        raise SampleFileError("is not text in UTF-8") from error
 
 
 def _check_kind(found: os.stat_result) -> None:
     if stat.S_ISDIR(found.st_mode):
         raise SampleFileError("is a folder")
     if not stat.S_ISREG(found.st_mode):
-        raise SampleFileError("is a device or a pipe and no file")
+        raise SampleFileError("is a device or a pipe, not a file")
     # what a system makes up while it is read has no size
     if found.st_size == 0:
         raise SampleFileError("is empty")
@@ -137,14 +137,14 @@ def _lines(text: str) -> Iterator[tuple[int, str]]:
 def _note(facts: dict[str, str], line: str, number: int) -> None:
     name, colon, value = line.removeprefix(_FACT).partition(":")
     if not colon or not line.startswith(_FACT):
-        raise SampleFileError(f"has the line {number}, which begins with # but is not of the kind '# name: value'")
+        raise SampleFileError(f"has a line {number} that begins with # but is not '# name: value'")
     if facts.setdefault(name, value.strip()) != value.strip():
-        raise SampleFileError(f"says twice what {_shown(name)} is, and not the same")
+        raise SampleFileError(f"gives two different values for {_shown(name)}")
 
 
 def _row(cells: Sequence[str], number: int, columns: Sequence[str], below: Sequence[int]) -> list[int]:
     if sorted(cells) == sorted(columns):
-        raise SampleFileError(f"has its columns in line {number} in another order than {','.join(columns)}")
+        raise SampleFileError(f"has its columns in line {number} in a wrong order, instead of {','.join(columns)}")
     if len(cells) != len(columns):
         held = f"{len(cells)} column{'s' * (len(cells) > 1)}"
         raise SampleFileError(f"has {held} in line {number}, where {','.join(columns)} are expected")
@@ -165,7 +165,7 @@ def parameter(facts: Mapping[str, str], name: str) -> float:
         It is missing, no number, or out of range.
     """
     if name not in facts:
-        raise SampleFileError(f"does not say what {name} is")
+        raise SampleFileError(f"has no value for {name}")
     try:
         value = float(facts[name])
     except ValueError:
@@ -211,12 +211,10 @@ def check_both_kinds(columns: NDArray[np.int16], pays: NDArray[np.bool_]) -> Non
     if len(pays) == 0:
         raise SampleFileError("has no samples")
     if pays.all() or not pays.any():
-        raise SampleFileError(
-            f"has {len(pays)} samples and all of one kind, where some that pay and some that do not are needed"
-        )
+        raise SampleFileError(f"has {len(pays)} samples of one kind, but needs some that pay and some that do not")
     _, same = np.unique(columns, axis=0, return_inverse=True)
     if not np.bincount(same.reshape(-1), np.where(pays, 1, -1)).any():
-        raise SampleFileError("has samples that contradict each other throughout: as many pay as do not of each kind")
+        raise SampleFileError("has samples that contradict each other: of each kind as many pay as do not")
 
 
 def _shown(value: str) -> str:

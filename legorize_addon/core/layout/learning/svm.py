@@ -154,7 +154,7 @@ class Machine:
             svc.fit(gauss_normalised(kind[:, :-1].astype(np.float64), mean, deviation), kind[:, -1] == 1, weight)
         if svc.fit_status_:
             raise BuildError(
-                f"Learning from the samples comes to no end with C = {c:g} and gamma = {gamma:g}: choose a file with a "
+                f"Training does not converge with C = {c:g} and gamma = {gamma:g}: choose a file with a "
                 "smaller C, or leave learned_from empty."
             )
         return cls(mean, deviation, svc)

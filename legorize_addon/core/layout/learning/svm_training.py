@@ -222,7 +222,7 @@ def folds(model: NDArray[np.int16], rng: np.random.Generator) -> Index:
     """
     numbers, row = np.unique(model, return_inverse=True)
     if len(numbers) < FOLDS:
-        raise BuildError(f"The samples are from {len(numbers)} models: train on {FOLDS} models at least.")
+        raise BuildError(f"The samples are from {len(numbers)} models: train on at least {FOLDS} models.")
     dealt: Index = rng.permutation(len(numbers))[row] % FOLDS
     return dealt
 

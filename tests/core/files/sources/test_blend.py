@@ -20,4 +20,4 @@ def test_kinds_of_blend_files(start: bytes, tmp_path: Path) -> None:
 def test_other_content(tmp_path: Path) -> None:
     """The name alone makes no Blender file."""
     (tmp_path / "scene.blend").write_bytes(b"PK\x03\x04" + bytes(100))
-    assert "is no Blender file" in refusal(tmp_path / "scene.blend")
+    assert "is not a Blender file" in refusal(tmp_path / "scene.blend")

@@ -21,7 +21,7 @@ def test_textures(content: bytes, tmp_path: Path) -> None:
     assert named_files(content) == {"paint.png"}
     assert check_source(tmp_path / "box.fbx", ()) == ()
     (tmp_path / "paint.png").mkdir()
-    assert "'paint.png', which is no file" in refusal(tmp_path / "box.fbx")
+    assert "'paint.png', which is not a file" in refusal(tmp_path / "box.fbx")
 
 
 def test_length_that_lies() -> None:
@@ -32,4 +32,4 @@ def test_length_that_lies() -> None:
 def test_other_content(tmp_path: Path) -> None:
     """The name alone makes no FBX file."""
     (tmp_path / "box.fbx").write_bytes(b"v 0 0 0\n")
-    assert "is no FBX file" in refusal(tmp_path / "box.fbx")
+    assert "is not an FBX file" in refusal(tmp_path / "box.fbx")

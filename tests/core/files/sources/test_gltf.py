@@ -25,20 +25,20 @@ def test_container(path: Path) -> None:
     whole = glb(box_document(), box_data())
     for at, value, words in (
         (4, 1, "version 1"),
-        (8, 99, "promises 99 bytes"),
-        (12, 2**32 - 1, "no complete JSON"),
-        (16, 0, "no complete JSON"),
-        (20 + struct.unpack_from("<I", whole, 12)[0], 2**31, "promises 2147483648 bytes"),
+        (8, 99, "says 99 bytes"),
+        (12, 2**32 - 1, "not complete JSON"),
+        (16, 0, "not complete JSON"),
+        (20 + struct.unpack_from("<I", whole, 12)[0], 2**31, "should have 2147483648 bytes"),
     ):
         path.write_bytes(whole[:at] + struct.pack("<I", value) + whole[at + 4 :])
         assert words in refusal(path)
     path.write_bytes(whole + b"more")
-    assert "promises" in refusal(path)
+    assert "says" in refusal(path)
 
 
 @pytest.mark.parametrize("text", [b"", b"{", b"[]", b"1", b"\xff", b"[" * 100_000, b'{"asset": 1}', b"{}"])
 def test_description(text: bytes, tmp_path: Path) -> None:
-    """What is no JSON object of glTF 2.0."""
+    """What is not a JSON object of glTF 2.0."""
     (tmp_path / "box.gltf").write_bytes(text)
     refusal(tmp_path / "box.gltf")
 

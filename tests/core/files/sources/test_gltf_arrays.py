@@ -19,21 +19,21 @@ CHANGES: list[tuple[str, Any, str]] = [
     ("accessors/0/count", 9, "needs 108 bytes"),
     ("accessors/0/count", -1, "not a whole number"),
     ("accessors/0/count", 8.5, "not a whole number"),
-    ("accessors/0/count", 7, "names vertex 7, and there are 7"),
+    ("accessors/0/count", 7, "names vertex 7, but there are 7"),
     ("accessors/0/type", "VEC9", "unknown type"),
     ("accessors/0/componentType", 5124, "unknown type"),
     ("accessors/0/byteOffset", 4, "needs 100 bytes"),
     ("accessors/0/bufferView", 2, "there are 2 'bufferViews'"),
     ("accessors/0/bufferView", -1, "there are 2 'bufferViews'"),
-    ("accessors/1/componentType", 5126, "no whole numbers"),
+    ("accessors/1/componentType", 5126, "not whole numbers"),
     ("bufferViews/0/byteLength", 4_000_000_000, "ends at byte 4000000000"),
     ("bufferViews/1/byteOffset", 97, "ends at byte 241"),
     ("bufferViews/0/byteOffset", -4, "not a whole number"),
     ("bufferViews/0/byteStride", 0, "not a whole number"),
-    ("bufferViews/0/byteStride", 13, "no multiple of 4"),
+    ("bufferViews/0/byteStride", 13, "not a multiple of 4"),
     ("bufferViews/0/byteStride", 252, "needs"),
     ("bufferViews/0/buffer", 1, "there are 1 'buffers'"),
-    ("buffers/0/byteLength", 1000, "promises 1000 bytes"),
+    ("buffers/0/byteLength", 1000, "should have 1000 bytes"),
     ("meshes/0/primitives/0/attributes/NORMAL", 1, "36 values of NORMAL"),
     ("accessors/1/count", 35, "35 corners"),
 ]
@@ -60,7 +60,7 @@ def test_vertices_without_a_place_are_told(value: float, lost: list[int], path: 
     told = check_source(write_glb(path, box_document(), corners.tobytes() + TRIANGLES.tobytes()), ())
     which = {1: "1 vertex whose", 3: "3 vertices whose"}.get(len(lost))
     moved = "it was" if len(lost) == 1 else "they were"
-    sentence = f"box.glb has {which} coordinates are no numbers or infinite: {moved} put at the origin."
+    sentence = f"box.glb has {which} coordinates are not finite numbers: {moved} put at the origin."
     assert told == ((sentence,) if lost else ())
 
 
@@ -80,7 +80,7 @@ SPARSE = {
         ({"indices": {"bufferView": 9, "componentType": 5125}}, "'bufferViews'"),
         ({"values": {"bufferView": 0, "byteOffset": 90}}, "needs 102 bytes"),
         ({"values": None}, "incomplete"),
-        ({"values": 3}, "no object"),
+        ({"values": 3}, "not an object"),
     ],
 )
 def test_sparse_array(change: Json, words: str, path: Path) -> None:
@@ -92,4 +92,4 @@ def test_sparse_array(change: Json, words: str, path: Path) -> None:
 def test_array_of_nothing(path: Path) -> None:
     """An array without data is all zeros, which are not made in millions for a small file."""
     document = changed("accessors/0", {"componentType": 5126, "count": 10**9, "type": "VEC3"})
-    assert "promises 1000000000 elements" in refusal(write_glb(path, document))
+    assert "should have 1000000000 elements" in refusal(write_glb(path, document))

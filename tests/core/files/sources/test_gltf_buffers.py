@@ -60,7 +60,7 @@ def test_addresses_out_of_the_folder(address: str, table: str, tmp_path: Path) -
 def test_addresses_of_what_is_no_file(make: Callable[[Path], None], table: str, tmp_path: Path) -> None:
     """A pipe would be waited for without end."""
     make(tmp_path / "box.bin")
-    assert "'box.bin', which is no file" in refusal(separate(tmp_path, "box.bin", table))
+    assert "'box.bin', which is not a file" in refusal(separate(tmp_path, "box.bin", table))
 
 
 def test_missing_and_short_buffer(tmp_path: Path) -> None:
@@ -68,7 +68,7 @@ def test_missing_and_short_buffer(tmp_path: Path) -> None:
     path = separate(tmp_path, "box.bin")
     assert "'box.bin', which is missing" in refusal(path)
     (tmp_path / "box.bin").write_bytes(box_data()[:-1])
-    assert "promises 240 bytes, and there are 239" in refusal(path)
+    assert "should have 240 bytes, but there are 239" in refusal(path)
 
 
 @pytest.mark.parametrize("address", ["data:;base64,AAA", "data:,AAAA", "data:;base64,AAAA"])

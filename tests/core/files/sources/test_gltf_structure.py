@@ -15,23 +15,23 @@ Json = dict[str, Any]
 
 
 CHANGES: list[tuple[str, Any, str]] = [
-    ("meshes/0/primitives/0/mode", 7, "no kind of primitive"),
+    ("meshes/0/primitives/0/mode", 7, "not a kind of primitive"),
     ("meshes/0/primitives/0/indices", 9, "there are 2 'accessors'"),
     ("meshes/0/primitives/0/material", 0, "there are 0 'materials'"),
-    ("meshes/0/primitives/0/attributes", [], "no object"),
-    ("meshes/0/primitives", 3, "no list"),
+    ("meshes/0/primitives/0/attributes", [], "not an object"),
+    ("meshes/0/primitives", 3, "not a list"),
     ("nodes/0/mesh", 1, "there are 1 'meshes'"),
     ("nodes/0/children", [7], "there are 2 'nodes'"),
     ("nodes/1/children", [0], "nodes/0 is below itself"),
     ("nodes/1/children", [1], "nodes/1 has two parents"),
     ("nodes/0/children", [1, 1], "nodes/1 has two parents"),
-    ("nodes", {}, "no list of objects"),
+    ("nodes", {}, "not a list of objects"),
     ("scene", 1, "there are 1 'scenes'"),
     ("scenes/0/nodes", ["0"], "scenes/0/nodes/0 is '0'"),
     ("skins", [{"joints": [2]}], "there are 2 'nodes'"),
     ("textures", [{"source": 0}], "there are 0 'images'"),
     ("materials", [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], "there are 0 'textures'"),
-    ("extensionsRequired", 3, "no list"),
+    ("extensionsRequired", 3, "not a list"),
 ]
 
 

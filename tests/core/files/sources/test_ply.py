@@ -45,7 +45,7 @@ def test_promised_points(form: str, count: int, path: Path) -> None:
 def test_promised_faces(form: str, count: int, path: Path) -> None:
     """A count of faces that the data do not hold."""
     path.write_bytes(ply(form, FACES).replace(b"element face 12", f"element face {count}".encode()))
-    assert f"promises {count} rows of 'face'" in refusal(path)
+    assert f"says {count} rows of 'face'" in refusal(path)
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -53,7 +53,7 @@ def test_promised_faces(form: str, count: int, path: Path) -> None:
 def test_vertex_that_is_not_there(form: str, faces: list[list[int]], path: Path) -> None:
     """A face that names a vertex beyond the table, or before it."""
     path.write_bytes(ply(form, faces))
-    assert "there are 8 from 0 on" in refusal(path)
+    assert "there are 8, counted from 0" in refusal(path)
 
 
 @pytest.mark.parametrize("form", FORMS)

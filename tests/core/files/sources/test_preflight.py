@@ -59,7 +59,7 @@ def test_no_file_folder_and_unknown_kind(tmp_path: Path) -> None:
     """Each is called what it is."""
     assert "no file" in refusal(tmp_path / "nothing.obj")
     (tmp_path / "folder.obj").mkdir()
-    assert "is no file" in refusal(tmp_path / "folder.obj")
+    assert "is not a file" in refusal(tmp_path / "folder.obj")
     (tmp_path / "mesh.txt").write_text("v 0 0 0")
     assert ".blend, .fbx, .glb, .gltf, .obj, .ply, .stl" in refusal(tmp_path / "mesh.txt")
 
@@ -68,7 +68,7 @@ def test_no_file_folder_and_unknown_kind(tmp_path: Path) -> None:
 def test_pipe(tmp_path: Path) -> None:
     """A pipe as the model would be waited for without end."""
     os.mkfifo(tmp_path / "pipe.obj")
-    assert "is no file" in refusal(tmp_path / "pipe.obj")
+    assert "is not a file" in refusal(tmp_path / "pipe.obj")
 
 
 @pytest.mark.skipif(os.name != "posix", reason="names of bytes")

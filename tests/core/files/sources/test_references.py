@@ -27,5 +27,5 @@ def test_regular(tmp_path: Path) -> None:
     (tmp_path / "folder.png").mkdir()
     (tmp_path / "paint.png").touch()
     check_regular(tmp_path / "box.obj", ["paint.png", "missing.png", "a" * 5000, "zero\0.png"])
-    with pytest.raises(MeshError, match="which is no file"):
+    with pytest.raises(MeshError, match="which is not a file"):
         check_regular(tmp_path / "box.obj", ["paint.png", "folder.png"])

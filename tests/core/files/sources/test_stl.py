@@ -12,7 +12,7 @@ def test_count(tmp_path: Path) -> None:
     """More triangles promised than there are, and fewer."""
     for count in (2**32 - 1, 13, 11, 0):
         (tmp_path / "box.stl").write_bytes(stl()[:80] + count.to_bytes(4, "little") + stl()[84:])
-        assert f"promises {count} triangles, and 12 whole ones follow" in refusal(tmp_path / "box.stl")
+        assert f"says {count} triangles, but 12 whole ones follow" in refusal(tmp_path / "box.stl")
 
 
 def test_binary_that_calls_itself_solid(tmp_path: Path) -> None:
@@ -20,7 +20,7 @@ def test_binary_that_calls_itself_solid(tmp_path: Path) -> None:
     (tmp_path / "box.stl").write_bytes(b"solid" + stl()[5:])
     assert check_source(tmp_path / "box.stl", ()) == ()
     (tmp_path / "box.stl").write_bytes(b"solid" + stl()[5:-50])
-    assert "promises 12 triangles, and 11" in refusal(tmp_path / "box.stl")
+    assert "says 12 triangles, but 11" in refusal(tmp_path / "box.stl")
 
 
 def test_text(tmp_path: Path) -> None:

@@ -70,13 +70,13 @@ def test_textures_and_materials_that_are_no_files(tmp_path: Path) -> None:
     path = write(tmp_path, "mtllib paint.mtl\n", "usemtl red", "newmtl red\n  map_Kd -s 1 1 1 paint.png\n")
     assert check_source(path, ()) == ()
     os.mkfifo(tmp_path / "paint.png")
-    assert "'paint.png', which is no file" in refusal(path)
+    assert "'paint.png', which is not a file" in refusal(path)
     (tmp_path / "paint.mtl").unlink()
     (tmp_path / "paint.mtl").mkdir()
-    assert "'paint.mtl', which is no file" in refusal(path)
+    assert "'paint.mtl', which is not a file" in refusal(path)
 
 
 def test_other_encoding(tmp_path: Path) -> None:
     """Text in UTF-16 is no .obj file that Blender reads."""
     (tmp_path / "box.obj").write_bytes(obj().decode().encode("utf-16"))
-    assert "no text in UTF-8" in refusal(tmp_path / "box.obj")
+    assert "not text in UTF-8" in refusal(tmp_path / "box.obj")

@@ -25,10 +25,10 @@ TEXTS = {
     "empty": ("", "is empty"),
     "blank": (" \n\n", "is empty"),
     "words": ("one,two\n1,x\n", "has 2 columns in line 1, where model,pays,units,hold,cuts,area are expected"),
-    "comment": ("# C\n" + GOOD, "line 1, which begins with #"),
+    "comment": ("# C\n" + GOOD, "line 1 that begins with #"),
     "no table": ("# C: 1.0\n# gamma: 8.0\n", "has no samples"),
-    "no gamma": ("# C: 1.0\n" + ROWS, "does not say what gamma is"),
-    "no C": ("# gamma: 1.0\n" + ROWS, "does not say what C is"),
+    "no gamma": ("# C: 1.0\n" + ROWS, "has no value for gamma"),
+    "no C": ("# gamma: 1.0\n" + ROWS, "has no value for C"),
     **{
         f"C {value}": (GOOD.replace("C: 1.0", f"C: {value}"), "for C, where a number from 1e-06 to 1e\\+06 is needed")
         for value in ("abc", "", "nan", "inf", "-inf", "0", "-1.0", "1e300", "1e-300", "1,0", "64.0,,,,")
@@ -37,7 +37,7 @@ TEXTS = {
         f"gamma {value}": (GOOD.replace("gamma: 8.0", f"gamma: {value}"), f"'{value}' for gamma")
         for value in ("abc", "nan", "inf", "0", "-1.0", "1e300")
     },
-    "two values": ("# C: 2.0\n" + GOOD, "says twice what 'C' is"),
+    "two values": ("# C: 2.0\n" + GOOD, "gives two different values for 'C'"),
     "version": ("# version: two\n" + GOOD, "has 'two' for version"),
     "version below": ("# version: -2\n" + GOOD, "has '-2' for version"),
     "missing column": (HEAD + "0,1,0,8,2\n0,0,3,8,2\n", "has 5 columns in line 4"),
@@ -45,7 +45,7 @@ TEXTS = {
     "half a row": (GOOD + "0,0,3", "has 3 columns in line 6"),
     "other columns": (
         GOOD.replace("units,hold", "hold,units"),
-        "has its columns in line 3 in another order than model,pays",
+        "has its columns in line 3 in a wrong order, instead of model,pays",
     ),
     "semicolons": (HEAD + ROWS.replace(",", ";"), "has 1 column in line 4"),
     "level above": (HEAD + "0,1,4,8,2,5\n" + ROWS, "has '4' for units in line 4, where a whole number from 0 to 3"),
@@ -59,8 +59,8 @@ TEXTS = {
     "word for a label": (GOOD + "0,yes,0,8,2,5\n", "has 'yes' for pays"),
     "model": (GOOD + "40000,1,0,8,2,5\n", "has '40000' for model"),
     "model below": (GOOD + "-1,1,0,8,2,5\n", "has '-1' for model"),
-    "one kind": (HEAD + "0,1,0,8,2,5\n" * 3, "has 3 samples and all of one kind"),
-    "contradictions": (HEAD + ROWS + "0,0,0,8,2,5\n0,1,3,8,2,9\n", "contradict each other throughout"),
+    "one kind": (HEAD + "0,1,0,8,2,5\n" * 3, "has 3 samples of one kind"),
+    "contradictions": (HEAD + ROWS + "0,0,0,8,2,5\n0,1,3,8,2,9\n", "contradict each other"),
     "too many": (HEAD + ROWS * (MOST_SAMPLES // 2 + 1), f"has more than {MOST_SAMPLES} samples"),
     "too large": (GOOD + "\n" * MOST_BYTES, "is larger than 2 MB"),
 }
@@ -78,7 +78,7 @@ def refusal(path: Path | str) -> str:
         learned_table(str(path))
     sentence = str(refused.value)
     assert sentence.startswith(f"learned_from is {str(path)!r}, which ")
-    assert sentence.endswith(": choose a file that learning from models wrote, or leave it empty.")
+    assert sentence.endswith(": choose a file that Learn from Models wrote, or leave it empty.")
     assert "\n" not in sentence
     assert len(sentence) < 300 + len(str(path))
     return sentence
@@ -104,7 +104,7 @@ def test_a_wrong_text_is_refused(name: str, path: Path):
 def test_what_is_no_text_is_refused(content: bytes, path: Path):
     """Pictures and other encodings are told apart from text."""
     path.write_bytes(content)
-    assert "is no text in UTF-8" in refusal(path)
+    assert "is not text in UTF-8" in refusal(path)
 
 
 def test_null_bytes_are_refused(path: Path):
@@ -175,7 +175,7 @@ def test_a_fitting_without_an_end_is_told(path: Path, monkeypatch: pytest.Monkey
     """Parameters for which the machine does not settle give a sentence after a bounded number of steps."""
     monkeypatch.setattr("legorize_addon.core.layout.learning.svm._MOST_STEPS", 2000)
     path.write_text(re.sub("(?m)^# C: .*$", "# C: 8192", samples_text("")), encoding="utf-8")
-    with pytest.raises(BuildError, match="comes to no end with C = 8192 and gamma = 8"):
+    with pytest.raises(BuildError, match="does not converge with C = 8192 and gamma = 8"):
         learned_table(str(path))
 
 
