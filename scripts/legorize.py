@@ -66,6 +66,7 @@ try:
     from legorize_addon.reading.quiet import quiet
     from legorize_addon.render.contact_sheet import render_contact_sheet
     from legorize_addon.render.still import AZIMUTH, View, render_still
+    from legorize_addon.scene.model import Source
     from legorize_addon.scene.section import AXES, Section
     from legorize_addon.view.heat_map import show_heat_map
     from legorize_addon.view.show_result import show_result
@@ -414,7 +415,7 @@ class Line:
 def show(build: Build, folder: Path, wanted: Wanted, *, name: str, sources: Sequence[bpy.types.Object]) -> None:
     """Put the bricks into the scene, and write what is wanted of it."""
     scene = bpy.context.scene
-    shown = show_result(scene, build, mm_per_unit=mm_per_unit(), name=name, sources=sources, notes=build.notes)
+    shown = show_result(scene, build, Source(name, sources, notes=build.notes), mm_per_unit=mm_per_unit())
     if wanted.render:
         with posed(shown, wanted):
             view = wanted.view or ("section" if wanted.section else "front_right")
@@ -488,7 +489,7 @@ if __name__ == "__main__":
         status = main(own_arguments())
     except Stopped:
         status = stop.status
-    except Exception:
+    except Exception:  # noqa: BLE001 - blender -b -P ends with 0 after an error
         traceback.print_exc()
         raise SystemExit(1) from None
     if stop.status:

@@ -21,8 +21,6 @@ TEXTS = [
     *(path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*"))),
     *(path for kind in ("*.md", "*.toml", "*.cff", ".git?*", ".pre-commit*") for path in sorted(ROOT.glob(kind))),
 ]
-THREADS = {"legorize_addon/ui/job.py", "legorize_addon/core/native.py"}
-"""Modules that keep what was raised in a thread, to raise it again in another."""
 BINARY = {".blend", ".glb", ".npz", ".png", ".pyc"}
 # sources of facts and standards that a text may point to; an index of packages is none
 HOSTS = {
@@ -101,13 +99,6 @@ def test_core_imports_without_blender() -> None:
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True, timeout=120)
 
 
-def test_core_never_names_blender() -> None:
-    """No module of the core imports bpy or mathutils, not even inside a function."""
-    named = {name: set(imported(tree)) for name, tree in trees(sorted(CORE.rglob("*.py")))}
-    banned = {"bpy", "bmesh", "mathutils", "gpu", "bl_math", "bpy_extras", "addon_utils"}
-    assert not {name for name, modules in named.items() if {module.split(".")[0] for module in modules} & banned}
-
-
 def test_package_imports_itself_relatively() -> None:
     """An installed extension goes by another name, so nothing in the package says its own."""
     assert not [name for name, tree in trees(PACKAGE) for module in imported(tree) if module.startswith("legorize")]
@@ -148,27 +139,12 @@ def test_every_setting_is_used() -> None:
     assert names <= {node.attr for tree in readers for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
 
 
-def test_package_has_no_forbidden_calls() -> None:
-    """No eval, exec, print or global in the package; no pickle; the search path is left alone."""
+def test_search_path_is_left_alone() -> None:
+    """An add-on shares its interpreter with others: nothing in the package touches where modules come from."""
     for name, tree in trees(PACKAGE):
-        assert not {"pickle", "shelve", "marshal"} & set(imported(tree)), name
         for node in ast.walk(tree):
-            called = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
-            assert called not in {"eval", "exec", "print", "__import__"}, f"{name}:{node.lineno}"
-            assert not isinstance(node, ast.Global), f"{name}:{node.lineno}"
             if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
                 assert (node.value.id, node.attr) not in {("sys", "path"), ("sys", "modules")}, f"{name}:{node.lineno}"
-
-
-def test_no_broad_except() -> None:
-    """Failures are caught by name; only worker threads take all, to raise them again where they are seen."""
-    for name, tree in trees(SOURCES):
-        for node in ast.walk(tree):
-            if isinstance(node, ast.ExceptHandler) and not name.startswith("tests/gui/"):
-                caught = ast.unparse(node.type) if node.type else "BaseException"
-                broad = caught in {"Exception", "BaseException"}
-                again = any(isinstance(each, ast.Raise) for each in ast.walk(node))
-                assert not broad or again or name in THREADS, f"{name}:{node.lineno}"
 
 
 def test_no_module_keeps_state() -> None:
@@ -188,16 +164,6 @@ def test_dataclasses_are_frozen() -> None:
                 if text.startswith("dataclass"):
                     assert "frozen=True" in text, f"{name}:{node.name}"
                     assert "slots=True" in text or "cached_property" in ast.unparse(node), f"{name}:{node.name}"
-
-
-def test_every_file_opens_alike() -> None:
-    """A docstring, then the future annotations, in every source file; no star imports."""
-    for name, tree in trees(SOURCES):
-        assert ast.get_docstring(tree), name
-        imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
-        assert not [node for node in imports if node.names[0].name == "*"], name
-        if len(tree.body) > 1:
-            assert any(node.module == "__future__" for node in imports), name
 
 
 def test_sizes() -> None:

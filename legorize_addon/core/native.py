@@ -93,7 +93,7 @@ class _Worker(threading.Thread, Generic[Result]):
     def run(self) -> None:
         try:
             self._results.append(self._work(self._tell))
-        except BaseException as error:  # raised again by result(), in the thread that asks for it
+        except BaseException as error:  # noqa: BLE001 - raised again by result(), in the thread that asks for it
             self._error = error
         self._words.put(None)
 

@@ -17,7 +17,7 @@ from .build import Cut
 from .colours import SurfaceColours, chosen_palette, count_texels, surface_colours
 from .estimate import AGAIN
 from .layout import FILLER, lay
-from .layout.learning import learned_table, samples_text
+from .layout.learning import NO_EXCHANGES, learned_table, samples_text
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
 from .model import Assembly, Bricks, Catalogue, UnitGrid, load_catalogue
 from .progress import Overall
@@ -27,7 +27,7 @@ from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_laye
 from .statics import Stability, stability
 from .supports import AssemblyPlan, add_pillars, plan_assembly
 from .texturing import reduce_images, remarks_on_unseen, seen_part
-from .unit_bricks import Detail, add_backing, dithering_of, facing_of, unit_bricks
+from .unit_bricks import Detail, Raster, Rules, add_backing, dithering_of, facing_of, unit_bricks
 from .units import PLATES_PER_BRICK
 
 
@@ -41,8 +41,9 @@ class Run:
     catalogue : Catalogue
     palette : (n,) int16 array
         Codes of the colours to use.
-    table : (n, n) bool array or None
-        The exchanges of bricks that were learned from the user's own samples.
+    exchanges : (4, 16, 16, 24) bool array or None
+        What the quick layout exchanges; None for what was learned from the
+        shipped samples.
     rng : numpy.random.Generator
     progress : Overall
         Of the stage at work.
@@ -53,7 +54,7 @@ class Run:
     settings: Settings
     catalogue: Catalogue
     palette: NDArray[np.int16]
-    table: Mask | None
+    exchanges: Mask | None
     rng: np.random.Generator
     progress: Overall
     timings: dict[str, float]
@@ -63,7 +64,9 @@ class Run:
         """Return a run that begins."""
         catalogue = load_catalogue()
         palette = chosen_palette(settings.palette, catalogue)
-        return cls(settings, catalogue, palette, _table(settings), np.random.default_rng(settings.seed), progress, {})
+        return cls(
+            settings, catalogue, palette, _exchanges(settings), np.random.default_rng(settings.seed), progress, {}
+        )
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
@@ -154,21 +157,16 @@ def make_unit_grid(
     settings = run.settings
     lattice = frame.plates() if _in_plates(settings) else frame
     facing = facing_of(mesh, surface) if settings.backing else None
-    grid = unit_bricks(
-        mesh,
-        trajectories,
-        surface,
-        lattice,
-        levels=levels_of(cut.slices.heights, cut.layer, cut.plate, lattice),
+    rules = Rules(
         keep_thin=settings.keep_thin,
         longest=settings.cell_colour == "longest",
-        catalogue=run.catalogue,
         closed=repairs.watertight,
         detail=_detail(cut.layer, frame, settings),
         facing=facing,
         dithering=dithering_of(settings.dithering, run.palette, mesh, surface, facing),
-        progress=run.progress,
     )
+    raster = Raster(lattice, levels_of(cut.slices.heights, cut.layer, cut.plate, lattice))
+    grid = unit_bricks(mesh, trajectories, surface, raster, rules, catalogue=run.catalogue, progress=run.progress)
     check_any(grid, mesh, keep_thin=settings.keep_thin)
     return grid if facing is None else add_backing(grid, facing, depth=settings.backing)
 
@@ -205,8 +203,7 @@ def lay_bricks(run: Run, shell: UnitGrid) -> Bricks:
         catalogue=run.catalogue,
         rng=run.rng,
         tier=run.settings.layout,
-        learned=run.settings.learned,
-        table=run.table,
+        exchanges=run.exchanges,
         filler=_filler(run.palette, run.catalogue),
         progress=run.progress,
     )
@@ -230,15 +227,14 @@ def make_plan(run: Run, assembly: Assembly) -> AssemblyPlan:
     )
 
 
-def _table(settings: Settings) -> Mask | None:
-    """Return the exchanges that were learned from the user's own samples, if they are asked for."""
-    if not settings.learned_from:
-        return None
-    if settings.layout == "fast" and settings.learned:
+def _exchanges(settings: Settings) -> Mask | None:
+    """Return what was learned from the user's own samples, if that is asked for, or nothing."""
+    if settings.learned_from and settings.layout == "fast" and settings.learned:
         return learned_table(settings.learned_from)
-    # a wrong file is told of now, not when another layout is chosen
-    samples_text(settings.learned_from)
-    return None
+    if settings.learned_from:
+        # a wrong file is told of now, not when another layout is chosen
+        samples_text(settings.learned_from)
+    return None if settings.learned else NO_EXCHANGES
 
 
 def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:

@@ -21,6 +21,7 @@ from .builds import (
 from .collections import clear_build, read_bricks, show_build, steps_of
 from .hidden_sources import orphans, show_orphans
 from .instancing import EXPLODE, HEAT_KEY, HEAT_MAP, HEAT_PARTS, STEPS, bricks_modifier, plastic, set_input
+from .model import Model, Source
 from .part_meshes import Detail, detail_of, parts_collection, parts_in_use, set_detail
 from .placing import layer_collections
 from .section import AXES, Section, beyond, hidden_side, place_plane
@@ -44,7 +45,9 @@ __all__ = [
     "STEPS",
     "TIER",
     "Detail",
+    "Model",
     "Section",
+    "Source",
     "beyond",
     "box_corners",
     "bricks_modifier",

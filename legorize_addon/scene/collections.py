@@ -19,10 +19,8 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ..core.building import Steps
 from ..core.errors import BuildError
-from ..core.model import Assembly, Bricks, Catalogue, Role
-from ..core.settings import Settings
+from ..core.model import Bricks, Catalogue, Role
 from ..core.units import PLATES_PER_BRICK, STUD
 from .assembly_columns import Columns, assembly_columns
 from .brick_points import MARGIN, NO_MARGIN, box_corners, points_mesh
@@ -44,6 +42,7 @@ from .figures import figures, n_layers
 from .hidden_sources import as_before, forget, remember
 from .instancing import add_bricks_modifier, colour_material
 from .kept_steps import read_steps
+from .model import Model, Source
 from .part_meshes import Detail, parts_collection, parts_in_use
 from .placing import Place, upright
 from .section import Section, add_plane
@@ -53,23 +52,14 @@ from .state import state_of, write_state
 from .verdict import judged_rows
 
 if TYPE_CHECKING:
-    from ..core.statics import Stability
+    pass
 
 
 def show_build(
     scene: bpy.types.Scene,
-    bricks: Bricks,
-    catalogue: Catalogue,
+    model: Model,
+    source: Source,
     *,
-    origin: Sequence[float],
-    scale: float,
-    mm_per_unit: float,
-    name: str,
-    sources: Sequence[bpy.types.Object] = (),
-    settings: Settings | None = None,
-    notes: Sequence[str] = (),
-    stability: Stability | None = None,
-    steps: Steps | None = None,
     detail: Detail = "high",
     replaces: Sequence[bpy.types.Collection] | None = None,
 ) -> bpy.types.Collection:
@@ -82,35 +72,13 @@ def show_build(
     ----------
     scene : bpy.types.Scene
         Scene that gets the collection.
-    bricks : Bricks
-        The table of bricks, supports at its end.
-    catalogue : Catalogue
-        Parts and colours.
-    origin : sequence of three float
-        Corner of the grid in model mm.
-    scale : float
-        Model mm per world mm.
-    mm_per_unit : float
-        World mm per Blender unit.
-    name : str
-        Name of the source, for the collection.
-    sources : sequence of bpy.types.Object, optional
-        Objects that the model was made of. They are hidden, not changed, and
-        shown again by :func:`clear_build`.
-    settings : Settings, optional
-        What the model was made with, kept for the file's reader.
-    notes : sequence of str, optional
-        Remarks to show beside the result.
-    stability : Stability, optional
-        Whether these bricks stand, row by row, for the panel and the heat map;
-        supports that are taken out again may be left out.
-    steps : Steps, optional
-        The order in which these bricks are built, for the panel and the steps.
+    model : Model
+    source : Source
     detail : {"low", "high"}, optional
         Detail of the part meshes.
     replaces : sequence of bpy.types.Collection, optional
-        Builds that it takes the place of; all builds of the sources if it is
-        left out.
+        Builds that it takes the place of; all builds of the source's objects if
+        it is left out.
 
     Returns
     -------
@@ -122,35 +90,36 @@ def show_build(
     BuildError
         There are no bricks, or one of a colour outside the catalogue.
     """
+    bricks, catalogue = model.assembly.bricks, model.assembly.catalogue
     if not len(bricks):
         raise BuildError("The model has no bricks: make it larger or choose another object.")
     kinds, variant = np.unique(np.stack([bricks.part, bricks.colour], axis=1), axis=0, return_inverse=True)
     pairs = [(catalogue.parts[part], catalogue.colours[catalogue.colour_row(code)]) for part, code in kinds.tolist()]
-    earlier = builds_of(scene, sources) if replaces is None else replaces
+    earlier = builds_of(scene, source.objects) if replaces is None else replaces
     place = Place.after(scene, earlier)
     for each in earlier:
         clear_build(scene, each)
-    build = bpy.data.collections.new(f"Legorize {name}")
+    build = bpy.data.collections.new(f"Legorize {source.name}")
     place.collection.children.link(build)
-    root = _add_root(build, place.moved @ upright(origin, 1.0 / (scale * mm_per_unit)), place.parent)
+    root = _add_root(build, place.moved @ upright(model.origin, 1.0 / (model.scale * model.mm_per_unit)), place.parent)
     plane = _own(build, add_plane(build.name, root))
-    parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, name)
-    _add_layers(build, bricks, variant.reshape(-1), _more(bricks, stability, steps, catalogue), catalogue, plane, parts)
-    hidden = [as_before(scene, source) for source in sources]
+    parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, source.name)
+    _add_layers(build, bricks, variant.reshape(-1), _more(model), catalogue, plane, parts)
+    hidden = [as_before(scene, each) for each in source.objects]
     write_state(
         build,
-        origin=origin,
+        origin=model.origin,
         sources=hidden,
         section=Section(),
-        scale=float(scale),
-        mm_per_unit=float(mm_per_unit),
+        scale=float(model.scale),
+        mm_per_unit=float(model.mm_per_unit),
         root=root,
         plane=plane,
         parts=parts,
-        settings={} if settings is None else asdict(settings),
-        notes=list(notes),
+        settings={} if source.settings is None else asdict(source.settings),
+        notes=list(source.notes),
         **_table_facts(bricks, catalogue),
-        **figures(Assembly(bricks, catalogue), stability, steps),
+        **figures(model.assembly, model.stability, model.steps),
     )
     remember(scene, hidden)
     show_sources(build, visible=False)
@@ -298,9 +267,10 @@ def _table_facts(bricks: Bricks, catalogue: Catalogue) -> dict[str, Any]:
     }
 
 
-def _more(bricks: Bricks, stability: Stability | None, steps: Steps | None, catalogue: Catalogue) -> Columns:
+def _more(model: Model) -> Columns:
     """Return what the points know beside the table of bricks."""
-    more = {} if steps is None else assembly_columns(Assembly(bricks, catalogue), steps)
+    bricks, stability, steps = model.assembly.bricks, model.stability, model.steps
+    more = {} if steps is None else assembly_columns(model.assembly, steps)
     if stability is not None:
         margin = np.full(len(bricks), NO_MARGIN)
         margin[judged_rows(stability, bricks)] = stability.margin

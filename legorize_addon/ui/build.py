@@ -10,7 +10,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..core.errors import BuildError, Cancelled, LegorizeError, LimitError, enough_memory
-from ..scene import builds, clear_build, damage, orphans, show_orphans, show_sources, state_of, sweep
+from ..scene import Source, builds, clear_build, damage, orphans, show_orphans, show_sources, state_of, sweep
 from ..view import show_result
 from . import job
 from .build_larger import ask
@@ -177,10 +177,8 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         collection = show_result(
             scene,
             build,
+            Source(order.name, by_uid(bpy.data.objects, order.sources), notes=notes),
             mm_per_unit=order.mm_per_unit,
-            name=order.name,
-            sources=by_uid(bpy.data.objects, order.sources),
-            notes=notes,
             detail=view.detail,
             replaces=by_uid(bpy.data.collections, order.replaces),
         )

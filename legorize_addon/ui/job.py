@@ -38,7 +38,7 @@ class Job(threading.Thread, Generic[Result]):
         """Do the work and keep what comes of it; called by :meth:`start`."""
         try:
             self._results.append(self._work(self._tell))
-        except Exception as error:  # raised again by result(), in the thread that asks for it
+        except Exception as error:  # noqa: BLE001 - raised again by result(), in the thread that asks for it
             self._error = error
 
     def cancel(self) -> None:

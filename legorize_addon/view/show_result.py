@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.model import Role, load_catalogue
-from ..scene import Detail, builds_of, show_build, state_of
+from ..core.model import Role
+from ..scene import Detail, Model, Source, builds_of, show_build, state_of
 from .kept_view import KeptView
 from .visibility import roles_shown, show_role
 
@@ -19,11 +20,9 @@ if TYPE_CHECKING:
 def show_result(
     scene: bpy.types.Scene,
     build: Build,
+    source: Source,
     *,
     mm_per_unit: float,
-    name: str,
-    sources: Sequence[bpy.types.Object],
-    notes: Sequence[str],
     detail: Detail = "high",
     replaces: Sequence[bpy.types.Collection] | None = None,
 ) -> bpy.types.Collection:
@@ -38,14 +37,10 @@ def show_result(
         Scene that gets the collection.
     build : Build
         What the core made.
+    source : Source
+        What it was made of.
     mm_per_unit : float
         World mm per Blender unit.
-    name : str
-        Name of the source, for the collection.
-    sources : sequence of bpy.types.Object
-        Objects that the model was made of.
-    notes : sequence of str
-        Remarks to show beside the result.
     detail : {"low", "high"}, optional
         Detail of the part meshes.
     replaces : sequence of bpy.types.Collection, optional
@@ -63,24 +58,11 @@ def show_result(
         There are no bricks.
     """
     supports = build.supports
-    earlier = builds_of(scene, sources) if replaces is None else replaces
+    earlier = builds_of(scene, source.objects) if replaces is None else replaces
     kept = KeptView.of(earlier)
-    shown = show_build(
-        scene,
-        supports.bricks,
-        load_catalogue(),
-        origin=build.grid.origin,
-        scale=build.scale,
-        mm_per_unit=mm_per_unit,
-        name=name,
-        sources=sources,
-        settings=build.settings,
-        notes=notes,
-        stability=build.stability,
-        steps=supports.steps,
-        detail=detail,
-        replaces=earlier,
-    )
+    place = (build.grid.origin, build.scale, mm_per_unit)
+    model = Model(supports.assembly, *place, stability=build.stability, steps=supports.steps)
+    shown = show_build(scene, model, replace(source, settings=build.settings), detail=detail, replaces=earlier)
     state_of(shown).add_building(by_hand=len(supports.unsteady))
     if Role.SUPPORT_OUTSIDE in roles_shown(shown):
         show_role(shown, Role.SUPPORT_OUTSIDE, visible=False)

@@ -14,7 +14,7 @@ import numpy as np
 
 from legorize_addon.core.build import Build
 from legorize_addon.core.files.shopping import count_parts, not_made
-from legorize_addon.core.layout.lay import lay
+from legorize_addon.core.layout.lay import lay_unjoined
 from legorize_addon.core.measures.lower_bound import lower_bound
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import SUPPORTS, Bricks
@@ -183,7 +183,7 @@ def peak_memory() -> float | None:
 def _results(build: Build, bricks: Bricks, links: ContactGraph, required: int, catalogue: Catalogue) -> Row:
     """Return what came out: of the model without the pillars that stay in it, but for whether it stands."""
     fewest = lower_bound(build.hollow, catalogue)
-    before = lay(build.hollow, catalogue, rng=np.random.default_rng(build.settings.seed), join=False)
+    before = lay_unjoined(build.hollow, catalogue, rng=np.random.default_rng(build.settings.seed))
     singles, forced = single(bricks, catalogue).mean(), fewest_singles(bricks, build.hollow, catalogue) / len(bricks)
     left_out = forced_singles(bricks, build.hollow, catalogue)
     seen, lost = colours_lost(build.grid, bricks, links)

@@ -20,7 +20,8 @@ from typing import Final
 import numpy as np
 
 from legorize_addon.core.layout.joining.ties import add_ties
-from legorize_addon.core.layout.lay import lay
+from legorize_addon.core.layout.lay import lay, lay_unjoined
+from legorize_addon.core.layout.learning.svm import NO_EXCHANGES
 from legorize_addon.core.layout.problem.problem import owners, with_margins
 from legorize_addon.core.measures.lower_bound import lower_bound
 from legorize_addon.core.model.bricks import NOBODY, Bricks
@@ -68,8 +69,10 @@ def ours(tier: str, *, learned: bool = True, join: bool = True) -> Lay:
     """Return our own way of laying, perhaps without joining what floats in the end."""
 
     def laid(grid: UnitGrid, catalogue: Catalogue, rng: np.random.Generator) -> Bricks:
-        bricks = lay(grid, catalogue, rng=rng, tier=tier, learned=learned, join=join)
-        return add_ties(bricks, grid, catalogue, plates=False)[0] if join else bricks
+        if not join:
+            return lay_unjoined(grid, catalogue, rng=rng, tier=tier)
+        bricks = lay(grid, catalogue, rng=rng, tier=tier, exchanges=None if learned else NO_EXCHANGES)
+        return add_ties(bricks, grid, catalogue, plates=False)[0]
 
     return laid
 

@@ -12,9 +12,11 @@ import numpy as np
 
 from legorize_addon.core.building.moves import Action, Moves
 from legorize_addon.core.building.steps import Kind, Steps, Submodel
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.scene.collections import show_build
+from legorize_addon.scene.model import Model, Source
 from legorize_addon.scene.section import AXES, Section
 from legorize_addon.view.steps import explode
 from legorize_addon.view.visibility import cut_away, roles_shown, show_layers, show_role, show_steps
@@ -47,10 +49,8 @@ def measure(*, bricks: int) -> list[Table]:
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene = bpy.context.scene
     model = large_model(bricks)
-    build = show_build(
-        scene, model, load_catalogue(), origin=(0.0, 0.0, 0.0), scale=1.0, mm_per_unit=1.0, name="large",
-        steps=steps_of(model),
-    )  # fmt: skip
+    large = Model(Assembly(model, load_catalogue()), (0.0, 0.0, 0.0), 1.0, 1.0, steps=steps_of(model))
+    build = show_build(scene, large, Source("large"))
     bpy.context.view_layer.update()
     tops = [1 + move * 37 % LAYERS for move in range(MOVES)]
     rows = [_row("top layer", [milliseconds(lambda top=top: show_layers(scene, build, top)) for top in tops])]

@@ -21,7 +21,7 @@ from legorize_addon.core.slicing.lattice import Grid, fit_grid
 from legorize_addon.core.slicing.levels import Levels, levels_of
 from legorize_addon.core.slicing.slices import adaptive_heights, slice_mesh
 from legorize_addon.core.slicing.trajectories import Trajectories, link_loops, linked
-from legorize_addon.core.unit_bricks.generation import half_covered, unit_bricks
+from legorize_addon.core.unit_bricks.generation import Raster, Rules, half_covered, unit_bricks
 from legorize_addon.core.unit_bricks.surface_samples import (
     SurfaceSamples,
     horizontal_samples,
@@ -92,11 +92,8 @@ class Cut:
             self.model.mesh,
             self.trajectories,
             self.model.surface,
-            self.frame,
-            levels=self.levels,
-            keep_thin=keep_thin,
-            longest=longest,
-            closed=closed,
+            Raster(self.frame, self.levels),
+            Rules(keep_thin=keep_thin, longest=longest, closed=closed),
             catalogue=load_catalogue(),
         )
         # the model's own layers begin with its lowest cells

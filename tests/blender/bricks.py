@@ -8,9 +8,11 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.scene.collections import show_build
+from legorize_addon.scene.model import Model, Source
 
 
 def table(rows: Sequence[Sequence[int]]) -> Bricks:
@@ -52,8 +54,12 @@ def assert_same(left: Bricks, right: Bricks) -> None:
 
 def show(bricks: Bricks, *sources: bpy.types.Object, **changes) -> bpy.types.Collection:
     """Show bricks in the scene, one Blender unit a mm unless said otherwise."""
-    values = {"origin": (0.0, 0.0, 0.0), "scale": 1.0, "mm_per_unit": 1.0, "name": "thing"} | changes
-    return show_build(bpy.context.scene, bricks, load_catalogue(), sources=sources, **values)
+    place = {name: changes.pop(name, 1.0) for name in ("scale", "mm_per_unit")}
+    place["origin"] = changes.pop("origin", (0.0, 0.0, 0.0))
+    known = {name: changes.pop(name, None) for name in ("stability", "steps")}
+    source = {name: changes.pop(name) for name in ("name", "settings", "notes") if name in changes}
+    model = Model(Assembly(bricks, load_catalogue()), **place, **known)
+    return show_build(bpy.context.scene, model, Source(**{"name": "thing", "objects": sources} | source), **changes)
 
 
 def instances() -> list[tuple[bpy.types.Mesh, str, NDArray[np.float64]]]:

@@ -15,7 +15,7 @@ from legorize_addon.core.slicing.lattice import Grid, fit_grid
 from legorize_addon.core.slicing.levels import Levels, levels_of
 from legorize_addon.core.slicing.slices import adaptive_heights, slice_mesh
 from legorize_addon.core.slicing.trajectories import Trajectories, link_loops
-from legorize_addon.core.unit_bricks.generation import unit_bricks
+from legorize_addon.core.unit_bricks.generation import Raster, Rules, unit_bricks
 from legorize_addon.core.unit_bricks.surface_samples import (
     SurfaceSamples,
     horizontal_samples,
@@ -162,10 +162,8 @@ class Stages:
             self.mesh,
             self.trajectories,
             self.surface,
-            self.grid,
-            levels=self.levels,
-            keep_thin=keep_thin,
-            longest=longest,
+            Raster(self.grid, self.levels),
+            Rules(keep_thin=keep_thin, longest=longest),
             catalogue=load_catalogue(),
         )
 

@@ -351,7 +351,7 @@ def tick(steps: Wait, seen: dict[str, Any]) -> float | None:
             json.dump(seen, file, indent=1)
         bpy.ops.wm.quit_blender()
         return None
-    except BaseException:
+    except BaseException:  # noqa: BLE001 - shown, and the window ends
         traceback.print_exc()
         sys.stderr.flush()
         os._exit(9)

@@ -53,6 +53,7 @@ _BATCH: Final = 5000
 
 Tier = Literal["fast", "standard", "exact"]
 Way = Callable[[Problem, np.random.Generator], Index]
+Work = Sequence[tuple[Sheets, Shapes]]
 
 _PASSES: Final[Mapping[Tier, tuple[tuple[Way, float], ...]]] = MappingProxyType(
     {
@@ -72,10 +73,8 @@ def lay(
     *,
     rng: np.random.Generator,
     tier: Tier = "standard",
-    learned: bool = True,
-    table: Mask | None = None,
+    exchanges: Mask | None = None,
     filler: int = FILLER,
-    join: bool = True,
     progress: Progress = silent,
 ) -> Bricks:
     """Cover a model by bricks.
@@ -91,15 +90,11 @@ def lay(
     tier : str
         How much is done for few bricks: ``"fast"`` (see :mod:`.greedy`),
         ``"standard"`` (see :mod:`.linear`) or ``"exact"`` (see :mod:`.exact`).
-    learned : bool
-        Whether the fast tier makes the exchanges that :mod:`.svm` proposes.
-    table : (4, 16, 16, 24) bool array, optional
-        What it proposes, as :meth:`~.svm.Machine.table`; by default what was
-        learned from the shipped samples.
+    exchanges : (4, 16, 16, 24) bool array, optional
+        What the fast tier exchanges, as :meth:`~.svm.Machine.table`; by default
+        what was learned from the shipped samples, nothing if all are False.
     filler : int
         LDraw code of the bricks that nobody sees.
-    join : bool
-        Whether bricks that hold to nothing are joined to the others in the end.
     progress : Progress
         Told before each batch of sheets.
 
@@ -116,15 +111,36 @@ def lay(
         There is nothing to build, or a must cell cannot be covered, because no
         part of one cell is made in its colour.
     """
+    work = _work(grid, catalogue, filler)
+    bricks = _cover(grid, work, rng, tier, exchanges, progress)
+    bricks = connect_loose(bricks, grid, work, catalogue, rng, progress)
+    return join_by_windows(bricks, grid, work, catalogue, progress)
+
+
+def lay_unjoined(
+    grid: UnitGrid, catalogue: Catalogue, *, rng: np.random.Generator, tier: Tier = "standard", filler: int = FILLER
+) -> Bricks:
+    """Do as :func:`lay` does, but leave bricks that hold to nothing where they are."""
+    return _cover(grid, _work(grid, catalogue, filler), rng, tier, None, silent)
+
+
+def _work(grid: UnitGrid, catalogue: Catalogue, filler: int) -> Work:
+    """Return the sheets of each height, and the shapes that may lie there."""
+    codes = np.unique(grid.colour[grid.colour >= 0])
+    return [(each, shapes(catalogue, each.height, codes, filler)) for each in split(grid)]
+
+
+def _cover(
+    grid: UnitGrid, work: Work, rng: np.random.Generator, tier: Tier, exchanges: Mask | None, progress: Progress
+) -> Bricks:
+    """Cover the sheets of a model, a slab of layers after the other."""
     required = with_margins(grid.cover == Fill.REQUIRED, False)
     if not required.any():
         raise BuildError("The model has no cells to build: make it larger.")
-    codes = np.unique(grid.colour[grid.colour >= 0])
-    work = [(each, shapes(catalogue, each.height, codes, filler)) for each in split(grid)]
     owner = np.full(required.shape, NOBODY, dtype=np.int32)
     owner[: ground_of(required)] = GROUND
     slab_of_layer = np.cumsum(grid.solid.any(axis=1).sum(axis=(1, 2))) // _SLAB
-    worth = (shipped() if table is None else table) if tier == "fast" and learned else None
+    worth = (shipped() if exchanges is None else exchanges) if tier == "fast" else None
     laid: list[Bricks] = []
     slabs = np.unique(slab_of_layer)
     for turn, slab in enumerate(slabs):
@@ -134,10 +150,7 @@ def lay(
             progress("layout", (turn + share) / len(slabs))
 
         laid += _passed(listed, _PASSES[tier], owner, required, worth, rng, tell)
-    if not join:
-        return gather(laid)
-    bricks = connect_loose(gather(laid), grid, work, catalogue, rng, progress)
-    return join_by_windows(bricks, grid, work, catalogue, progress)
+    return gather(laid)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -156,9 +169,7 @@ class _Listed:
         return _Listed(self.sheets.take(which), self.among, self.found.on(which, self.sheets.n_cells), price)
 
 
-def _listed(
-    work: Sequence[tuple[Sheets, Shapes]], layers: Mask, owner: Rows, required: Mask, tier: Tier
-) -> list[_Listed]:
+def _listed(work: Work, layers: Mask, owner: Rows, required: Mask, tier: Tier) -> list[_Listed]:
     """List what may lie on the sheets of some layers."""
     listed = []
     for sheets, among in work:

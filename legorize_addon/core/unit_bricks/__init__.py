@@ -5,7 +5,7 @@ from __future__ import annotations
 from .backing import add_backing
 from .dithering import dithering_of, remarks_on_dithering
 from .facing import facing_of
-from .generation import unit_bricks
+from .generation import Raster, Rules, unit_bricks
 from .offset_bricks import add_offset_bricks
 from .offset_rings import Offsets, OverhangKind, overhang_kinds
 from .plates import Detail
@@ -14,6 +14,8 @@ __all__ = [
     "Detail",
     "Offsets",
     "OverhangKind",
+    "Raster",
+    "Rules",
     "add_backing",
     "add_offset_bricks",
     "dithering_of",

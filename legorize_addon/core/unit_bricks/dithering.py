@@ -132,13 +132,30 @@ def remarks_on_dithering(mesh: TriangleMesh, kind: str) -> tuple[str, ...]:
     )
 
 
+def light_in_the_open(mesh: TriangleMesh, samples: SurfaceSamples, grid: Grid) -> SurfaceSamples:
+    """Return the light of the surface that the air around the model reaches.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    samples : SurfaceSamples
+        All surface, to find the air.
+    grid : Grid
+        Of the cells.
+
+    Returns
+    -------
+    SurfaceSamples
+    """
+    light = light_samples(mesh, grid)
+    return light.at(air_around(samples, grid.shape, on_ground=False).reaches(light) & ~occluded(light))
+
+
 def dither(
     colour: Codes,
     seen: Mask,
     air: Mask,
-    mesh: TriangleMesh,
-    samples: SurfaceSamples,
-    grid: Grid,
+    light: SurfaceSamples,
     dithering: Dithering,
     catalogue: Catalogue,
 ) -> Codes:
@@ -150,11 +167,8 @@ def dither(
         Settled colours: LDraw codes, ``COLOUR_ANY`` or ``COLOUR_EMPTY``.
     seen, air : (n_layers, n_y, n_x) bool arrays
         Visible cells, and those of the air around the model.
-    mesh : TriangleMesh
-    samples : SurfaceSamples
-        All surface, to find the air.
-    grid : Grid
-        Of the cells.
+    light : SurfaceSamples
+        Of :func:`light_in_the_open`.
     dithering : Dithering
     catalogue : Catalogue
 
@@ -162,9 +176,7 @@ def dither(
     -------
     (n_layers, n_y, n_x) int16 array
     """
-    units = _Units.of(colour, seen, round(BRICK / grid.height))
-    light = light_samples(mesh, grid)
-    light = light.at(air_around(samples, seen.shape, on_ground=False).reaches(light) & ~occluded(light))
+    units = _Units.of(colour, seen, round(BRICK / light.height))
     goal, faces = _goals(units, light, seen, air)
     if not faces.any():
         return colour

@@ -12,7 +12,8 @@ brick" (greatest length).
 
 from __future__ import annotations
 
-from typing import Final
+from dataclasses import dataclass
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,9 +28,9 @@ from ..slicing import Grid, Levels, Pieces, Trajectories, covered_area_shares, c
 from ..units import BRICK, CELL_AREA, PLATE, PLATES_PER_BRICK
 from .bridges import bridging_cells, under_steps
 from .colour_votes import likeliest_colours
-from .dithering import Dithering, dither
+from .dithering import Dithering, dither, light_in_the_open
 from .facing import Facing
-from .longest_trajectory import longest_colours
+from .longest_trajectory import Crossings, longest_colours
 from .plates import Detail, settle_colours, settle_plates
 from .surface_samples import SurfaceSamples, horizontal_samples, standing_pieces, surface_area, trajectory_samples
 from .thin_features import thin_cells
@@ -39,20 +40,62 @@ _ROUNDING: Final = 1e-9
 """A cell that is half covered (32 mm^2 of 64) but for rounding counts as half covered."""
 
 
+class Raster(NamedTuple):
+    """The cells to fill.
+
+    Attributes
+    ----------
+    grid : Grid
+        Of bricks, or of plates where details shall be plates.
+    levels : Levels
+        What the slices stand for in the grid.
+    """
+
+    grid: Grid
+    levels: Levels
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rules:
+    """How cells are filled and coloured.
+
+    Attributes
+    ----------
+    keep_thin : bool
+        Add cells where the surface would else be lost: legs, ears, thin walls.
+    longest : bool
+        Colour by the greatest trajectory length, as the paper does, instead of
+        by likeness to all the surface of a cell.
+    closed : bool
+        Whether the mesh is watertight. Into an open one the air is let in, by
+        every opening of a stud or more that does not face the ground: a vehicle
+        whose windows are open stays hollow.
+    detail : Detail or None
+        Where a grid of plates keeps them.
+    facing : Facing or None
+        The way that a flat model is looked at, if from one side alone: what looks
+        that way colours the bricks, unless by length.
+    dithering : Dithering or None
+        How colours are mixed, after plates are settled; None leaves each cell
+        its likeliest colour.
+    """
+
+    keep_thin: bool = True
+    longest: bool = False
+    closed: bool = True
+    detail: Detail | None = None
+    facing: Facing | None = None
+    dithering: Dithering | None = None
+
+
 def unit_bricks(
     mesh: TriangleMesh,
     trajectories: Trajectories,
     surface: SurfaceColours,
-    grid: Grid,
+    raster: Raster,
+    rules: Rules,
     *,
-    levels: Levels,
-    keep_thin: bool,
-    longest: bool,
     catalogue: Catalogue,
-    closed: bool = True,
-    detail: Detail | None = None,
-    facing: Facing | None = None,
-    dithering: Dithering | None = None,
     progress: Progress = silent,
 ) -> UnitGrid:
     """Turn trajectories into unit bricks.
@@ -62,28 +105,9 @@ def unit_bricks(
     mesh : TriangleMesh
     trajectories : Trajectories
     surface : SurfaceColours
-    grid : Grid
-        Of bricks, or of plates where details shall be plates.
-    levels : Levels
-        What the slices stand for in the grid.
-    keep_thin : bool
-        Add cells where the surface would else be lost: legs, ears, thin walls.
-    longest : bool
-        Colour by the greatest trajectory length, as the paper does, instead of
-        by likeness to all the surface of a cell.
+    raster : Raster
+    rules : Rules
     catalogue : Catalogue
-    closed : bool, optional
-        Whether the mesh is watertight. Into an open one the air is let in, by
-        every opening of a stud or more that does not face the ground: a vehicle
-        whose windows are open stays hollow.
-    detail : Detail, optional
-        Where a grid of plates keeps them.
-    facing : Facing, optional
-        The way that a flat model is looked at, if from one side alone: what looks
-        that way colours the bricks, unless by length.
-    dithering : Dithering, optional
-        How colours are mixed, after plates are settled; None leaves each cell
-        its likeliest colour.
     progress : Progress, optional
         Told between the steps.
 
@@ -93,6 +117,7 @@ def unit_bricks(
         All cells of the solid, the visible ones in their colour; without the
         layers below the lowest one in which there are any.
     """
+    grid, levels = raster
     pieces = cut_at_grid(trajectories.points, trajectories.ends, grid.origin[:2])
     progress("unit bricks", 0.05)
     share = _shares(trajectories, pieces, levels, grid)
@@ -102,27 +127,29 @@ def unit_bricks(
         horizontal_samples(mesh, surface, grid)
     )
     progress("unit bricks", 0.2)
-    if not closed:
+    if not rules.closed:
         share[air_around(samples, grid.shape, on_ground=True).fills(grid.shape)] = 0
-    solid = _solid(share, samples, keep_thin=keep_thin, detail=detail, progress=part(progress, 0.2, 0.6))
+    solid = _solid(share, samples, keep_thin=rules.keep_thin, detail=rules.detail, progress=part(progress, 0.2, 0.6))
     progress("unit bricks", 0.6)
     air = outer_air(solid)
     progress("unit bricks", 0.65)
     seen = visible(solid, air)
     progress("unit bricks", 0.7)
-    if longest:
-        ballot = longest_colours(trajectories, pieces, standing[0], samples, solid, seen, catalogue, surface)
+    if rules.longest:
+        crossings = Crossings(trajectories, pieces, standing[0])
+        ballot = longest_colours(crossings, samples, solid, seen, catalogue, surface)
     else:
-        shown = samples if facing is None else facing.weighed(samples)
+        shown = samples if rules.facing is None else rules.facing.weighed(samples)
         ballot = likeliest_colours(shown, air, seen, catalogue, surface)
     progress("unit bricks", 0.9)
     colour = np.full(grid.shape, COLOUR_EMPTY, dtype=np.int16)
     colour[solid] = COLOUR_ANY
     colour[seen] = ballot.winners(seen, grid.height)
-    if detail is not None:
-        colour = settle_colours(colour, seen, ballot, detail)
-    if dithering is not None:
-        colour = dither(colour, seen, air, mesh, samples, grid, dithering, catalogue)
+    if rules.detail is not None:
+        colour = settle_colours(colour, seen, ballot, rules.detail)
+    if rules.dithering is not None:
+        light = light_in_the_open(mesh, samples, grid)
+        colour = dither(colour, seen, air, light, rules.dithering, catalogue)
     return _unit_grid(colour, grid)
 
 

@@ -9,6 +9,8 @@ and the latter brick on the trajectory and without the inner square.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,10 +27,25 @@ _STEPS = np.array([(0, y, x) for y in (-1, 0, 1) for x in (-1, 0, 1)])
 _OWN = 4
 
 
+class Crossings(NamedTuple):
+    """Where trajectories cross the grid.
+
+    Attributes
+    ----------
+    trajectories : Trajectories
+    pieces : Pieces
+        The trajectories' edges, cut at the grid.
+    standing : (n,) int64 array
+        Piece of each of the first samples.
+    """
+
+    trajectories: Trajectories
+    pieces: Pieces
+    standing: Ints
+
+
 def longest_colours(
-    trajectories: Trajectories,
-    pieces: Pieces,
-    standing: Ints,
+    crossings: Crossings,
     samples: SurfaceSamples,
     solid: Mask,
     seen: Mask,
@@ -42,11 +59,7 @@ def longest_colours(
 
     Parameters
     ----------
-    trajectories : Trajectories
-    pieces : Pieces
-        The trajectories' edges, cut at the grid.
-    standing : (n,) int64 array
-        Piece of each of the first samples.
+    crossings : Crossings
     samples : SurfaceSamples
         Those of pieces first, then other surface.
     solid, seen : (n_layers, n_y, n_x) bool arrays
@@ -59,6 +72,7 @@ def longest_colours(
     -------
     Ballot
     """
+    trajectories, pieces, standing = crossings
     n = len(standing)
     brick = inner_cells(samples, solid)
     excluded = excluded_neighbours(trajectories, pieces.edge[standing], brick[:n], solid.shape)

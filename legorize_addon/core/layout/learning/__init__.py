@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from .own_samples import learn_more, learned_table, samples_text, version_of
-from .svm import improved, read, shipped
+from .svm import NO_EXCHANGES, improved, read, shipped
 
 __all__ = [
+    "NO_EXCHANGES",
     "improved",
     "learn_more",
     "learned_table",

@@ -177,6 +177,11 @@ class Machine:
         return (self.decision(points) > 0).reshape(LEVELS)
 
 
+NO_EXCHANGES: Final = np.zeros(LEVELS, dtype=bool)
+"""A table that proposes nothing."""
+NO_EXCHANGES.setflags(write=False)
+
+
 def improved(problem: Problem, chosen: Index, rng: np.random.Generator, table: Mask | None = None) -> Index:
     """Make the exchanges that pay among those that a table proposes.
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.layout.joining.cutting import Bench, Laid, Seam
-from legorize_addon.core.layout.lay import lay
+from legorize_addon.core.layout.lay import lay, lay_unjoined
 from legorize_addon.core.layout.problem.problem import owners
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY
@@ -17,7 +17,7 @@ GLOW_IN_DARK = 21
 
 def bench_of(cells) -> Bench:
     """Lay a grid and put it on the bench."""
-    bricks = lay(grid_of(cells), CATALOGUE, rng=np.random.default_rng(0), join=False)
+    bricks = lay_unjoined(grid_of(cells), CATALOGUE, rng=np.random.default_rng(0))
     n_layers, n_plates, *across = np.shape(cells)
     return Bench(bricks, owners(contact_graph(bricks, CATALOGUE), (n_layers * n_plates + 2, *across)), CATALOGUE)
 

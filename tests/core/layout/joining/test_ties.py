@@ -10,7 +10,7 @@ from scipy import ndimage
 
 from legorize_addon.core.layout.joining.cutting import Bench, Seam
 from legorize_addon.core.layout.joining.ties import _tie, add_ties
-from legorize_addon.core.layout.lay import lay
+from legorize_addon.core.layout.lay import lay_unjoined
 from legorize_addon.core.layout.problem.problem import owners, with_margins
 from legorize_addon.core.model.bricks import NOBODY, Bricks, Role
 from legorize_addon.core.model.contacts import contact_graph
@@ -22,7 +22,7 @@ BLUE = 1
 
 def laid(grid):
     """Lay a grid and join nothing."""
-    return lay(grid, CATALOGUE, rng=np.random.default_rng(0), join=False)
+    return lay_unjoined(grid, CATALOGUE, rng=np.random.default_rng(0))
 
 
 def both(grid, *, plates=True):

@@ -11,7 +11,7 @@ from legorize_addon.core.errors import BuildError
 from legorize_addon.core.layout.lay import lay
 from legorize_addon.core.layout.learning.own_samples import EACH, learn_more, learned_table, samples_text, version_of
 from legorize_addon.core.layout.learning.sample_file import MOST_SAMPLES
-from legorize_addon.core.layout.learning.svm import LEVELS, read, shipped
+from legorize_addon.core.layout.learning.svm import LEVELS, NO_EXCHANGES, read, shipped
 from legorize_addon.core.layout.learning.svm_training import train
 from scripts.train_layout import built
 from tests.core.layout.cells import CATALOGUE, brick_grid
@@ -67,9 +67,8 @@ def test_the_chosen_file_decides(more, model, tmp_path: Path):
         bricks = lay(grid, CATALOGUE, rng=np.random.default_rng(0), tier="fast", **options)
         return bricks.part.tolist(), bricks.corner.tolist()
 
-    assert laid(table=shipped()) == laid()
-    assert laid(table=np.zeros(LEVELS, dtype=bool)) == laid(learned=False) != laid()
-    assert laid(table=table, learned=False) == laid(learned=False)
+    assert laid(exchanges=shipped()) == laid()
+    assert laid(exchanges=NO_EXCHANGES) != laid()
 
 
 def test_too_small_models_are_refused():

@@ -9,7 +9,16 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.layout.lay import lay
 from legorize_addon.core.layout.learning.energies import gauss_normalised
-from legorize_addon.core.layout.learning.svm import LEVELS, NAMES, Machine, changes, improved, read, shipped
+from legorize_addon.core.layout.learning.svm import (
+    LEVELS,
+    NAMES,
+    NO_EXCHANGES,
+    Machine,
+    changes,
+    improved,
+    read,
+    shipped,
+)
 from legorize_addon.core.layout.learning.svm_training import tasks
 from legorize_addon.core.layout.solvers.exchange import fewer_small, gains
 from legorize_addon.core.layout.solvers.greedy import cover
@@ -179,7 +188,9 @@ def test_fast_tier_runs_without():
     for kind in KINDS:
         grid, _ = built(kind, UNSEEN + 1)
         for learned in bricks:
-            laid = lay(grid, CATALOGUE, rng=np.random.default_rng(0), tier="fast", learned=learned)
+            laid = lay(
+                grid, CATALOGUE, rng=np.random.default_rng(0), tier="fast", exchanges=None if learned else NO_EXCHANGES
+            )
             assert_covers(laid, grid)
             bricks[learned] += len(laid)
     assert bricks[True] < bricks[False]
