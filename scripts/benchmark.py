@@ -17,6 +17,7 @@
     python scripts/benchmark.py kills    [MESH] [--runs N] [--out DIR] killed runs: old or new results, nothing left
     python scripts/benchmark.py fuzz     [--cases N] [--seed S]    random bodies with random settings, within limits
     python scripts/benchmark.py sliders  [--bricks N] [--out DIR] what Blender takes to show layers and sections
+    python scripts/benchmark.py mutation [MODULE ...] [--logic N]  changes of the core that no test notices
 
 Without a mesh the bundled sample is measured; ``--models DIR`` takes all model
 files of a folder. The packages of the dependency group ``checks`` are needed,
@@ -30,8 +31,10 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Final
 
 ROOT: Final = Path(__file__).resolve().parents[1]
@@ -47,7 +50,7 @@ from scripts.benchmarks import (  # noqa: E402
     hollowing,
     judge,
     kills,
-    layouts,
+    mutation,
     pipeline,
     slicing,
     stability,
@@ -56,147 +59,174 @@ from scripts.benchmarks import (  # noqa: E402
 )
 from scripts.benchmarks.meshes import models_in  # noqa: E402
 from scripts.benchmarks.tables import Table, write  # noqa: E402
+from scripts.research import layouts  # noqa: E402
 
 SAMPLE: Final = ROOT / "assets" / "sample.glb"
 OUT: Final = ROOT / "out" / "benchmark"
 
+Option = tuple[str, dict[str, Any]]
+"""A flag and what argparse is told of it."""
+
+
+def number(flag: str, default: float, text: str, **more: Any) -> Option:
+    """Return a flag with one number."""
+    return flag, {"type": type(default), "default": default, "help": f"{text} (default: %(default)s)"} | more
+
+
+def numbers(flag: str, default: Sequence[int], text: str) -> Option:
+    """Return a flag with several whole numbers."""
+    return flag, {"type": int, "nargs": "+", "default": list(default), "help": f"{text} (default: %(default)s)"}
+
+
+def folder(flag: str, text: str, **more: Any) -> Option:
+    """Return a flag with a path."""
+    return flag, {"type": Path, "metavar": "PATH", "help": text} | more
+
+
+MESHES: Final = (
+    ("meshes", {"metavar": "MESH", "type": Path, "nargs": "*", "help": "model file"}),
+    folder("--models", "folder with model files"),
+)
+TRIANGLES: Final = "about how many triangles to subdivide to, 0 for none"
+RUNS: Final = number("--repeats", 3, "runs")
+SEED: Final = number("--seed", 0, "of everything random")
+
+
+def on_models(measure: Callable[..., list[Table]]) -> Callable[..., list[Table]]:
+    """Return a measurement of the models that the command line names, else of the sample."""
+
+    def measured(meshes: Sequence[Path], models: Path | None, **options: Any) -> list[Table]:
+        return measure([*meshes, *(models_in(models) if models else ())] or [SAMPLE], **options)
+
+    return measured
+
+
+def kill(paths: Sequence[Path], **options: Any) -> list[Table]:
+    """Kill runs on the first model."""
+    return kills.measure(paths[0], **options)
+
+
+def slide(**options: Any) -> list[Table]:
+    """Move the sliders; only this module brings Blender along."""
+    from scripts.benchmarks import sliders
+
+    return sliders.measure(**options)
+
+
+@dataclass(frozen=True)
+class Benchmark:
+    """A command.
+
+    Attributes
+    ----------
+    text : str
+        What it measures.
+    measure : callable
+        Takes its options by name; those that it names in `needs_out` get the folder for results, too.
+    options : tuple of Option
+    """
+
+    text: str
+    measure: Callable[..., list[Table]]
+    options: tuple[Option, ...] = ()
+    needs_out: bool = False
+
+
+def of_models(text: str, measure: Callable[..., list[Table]], *options: Option, needs_out: bool = False) -> Benchmark:
+    """Return a command that measures models."""
+    return Benchmark(text, on_models(measure), (*MESHES, *options), needs_out)
+
+
+BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
+    {
+        "slicing": of_models(
+            "slices with loops, colours and areas", slicing.measure, number("--width", 48, "studs"), RUNS,
+            numbers("--triangles", [0, 94_000, 1_500_000], TRIANGLES), numbers("--planes", [50, 100, 200], "heights"),
+        ),
+        "units": of_models(
+            "unit bricks with their colours", units.measure, number("--width", 100, "studs"), RUNS,
+            numbers("--triangles", [0, 94_000], TRIANGLES), number("--points", 2_000_000, "of the dense sampling"),
+        ),
+        "pipeline": of_models(
+            "every stage on every model", pipeline.measure, numbers("--widths", [24, 48, 96], "studs"),
+            number("--repeats", 1, "runs"),
+        ),
+        "budget": of_models(
+            "estimates against what builds take", budget.measure, numbers("--widths", [24, 48, 96], "studs")
+        ),
+        "detail": of_models(
+            "what plates gain and cost", detail.measure, numbers("--widths", [32, 64], "studs"),
+            folder("--judge", "folder with judge.py, which else is not asked"), needs_out=True,
+        ),
+        "hollowing": of_models("what hollowing leaves", hollowing.measure, number("--width", 64, "studs")),
+        "stability": of_models(
+            "whether models stand", stability.measure, numbers("--widths", [24, 48], "studs"), RUNS,
+            number("--programme", 3000, "bricks up to which HiGHS is timed"),
+        ),
+        "goals": of_models("every goal of the layout", goals.measure, numbers("--widths", [24, 48, 96], "studs")),
+        "layouts": of_models(
+            "the layouts of the field and ours", layouts.measure, number("--width", 48, "studs"),
+            number("--repeats", 1, "runs"), SEED,
+            folder("--peer", "Python of an environment with legolization 0.5.0"),
+            number("--peer-limit", 0.0, "seconds that the peer may take to make its layout hold; 0 only lets it lay"),
+        ),
+        "supports": of_models("supports of every kind", supports.measure, number("--width", 64, "studs"), RUNS),
+        "building": of_models(
+            "whether every model can be built", building.measure, numbers("--widths", [64], "studs"),
+            number("--split", 3, "most pieces"),
+        ),
+        "judge": of_models(
+            "an external judge", judge.measure, number("--width", 48, "studs"),
+            folder("--judge", "folder with judge.py and peer_voxels.py", required=True),
+            folder("--ldr-dir", "folder with NAME/model.ldr made by scripts/legorize.py"), needs_out=True,
+        ),
+        "kills": of_models(
+            "killed runs", kill, number("--runs", 200, "whole runs to kill"),
+            number("--moments", 100, "kills within publishing"),
+        ),
+        "fuzz": Benchmark(
+            "random bodies with random settings", fuzz.measure,
+            (number("--cases", 100, "how many"), SEED, number("--first", 0, "number of the first case")),
+        ),
+        "sliders": Benchmark("the sliders in Blender", slide, (number("--bricks", 50_000, "of the model"),)),
+        "mutation": Benchmark(
+            "changes of the core that no test notices", mutation.measure,
+            (
+                ("modules", {"metavar": "MODULE", "nargs": "*", "help": "beginning of a path below the core"}),
+                number("--logic", 100, "comparisons and signs to change, at most"), SEED,
+            ),
+        ),
+    }
+)  # fmt: skip
+"""Every command."""
+
 
 def main(arguments: Sequence[str]) -> int:
     """Run one benchmark and return the exit status."""
-    options = parser().parse_args(arguments)
+    options = vars(parser().parse_args(arguments))
+    command, out = options.pop("command"), options.pop("out")
+    benchmark = BENCHMARKS[command]
     try:
-        tables = measured(options)
+        tables = benchmark.measure(**options, **({"out": out} if benchmark.needs_out else {}))
     except LegorizeError as error:
         print(error, file=sys.stderr)
         return 1
-    write(options.out, options.command, tables)
+    write(out, command, tables)
     for table in tables:
         print(table.markdown())
     return 0
-
-
-def measured(options: argparse.Namespace) -> list[Table]:
-    """Return the tables of the chosen benchmark."""
-    if options.command == "fuzz":
-        return fuzz.measure(cases=options.cases, seed=options.seed, first=options.first)
-    if options.command == "sliders":
-        # its module brings Blender along, which the others do without
-        from scripts.benchmarks import sliders
-
-        return sliders.measure(bricks=options.bricks)
-    paths = [*options.meshes, *(models_in(options.models) if options.models else ())] or [SAMPLE]
-    if options.command == "slicing":
-        return slicing.measure(
-            paths,
-            width=options.width,
-            triangles=options.triangles,
-            planes=options.planes,
-            repeats=options.repeats,
-        )
-    if options.command == "units":
-        return units.measure(
-            paths, width=options.width, triangles=options.triangles, points=options.points, repeats=options.repeats
-        )
-    if options.command == "pipeline":
-        return pipeline.measure(paths, widths=options.widths, repeats=options.repeats)
-    if options.command == "budget":
-        return budget.measure(paths, widths=options.widths)
-    if options.command == "detail":
-        return detail.measure(paths, widths=options.widths, judge=options.judge, out=options.out)
-    if options.command == "stability":
-        return stability.measure(paths, widths=options.widths, repeats=options.repeats, programme=options.programme)
-    if options.command == "goals":
-        return goals.measure(paths, widths=options.widths)
-    if options.command == "layouts":
-        chosen = {name: getattr(options, name) for name in ("width", "repeats", "seed", "peer", "peer_limit")}
-        return layouts.measure(paths, **chosen)
-    if options.command == "supports":
-        return supports.measure(paths, width=options.width, repeats=options.repeats)
-    if options.command == "building":
-        return building.measure(paths, widths=options.widths, split=options.split)
-    if options.command == "kills":
-        return kills.measure(paths[0], runs=options.runs, moments=options.moments)
-    if options.command == "hollowing":
-        return hollowing.measure(paths, width=options.width)
-    return judge.measure(paths, judge=options.judge, out=options.out, width=options.width, ldr_dir=options.ldr_dir)
 
 
 def parser() -> argparse.ArgumentParser:
     """Return the parser of the command line."""
     made = argparse.ArgumentParser(description="Measure Legorize against references.")
     commands = made.add_subparsers(dest="command", required=True)
-    for name, text, width, repeats in (
-        ("slicing", "slices with loops, colours and areas", 48, 3),
-        ("units", "unit bricks with their colours", 100, 3),
-        ("pipeline", "every stage on every model", None, 1),
-        ("budget", "estimates against what builds take", None, None),
-        ("detail", "what plates gain and cost", None, None),
-        ("hollowing", "what hollowing leaves", 64, None),
-        ("stability", "whether models stand", None, 3),
-        ("goals", "every goal of the layout", None, None),
-        ("layouts", "the layouts of the field and ours", 48, 1),
-        ("supports", "supports of every kind", 64, 3),
-        ("building", "whether every model can be built", None, None),
-        ("judge", "an external judge", 48, None),
-        ("kills", "killed runs", None, None),
-    ):
-        command = commands.add_parser(name, help=text, description=text)
-        command.add_argument("meshes", metavar="MESH", type=Path, nargs="*", help="model file")
-        command.add_argument("--models", metavar="DIR", type=Path, help="folder with model files")
+    for name, benchmark in BENCHMARKS.items():
+        command = commands.add_parser(name, help=benchmark.text, description=benchmark.text)
         command.add_argument("--out", metavar="DIR", type=Path, default=OUT, help="for results")
-        if width is not None:
-            command.add_argument("--width", type=int, default=width, help="studs (default: %(default)s)")
-        if repeats is not None:
-            command.add_argument("--repeats", type=int, default=repeats, help="runs (default: %(default)s)")
-        add_options(name, command)
-    command = commands.add_parser("fuzz", help="random cases", description="random bodies with random settings")
-    command.add_argument("--cases", type=int, default=100, help="how many (default: %(default)s)")
-    command.add_argument("--seed", type=int, default=0, help="of the cases (default: %(default)s)")
-    command.add_argument("--first", type=int, default=0, help="number of the first case (default: %(default)s)")
-    command.add_argument("--out", metavar="DIR", type=Path, default=OUT, help="for results")
-    command = commands.add_parser("sliders", help="the sliders in Blender", description="the sliders in Blender")
-    command.add_argument("--bricks", type=int, default=50_000, help="of the model (default: %(default)s)")
-    command.add_argument("--out", metavar="DIR", type=Path, default=OUT, help="for results")
+        for flag, told in benchmark.options:
+            command.add_argument(flag, **told)
     return made
-
-
-def add_options(name: str, command: argparse.ArgumentParser) -> None:
-    """Add what only one of the benchmarks takes."""
-    counts: dict[str, Any] = {"type": int, "nargs": "+"}
-    text = "about how many triangles to subdivide to, 0 for none (default: %(default)s)"
-    if name == "slicing":
-        command.add_argument("--triangles", **counts, default=[0, 94_000, 1_500_000], help=text)
-        command.add_argument("--planes", **counts, default=[50, 100, 200], help="(default: %(default)s)")
-    elif name == "units":
-        command.add_argument("--triangles", **counts, default=[0, 94_000], help=text)
-        command.add_argument("--points", type=int, default=2_000_000, help="of the dense sampling")
-    elif name in ("pipeline", "goals", "budget"):
-        command.add_argument("--widths", **counts, default=[24, 48, 96], help="studs (default: %(default)s)")
-    elif name == "stability":
-        command.add_argument("--widths", **counts, default=[24, 48], help="studs (default: %(default)s)")
-        command.add_argument("--programme", type=int, default=3000, help="bricks up to which HiGHS is timed")
-    elif name == "building":
-        command.add_argument("--widths", **counts, default=[64], help="studs (default: %(default)s)")
-        command.add_argument("--split", type=int, default=3, help="most pieces (default: %(default)s)")
-    elif name == "detail":
-        command.add_argument("--widths", **counts, default=[32, 64], help="studs (default: %(default)s)")
-        command.add_argument("--judge", metavar="DIR", type=Path, help="judge.py, which else is not asked")
-    elif name == "layouts":
-        command.add_argument("--seed", type=int, default=0, help="of everything random (default: %(default)s)")
-        command.add_argument("--peer", metavar="PYTHON", type=Path, help="of an environment with legolization 0.5.0")
-        command.add_argument(
-            "--peer-limit",
-            metavar="SECONDS",
-            type=float,
-            default=0.0,
-            help="that the peer may take to make its layout hold; 0 only lets it lay (default: %(default)s)",
-        )
-    elif name == "kills":
-        command.add_argument("--runs", type=int, default=200, help="whole runs to kill (default: %(default)s)")
-        command.add_argument("--moments", type=int, default=100, help="kills within publishing (default: %(default)s)")
-    elif name == "judge":
-        command.add_argument("--judge", metavar="DIR", type=Path, required=True, help="judge.py and peer_voxels.py")
-        command.add_argument("--ldr-dir", metavar="DIR", type=Path, help="NAME/model.ldr made by scripts/legorize.py")
 
 
 if __name__ == "__main__":

@@ -22,12 +22,12 @@ from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402 - a
 from legorize_addon.core.model.contacts import contact_graph  # noqa: E402
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid  # noqa: E402
 from scripts import benchmark  # noqa: E402
-from scripts.benchmarks import annealing, baselines, layout_goals, merging, peer, rules, tiling, volumes  # noqa: E402
-from scripts.benchmarks.baselines import LayerWay  # noqa: E402
-from scripts.benchmarks.energies import energies  # noqa: E402
-from scripts.benchmarks.laying import faults, nothing_beneath  # noqa: E402
-from scripts.benchmarks.layouts import METHODS, without_corners  # noqa: E402
-from scripts.benchmarks.seams import EQUAL, FEW, Layer  # noqa: E402
+from scripts.research import annealing, baselines, layout_goals, merging, peer, rules, tiling, volumes  # noqa: E402
+from scripts.research.baselines import LayerWay  # noqa: E402
+from scripts.research.energies import energies  # noqa: E402
+from scripts.research.laying import faults, nothing_beneath  # noqa: E402
+from scripts.research.layouts import METHODS, without_corners  # noqa: E402
+from scripts.research.seams import EQUAL, FEW, Layer  # noqa: E402
 from tests.core.standing import CATALOGUE, table  # noqa: E402
 
 RED, WHITE = 4, 15

@@ -84,7 +84,7 @@ def constants(path: Path) -> Iterator[Mutant]:
             continue
         for number in ast.walk(node.value):
             if _is_number(number):
-                value = number.value + 1 if isinstance(number.value, int) else number.value * MOVED
+                value = number.value * MOVED if isinstance(number.value, float) and number.value else number.value + 1
                 place = (number.lineno, number.col_offset, number.end_col_offset)
                 yield Mutant(path, "constant", *place, repr(value), target.id)
 
@@ -97,7 +97,7 @@ def _is_number(node: ast.AST) -> bool:
     return isinstance(node, ast.Constant) and type(node.value) in (int, float) and node.lineno == node.end_lineno
 
 
-def logic(path: Path) -> Iterator[Mutant]:
+def turned(path: Path) -> Iterator[Mutant]:
     """Yield a mutant for each comparison of two values and each sum or difference on one line."""
     text = (ROOT / path).read_text(encoding="utf-8")
     lines = text.split("\n")
@@ -116,14 +116,14 @@ def logic(path: Path) -> Iterator[Mutant]:
             yield Mutant(path, "logic", right.lineno, start, start + len(sign), kinds[kind], sign)
 
 
-def measure(modules: Sequence[str], *, most_logic: int, seed: int) -> list[Table]:
+def measure(modules: Sequence[str], *, logic: int, seed: int) -> list[Table]:
     """Try mutants.
 
     Parameters
     ----------
     modules : sequence of str
         Beginnings of the paths of modules below the core; all if there are none.
-    most_logic : int
+    logic : int
         Mutants of logic that are tried, chosen at random.
     seed : int
         Of that choice.
@@ -136,8 +136,8 @@ def measure(modules: Sequence[str], *, most_logic: int, seed: int) -> list[Table
     paths = [path.relative_to(ROOT) for path in sorted((ROOT / CORE).rglob("*.py")) if path.name != "__init__.py"]
     paths = [path for path in paths if not modules or str(path.relative_to(CORE)).startswith(tuple(modules))]
     tried = [mutant for path in paths for mutant in constants(path)]
-    turned = [each for path in paths if path.relative_to(CORE).parts[0] in LOGIC_PACKAGES for each in logic(path)]
-    tried += random.Random(seed).sample(turned, min(most_logic, len(turned)))
+    others = [each for path in paths if path.relative_to(CORE).parts[0] in LOGIC_PACKAGES for each in turned(path)]
+    tried += random.Random(seed).sample(others, min(logic, len(others)))
     survived: list[Mutant] = []
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder)
@@ -166,7 +166,7 @@ def _shares(tried: Sequence[Mutant], survived: Sequence[Mutant]) -> Iterator[Row
 
 
 def survives(mutant: Mutant, copy: Path) -> bool:
-    """Return whether the tests of its module, and those of its folder, let a mutant in a copy of the repository pass."""
+    """Return whether the tests of its module and of its folder let a mutant in a copy of the repository pass."""
     text = (ROOT / mutant.path).read_text(encoding="utf-8")
     inside = mutant.path.relative_to(CORE)
     tests = Path("tests/core") / inside.parent

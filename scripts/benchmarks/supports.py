@@ -27,9 +27,9 @@ from legorize_addon.core.supports.columns import columns, pillars
 from legorize_addon.core.supports.demand import Demand, support_demand
 from legorize_addon.core.supports.tree import tree
 from scripts.benchmarks.clock import least_seconds
-from scripts.benchmarks.full_columns import full_columns
 from scripts.benchmarks.meshes import read_mesh
 from scripts.benchmarks.tables import Row, Table
+from scripts.research.full_columns import full_columns
 from tests.core.overhanging import overhanging
 
 FIXTURE_SIZE: Final = 400.0

@@ -163,7 +163,9 @@ def test_left_is_painted_like_right(rooster: Rooster) -> None:
 
 def test_making_it_again_gives_the_same(rooster: Rooster, tmp_path: Path) -> None:
     """The script, run as a user would, makes the same shape with the same colours on it."""
-    subprocess.run([sys.executable, ROOT / "scripts" / "make_samples.py", tmp_path / "again.glb"], check=True)
+    subprocess.run(
+        [sys.executable, ROOT / "scripts" / "research" / "make_samples.py", tmp_path / "again.glb"], check=True
+    )
     again = load(tmp_path / "again.glb")
     assert np.allclose(again.places, rooster.places, atol=2e-6)
     assert np.array_equal(again.faces, rooster.faces)

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from legorize_addon.core.supports.beams import areas, beams, distribution, pillars_of
-from scripts.benchmarks.full_columns import TALL_SIZES
+from scripts.research.full_columns import TALL_SIZES
 from tests.core.supports.places import assert_sound, ceiling, ceilings, room_under, triples
 
 LENGTHS = (1, 2, 3, 4, 6)

@@ -10,7 +10,7 @@ from legorize_addon.core.model.bricks import NOBODY, Role
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.supports.boxes import boxes_of, bricks_of_boxes, merge_upwards, sizes_in
 from legorize_addon.core.supports.columns import pillars
-from scripts.benchmarks.full_columns import full_columns
+from scripts.research.full_columns import full_columns
 from tests.core.supports.places import CATALOGUE, WHITE, ceilings, owners, triples
 
 

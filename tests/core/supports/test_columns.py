@@ -8,7 +8,7 @@ from hypothesis import given
 
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.supports.columns import columns, covered, pillars, within_clearance
-from scripts.benchmarks.full_columns import FLAT, TALL_SIZES, full_columns
+from scripts.research.full_columns import FLAT, TALL_SIZES, full_columns
 from tests.core.supports.places import assert_sound, ceiling, ceilings, room_under, triples
 
 OPEN = np.full((6, 6), 20)

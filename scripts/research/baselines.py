@@ -18,8 +18,8 @@ from legorize_addon.core.model.catalogue import Catalogue
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill, UnitGrid
 from legorize_addon.core.shell.hollowing import hollow
 from legorize_addon.core.units import PLATES_PER_BRICK
-from scripts.benchmarks.rules import Index, Way
-from scripts.benchmarks.seams import Layer
+from scripts.research.rules import Index, Way
+from scripts.research.seams import Layer
 
 Lay = Callable[[UnitGrid, Catalogue, np.random.Generator], Bricks]
 LayerWay = Callable[[Layer, np.random.Generator], Index]

@@ -31,12 +31,14 @@ from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shell.cohesion import make_cohesive
 from legorize_addon.core.shell.hollowing import hollow
-from scripts.benchmarks import annealing, merging, staggering, tiling
-from scripts.benchmarks.baselines import Lay, at_once, shell_of, upwards
 from scripts.benchmarks.clock import least_seconds
-from scripts.benchmarks.laying import Laid, cells_of, figures, timed
 from scripts.benchmarks.layout_figures import colours_lost, fewest_singles
-from scripts.benchmarks.layout_goals import (
+from scripts.benchmarks.meshes import read_mesh
+from scripts.benchmarks.tables import Row, Table
+from scripts.research import annealing, merging, staggering, tiling
+from scripts.research.baselines import Lay, at_once, shell_of, upwards
+from scripts.research.laying import Laid, cells_of, figures, timed
+from scripts.research.layout_goals import (
     ANNEALED,
     FAST,
     FASTER,
@@ -50,12 +52,10 @@ from scripts.benchmarks.layout_goals import (
     UNLEARNED,
     goals_met,
 )
-from scripts.benchmarks.meshes import read_mesh
-from scripts.benchmarks.peer import STRATEGIES, laid_by_peer
-from scripts.benchmarks.rules import by_key, largest_in_rows
-from scripts.benchmarks.seams import EQUAL, FEW
-from scripts.benchmarks.tables import Row, Table
-from scripts.benchmarks.volumes import count_rows, volume_rows
+from scripts.research.peer import STRATEGIES, laid_by_peer
+from scripts.research.rules import by_key, largest_in_rows
+from scripts.research.seams import EQUAL, FEW
+from scripts.research.volumes import count_rows, volume_rows
 
 MANIFEST: Final = Path(__file__).resolve().parents[2] / "blender_manifest.toml"
 

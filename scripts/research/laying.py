@@ -13,11 +13,11 @@ from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import Catalogue
 from legorize_addon.core.model.contacts import ContactGraph, contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, Fill, UnitGrid
-from scripts.benchmarks.baselines import Lay
 from scripts.benchmarks.clock import least_seconds
-from scripts.benchmarks.energies import energies
 from scripts.benchmarks.layout_figures import articulations, coinciding_seams, colours_lost, single
 from scripts.benchmarks.tables import Row
+from scripts.research.baselines import Lay
+from scripts.research.energies import energies
 
 
 @dataclass(frozen=True, slots=True, eq=False)

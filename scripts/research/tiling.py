@@ -16,8 +16,8 @@ from typing import Final
 import numpy as np
 
 from legorize_addon.core.layout.problem.candidates import Candidates
-from scripts.benchmarks.rules import Index
-from scripts.benchmarks.seams import EQUAL, LARGEST, Layer, Weights
+from scripts.research.rules import Index
+from scripts.research.seams import EQUAL, LARGEST, Layer, Weights
 
 OPEN: Final = 2000
 """Open tilings at most."""

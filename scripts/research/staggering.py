@@ -13,8 +13,8 @@ from typing import Final
 
 import numpy as np
 
-from scripts.benchmarks.rules import Index, by_key
-from scripts.benchmarks.seams import Layer
+from scripts.research.rules import Index, by_key
+from scripts.research.seams import Layer
 
 BRIDGE: Final = 0.25
 COINCIDE: Final = 0.25

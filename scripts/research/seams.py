@@ -25,7 +25,7 @@ from legorize_addon.core.layout.problem.problem import Problem
 from legorize_addon.core.layout.problem.shapes import Shapes, pattern_bits
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY
-from scripts.benchmarks.rules import Index
+from scripts.research.rules import Index
 
 Plane = NDArray[np.int32]
 

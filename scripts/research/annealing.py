@@ -15,8 +15,8 @@ from typing import Final
 
 import numpy as np
 
-from scripts.benchmarks.rules import Index, by_key, largest_in_rows
-from scripts.benchmarks.seams import FEW, LARGEST, Layer
+from scripts.research.rules import Index, by_key, largest_in_rows
+from scripts.research.seams import FEW, LARGEST, Layer
 
 MOVES: Final = 60
 """Tried for each cell."""

@@ -28,10 +28,10 @@ from legorize_addon.core.model.unit_grid import UnitGrid
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from scripts.benchmarks.meshes import read_mesh
-from scripts.benchmarks.rules import Index, Way, by_key, largest
 from scripts.benchmarks.tables import Row, Table
-from scripts.train_layout import SHIPPED, UNSEEN, built
-from scripts.training_models import KINDS
+from scripts.research.rules import Index, Way, by_key, largest
+from scripts.research.train_layout import SHIPPED, UNSEEN, built
+from scripts.research.training_models import KINDS
 
 Floats = NDArray[np.float64]
 

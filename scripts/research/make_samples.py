@@ -3,7 +3,7 @@
 Run it with any Python that has numpy, scipy and xatlas, for example the one
 with the ``bpy`` module::
 
-    python scripts/make_samples.py [FILE]
+    python scripts/research/make_samples.py [FILE]
 
 ``rooster.py`` says what the rooster looks like; here it is meshed, unwrapped,
 painted and packed as one binary glTF file. Everything is own work, dedicated
@@ -275,7 +275,7 @@ def make() -> bytes:
 
 def main(arguments: list[str]) -> None:
     """Write the sample to the file named, or to its place in ``assets``."""
-    target = Path(arguments[0]) if arguments else Path(__file__).parents[1] / "assets" / "sample.glb"
+    target = Path(arguments[0]) if arguments else Path(__file__).parents[2] / "assets" / "sample.glb"
     unfinished = target.with_suffix(".part")
     unfinished.write_bytes(make())
     unfinished.replace(target)

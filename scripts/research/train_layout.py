@@ -2,8 +2,8 @@
 
 ::
 
-    python scripts/train_layout.py [--out FILE]              make assets/layout_svm.csv anew
-    python scripts/train_layout.py --report [MESH ...]       judge it on models that it never saw
+    python scripts/research/train_layout.py [--out FILE]              make assets/layout_svm.csv anew
+    python scripts/research/train_layout.py --report [MESH ...]       judge it on models that it never saw
 
 The training models are made by chance (see ``training_models.py``), so the file
 needs nothing but this repository; the same versions give the same file. The
@@ -24,7 +24,7 @@ import numpy as np
 import scipy
 import sklearn
 
-ROOT: Final = Path(__file__).resolve().parents[1]
+ROOT: Final = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from legorize_addon.core.layout.learning.svm_training import N_SAMPLES, Trained, samples_of, train, written  # noqa: E402
@@ -33,7 +33,7 @@ from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402 - f
 from legorize_addon.core.model.unit_grid import UnitGrid  # noqa: E402
 from legorize_addon.core.pipeline import legorize  # noqa: E402
 from legorize_addon.core.settings import Settings  # noqa: E402
-from scripts.training_models import KINDS, made  # noqa: E402
+from scripts.research.training_models import KINDS, made  # noqa: E402
 
 SHIPPED: Final = ROOT / "assets" / "layout_svm.csv"
 
@@ -56,7 +56,7 @@ def main(arguments: Sequence[str]) -> int:
     options = parser.parse_args(arguments)
     if options.report:
         # its packages are not needed for the training
-        from scripts.layout_controls import judged
+        from scripts.research.layout_controls import judged
 
         print(judged(options.meshes, width=options.width))
         return 0
@@ -101,7 +101,7 @@ def facts(seed: int, each: int, result: Trained) -> dict[str, str]:
     tried = ", ".join(f"({c:g}, {gamma:g}) {share:.3f}" for (c, gamma), share in result.grid.items())
     return {
         "what": "samples of the learned choice of exchanges in the fast layout; CC0 1.0",
-        "made by": "scripts/train_layout.py",
+        "made by": "scripts/research/train_layout.py",
         "formulation": "which placements left over save bricks, by what they would change; gains reckoned exactly",
         "seed": str(seed),
         "models": f"{', '.join(KINDS)}, with seeds 0 to {each - 1} each, in this order",

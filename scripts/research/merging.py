@@ -14,7 +14,7 @@ import numpy as np
 
 from legorize_addon.core.layout.problem.problem import Problem
 from legorize_addon.core.layout.problem.shapes import Shapes
-from scripts.benchmarks.rules import Index
+from scripts.research.rules import Index
 
 _SHEET, _SHAPE, _ROW = 40, 32, 16
 """Bits below sheet, shape and y in the keys of placements."""
