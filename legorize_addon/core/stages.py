@@ -114,11 +114,10 @@ def find_colours(run: Run, mesh: TriangleMesh, given: TriangleMesh) -> SurfaceCo
         mesh,
         run.catalogue,
         n_colours=min(settings.colours, len(run.palette)) if settings.one_to_one else settings.colours,
-        sampling=settings.sampling,
         palette=run.palette,
         one_to_one=settings.one_to_one,
         rng=run.rng,
-        whole=count_texels(given.images, given.opacities, least=settings.least_alpha or 0.5) if every else None,
+        texels=count_texels(given.images, given.opacities, least=settings.least_alpha or 0.5) if every else None,
     )
 
 

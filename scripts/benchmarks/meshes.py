@@ -10,6 +10,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
+from legorize_addon.core.colours.counted import count_texels
 from legorize_addon.core.colours.dominant import SurfaceColours, chosen_palette, surface_colours
 from legorize_addon.core.errors import MeshError
 from legorize_addon.core.mesh.size import model_scale
@@ -71,10 +72,10 @@ def textured(mesh: TriangleMesh, settings: Settings) -> SurfaceColours:
         mesh,
         catalogue,
         n_colours=settings.colours,
-        sampling=settings.sampling,
         palette=chosen_palette(settings.palette, catalogue),
         one_to_one=settings.one_to_one,
         rng=np.random.default_rng(settings.seed),
+        texels=count_texels(mesh.images) if settings.sampling == "image" else None,
     )
 
 

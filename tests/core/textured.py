@@ -192,7 +192,6 @@ def stages(mesh: TriangleMesh, *, grid=None, cusp=3.2, n_colours=64, symmetric=T
         mesh,
         catalogue,
         n_colours=n_colours,
-        sampling="surface",
         palette=catalogue.codes,
         one_to_one=False,
         rng=np.random.default_rng(0),

@@ -20,7 +20,7 @@ from ..arrays import Floats, Mask
 from ..errors import SettingsError
 from ..mesh import TriangleMesh
 from ..model import Catalogue
-from .counted import Counted, count_colours, count_texels, packed, unpacked
+from .counted import Counted, count_colours, packed, unpacked
 from .difference import ciede2000, lab_from_srgb
 from .texels import border_table, boxes_varied, texel_at
 
@@ -120,11 +120,10 @@ def surface_colours(
     catalogue: Catalogue,
     *,
     n_colours: int,
-    sampling: str,
     palette: Codes,
     one_to_one: bool,
     rng: np.random.Generator,
-    whole: Counted | None = None,
+    texels: Counted | None = None,
 ) -> SurfaceColours:
     """Find the dominant colours of a mesh's images and the bricks' colours for them.
 
@@ -134,16 +133,14 @@ def surface_colours(
     catalogue : Catalogue
     n_colours : int
         Most dominant colours to find.
-    sampling : {"surface", "image"}
-        Weight texels by the surface they cover, or count each texel of every image once.
     palette : (k,) int16 array
         LDraw codes to choose from.
     one_to_one : bool
         Give every dominant colour a brick colour of its own.
     rng : numpy.random.Generator
-    whole : Counted, optional
-        All texels of the images as they were before they were reduced; without
-        them those of `mesh` count.
+    texels : Counted, optional
+        The texels that count; without them those of the mesh's images, each by
+        the surface that it covers.
 
     Returns
     -------
@@ -158,10 +155,7 @@ def surface_colours(
     ----------
     Paper, Algorithm 1.
     """
-    if sampling == "surface":
-        counted = count_colours(_surface_texels(mesh, rng))
-    else:
-        counted = count_texels(mesh.images) if whole is None else whole
+    counted = count_colours(_surface_texels(mesh, rng)) if texels is None else texels
     centres = dominant_colours(counted, n_colours=n_colours, rng=rng)
     codes = brick_colours(centres, catalogue, palette=palette, one_to_one=one_to_one)
     labels = _nearest_centres(mesh.images, centres)

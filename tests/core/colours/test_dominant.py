@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from legorize_addon.core.colours.counted import count_colours
+from legorize_addon.core.colours.counted import count_colours, count_texels
 from legorize_addon.core.colours.difference import ciede2000, lab_from_srgb
 from legorize_addon.core.colours.dominant import (
     SurfaceColours,
@@ -37,7 +37,7 @@ def colours_of(mesh, *, n_colours=64, sampling="surface", palette=None, one_to_o
         mesh,
         catalogue,
         n_colours=n_colours,
-        sampling=sampling,
+        texels=count_texels(mesh.images) if sampling == "image" else None,
         palette=catalogue.codes if palette is None else np.array(palette, np.int16),
         one_to_one=one_to_one,
         rng=np.random.default_rng(seed),

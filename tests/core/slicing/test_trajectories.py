@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from legorize_addon.core.colours.counted import count_texels
 from legorize_addon.core.colours.dominant import SurfaceColours, surface_colours
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, repair
 from legorize_addon.core.model.catalogue import load_catalogue
@@ -23,10 +24,10 @@ def colours_of(mesh: TriangleMesh) -> SurfaceColours:
         mesh,
         catalogue,
         n_colours=64,
-        sampling="image",
         palette=catalogue.codes,
         one_to_one=False,
         rng=np.random.default_rng(0),
+        texels=count_texels(mesh.images),
     )
 
 

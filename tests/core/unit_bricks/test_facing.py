@@ -26,7 +26,6 @@ def facing(mesh) -> Facing:
         mesh,
         catalogue,
         n_colours=8,
-        sampling="surface",
         palette=catalogue.codes,
         one_to_one=False,
         rng=np.random.default_rng(0),
