@@ -128,17 +128,16 @@ def stages() -> list[tuple[str, tuple[str, ...]]]:
     }
     known = {name.removeprefix("core.") for name in packages() if name not in ALONE}
     functions = {node.name: node for tree in trees for node in tree.body if isinstance(node, ast.FunctionDef)}
-    [main] = [node for name, node in functions.items() if name == "legorize"]
     found: dict[str, dict[str, None]] = {}
-    for name, block in stage_blocks(main):
+    for name, block in stage_blocks(trees[0]):
         called = dict.fromkeys(source[each] for each in calls(block, functions) if each in source)
         found.setdefault(name, {}).update({package: None for package in called if package in known})
     return [(name, tuple(used)) for name, used in found.items()]
 
 
-def stage_blocks(function: ast.FunctionDef) -> Iterator[tuple[str, ast.With]]:
+def stage_blocks(pipeline: ast.Module) -> Iterator[tuple[str, ast.With]]:
     """Yield (name, block) of every ``with run.stage(name)`` in the order of the text."""
-    for node in ast.walk(function):
+    for node in ast.walk(pipeline):
         if isinstance(node, ast.With):
             call = node.items[0].context_expr
             if isinstance(call, ast.Call) and ast.unparse(call.func) == "run.stage":
