@@ -19,6 +19,7 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ..core.building import Steps
 from ..core.errors import BuildError
 from ..core.model import Bricks, Catalogue, Role
 from ..core.units import PLATES_PER_BRICK, STUD
