@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -11,13 +12,13 @@ from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.supports.assembly_plan import plan_assembly
+from legorize_addon.core.supports.assembly_plan import Wish, plan_assembly
 from legorize_addon.core.supports.boxes import OUTSIDE_COLOUR
 from tests.core.overhanging import overhanging
 from tests.core.standing import CATALOGUE, table
 
 SIZES = {"table": 24, "t_shape": 32, "arch": 32, "box_car": 24}
-WAYS = ("best", "tree", "columns", "beams")
+WAYS = [word for word in get_args(Wish) if word != "none"]
 
 
 @pytest.fixture(scope="module")
