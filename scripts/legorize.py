@@ -56,7 +56,7 @@ try:
     from legorize_addon.core.pipeline import legorize
     from legorize_addon.core.progress import Meter, Overall, Progress, duration, part
     from legorize_addon.core.report.checks import failed_checks
-    from legorize_addon.core.report.outputs import output_texts
+    from legorize_addon.core.report.outputs import CERTAIN, output_texts
     from legorize_addon.core.report.report import report
     from legorize_addon.core.report.summary import summary
     from legorize_addon.core.settings import Settings, choices, renamed, setting_type
@@ -252,11 +252,23 @@ def add_flag(group: Any, entry: Field[Any]) -> None:
     elif words:
         options["choices"] = words
     else:
-        options.update(type=kind, metavar=kind.__name__.upper())
+        options.update(type=whole if kind is int else kind, metavar=kind.__name__.upper())
     group.add_argument(f"--{entry.name.replace('_', '-')}", **options)
     if entry.metadata["was"]:
         earlier = f"--{entry.metadata['was'].replace('_', '-')}"
         group.add_argument(earlier, **{**options, "dest": entry.metadata["was"], "help": argparse.SUPPRESS})
+
+
+def whole(text: str) -> int:
+    """Return a whole number, in any form."""
+    try:
+        found = float(text)
+    except ValueError:
+        found = 0.5
+    if not found.is_integer():
+        raise argparse.ArgumentTypeError(f"{text!r} is no whole number")
+    # an integer has more digits than a float
+    return int(text) if text.strip().lstrip("+-").isdecimal() else int(found)
 
 
 def section(text: str) -> Section:
@@ -321,7 +333,7 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
             objects, left_out, up = load(source, frame=taken.frame, names=taken.object, up=settings.up)
         with timed(seconds, "read", line), quiet():
             mesh, remarks = read_rendered(objects, bpy.context)
-        folder = stack.enter_context(new_folder(out))
+        folder = stack.enter_context(new_folder(out, names=CERTAIN))
         stop.temporary = temporary_of(folder)
         # in builds: measured without a proof at 48 to 192 studs, guessed for the proof and the pictures
         later = {"report": 0.03 + wanted.bound, "files": 0.03, "layer maps": 0.2 * wanted.layers}

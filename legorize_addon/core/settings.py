@@ -68,7 +68,7 @@ class Settings:
         "surface", "Whether texels count by the surface that they cover, or every texel of the image counts once "
         "(as in the paper).", group="Colours")
     palette: str = setting(
-        "", "LDraw codes of the colours to use, separated by commas; empty for all colours that are made today.",
+        "", "LDraw codes of the colours to use, separated by commas or spaces; empty for all that are made today.",
         group="Colours")
     one_to_one: bool = setting(
         False, "Give each dominant colour a brick colour of its own.", group="Colours")

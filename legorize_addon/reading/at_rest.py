@@ -13,7 +13,7 @@ import mmap
 import shutil
 import struct
 from collections.abc import Iterator
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any, Final
 from urllib.parse import quote
 
@@ -52,7 +52,8 @@ def without_animation(source: Path, folder: Path) -> Path | None:
     if not _take_animation(scene):
         return None
     for entry in _beside(scene):
-        entry["uri"] = f"{quote(source.resolve().parent.as_posix())}/{entry['uri']}"
+        # joined to a path that is absolute already, it stays that one
+        entry["uri"] = str(PurePosixPath(quote(source.resolve().parent.as_posix())) / entry["uri"])
     (folder / source.name).write_text(json.dumps(scene), encoding="utf-8")
     return folder / source.name
 

@@ -7,10 +7,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
+import bmesh
 import bpy
+import numpy as np
 
 from ..core.errors import MeshError, SettingsError
-from ..core.files.sources import check_source, unchanged
+from ..core.files.sources import check_source, is_lost, unchanged, without_lost_places
 from ..scene import builds, clear_build
 from .at_rest import ANIMATED, fbx_is_animated, without_animation
 from .gltf_importer import readable_extensions
@@ -77,9 +79,19 @@ def load(source: Path, *, frame: int | None = None, names: Sequence[str] = (), u
         raise SettingsError(f"{kind} files hold no animation: leave --frame out.")
     with unchanged(source):
         losses = check_source(source, readable_extensions() if kind in GLTF else ())
-        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        lost_textures = kind in GLTF and bool(losses)
+        # a stop in the midst of it is Blender's to print, and comes out afterwards
+        with quiet():
+            bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         at_rest = frame is None and kind in ANIMATED
-        losses += _import_at_rest(source, kind) if at_rest else _run(source, kind, source)
+        with tempfile.TemporaryDirectory(prefix="legorize-") as folder:
+            path, lost = without_lost_places(source, Path(folder))
+            losses += lost
+            losses += _import_at_rest(source, kind, path) if at_rest else _run(source, kind, path)
+        if lost:
+            _take_lost()
+        if lost_textures:
+            _fill_textures()
     if frame is not None:
         bpy.context.scene.frame_set(frame)
     # else the bricks would be legorized, as they have hidden what they were made of, which other scenes may show too
@@ -99,15 +111,43 @@ def _may_show(obj: bpy.types.Object) -> bool:
     return has_surface(obj) or (group is not None and not group.is_missing)
 
 
-def _import_at_rest(source: Path, kind: str) -> tuple[str, ...]:
-    """Import a file without its animation; return remarks on that and on other losses."""
+def _fill_textures() -> None:
+    """Give textures that were lost a white image: what is multiplied with them stays, and they are told already."""
+    trees = [material.node_tree for material in bpy.data.materials if material.node_tree]
+    bare = [node for tree in trees for node in tree.nodes if node.type == "TEX_IMAGE" and node.image is None]
+    if not bare:
+        return
+    white = bpy.data.images.new("Lost texture", 1, 1)
+    white.pixels = (1.0, 1.0, 1.0, 1.0)
+    for node in bare:
+        node.image = white
+
+
+def _take_lost() -> None:
+    """Take the vertices that have no place out of all meshes, with their faces."""
+    for mesh in bpy.data.meshes:
+        places = np.empty(len(mesh.vertices) * 3, dtype=np.float32)
+        mesh.vertices.foreach_get("co", places)
+        lost = np.flatnonzero(is_lost(places.reshape(-1, 3)))
+        if not len(lost):
+            continue
+        changed = bmesh.new()
+        changed.from_mesh(mesh)
+        changed.verts.ensure_lookup_table()
+        bmesh.ops.delete(changed, geom=[changed.verts[row] for row in lost.tolist()], context="VERTS")
+        changed.to_mesh(mesh)
+        changed.free()
+
+
+def _import_at_rest(source: Path, kind: str, path: Path) -> tuple[str, ...]:
+    """Import a file, or a copy of it, without its animation; return remarks on that and on other losses."""
     if kind == ".fbx":
-        losses = _run(source, kind, source, use_anim=False)
+        losses = _run(source, kind, path, use_anim=False)
         animated = fbx_is_animated(source)
     else:
         with tempfile.TemporaryDirectory(prefix="legorize-") as folder:
-            copy = without_animation(source, Path(folder))
-            losses = _run(source, kind, copy or source)
+            copy = without_animation(path, Path(folder))
+            losses = _run(source, kind, copy or path)
         animated = copy is not None
     for armature in bpy.data.armatures:
         armature.pose_position = "REST"
@@ -122,6 +162,11 @@ def _run(source: Path, kind: str, path: Path, **more: Any) -> tuple[str, ...]:
         with quiet() as said:
             operator(filepath=str(path.resolve()), **options, **more)
     except RuntimeError as error:
+        if RecursionError.__name__ in str(error):
+            raise MeshError(
+                f"The objects of {source.name} are nested deeper than Blender can read: flatten their hierarchy and "
+                "export it again."
+            ) from error
         raise MeshError(f"{source.name} cannot be read as {kind} ({_reason(path, error)}): export it again.") from error
     return told_losses(source, bytes(said))
 

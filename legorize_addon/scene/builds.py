@@ -58,6 +58,11 @@ def damage(build: bpy.types.Collection) -> str | None:
     return None
 
 
+def n_deleted(build: bpy.types.Collection) -> int:
+    """Return how many of the objects whose points are the bricks were deleted since."""
+    return max(state_of(build).objects - len(point_objects(build)), 0)
+
+
 def check_whole(build: bpy.types.Collection) -> None:
     """Refuse a damaged build.
 

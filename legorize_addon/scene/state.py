@@ -199,6 +199,11 @@ class BuildState:
         return list(self._group.get("notes", ()))
 
     @property
+    def objects(self) -> int:
+        """Objects whose points are the bricks, as they were made; 0 where an earlier version did not say."""
+        return int(self._group.get("objects", 0))
+
+    @property
     def summary(self) -> dict[str, Any]:
         """Figures of the finished model, see :func:`~legorize_addon.scene.figures.summary`."""
         return self._plain("summary")
@@ -306,6 +311,7 @@ def write_state(
     BuildState
     """
     build[BUILD_KEY] = {
+        "objects": sum(thing.type == "MESH" for thing in build.all_objects),
         "version": VERSION,
         "origin": [float(value) for value in origin],
         "sources": {str(i): source.stored() for i, source in enumerate(sources)},

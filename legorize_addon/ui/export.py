@@ -12,11 +12,20 @@ from bpy_extras.io_utils import ExportHelper
 from ..core.errors import BuildError
 from ..core.model import Assembly, Role, load_catalogue
 from ..render import AZIMUTH, render_still
-from ..scene import read_bricks
+from ..scene import n_deleted, read_bricks
 from .build import OnBuild
 from .properties import current_build, label
 
 VIEWS: Final = [*((view, label(view), "") for view in AZIMUTH), ("section", "Section", "Onto the cut")]
+
+
+def written(path: Path, build: bpy.types.Collection) -> tuple[set[str], str]:
+    """Return what to report of a file with the bricks of a build: a warning if some of them were deleted."""
+    gone = n_deleted(build)
+    if not gone:
+        return {"INFO"}, f"Wrote {path}."
+    objects = "1 object that was" if gone == 1 else f"{gone} objects that were"
+    return {"WARNING"}, f"Wrote {path} without the bricks of {objects} deleted: build the model again for all of them."
 
 
 class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
@@ -42,7 +51,7 @@ class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
         path, bricks = chosen_path(self), read_bricks(build)
         finished = bricks.take(bricks.role != Role.SUPPORT_OUTSIDE)
         write_whole(path, write_ldr(Assembly(finished, load_catalogue()), name=path.name, title=build.name))
-        self.report({"INFO"}, f"Wrote {path}.")
+        self.report(*written(path, build))
         return {"FINISHED"}
 
 
@@ -69,7 +78,7 @@ class LEGORIZE_OT_export_mpd(OnBuild, bpy.types.Operator, ExportHelper):
         path, assembly = chosen_path(self), Assembly(read_bricks(build), load_catalogue())
         name, steps = path.with_suffix(".ldr").name, steps_of(assembly)
         write_whole(path, write_mpd(assembly, steps, name=name, title=build.name))
-        self.report({"INFO"}, f"Wrote {path}.")
+        self.report(*written(path, build))
         return {"FINISHED"}
 
 

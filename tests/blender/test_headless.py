@@ -65,6 +65,7 @@ def out(tmp_path: Path) -> Path:
     folder = tmp_path / "out"
     folder.mkdir()
     (folder / "model.ldr").write_text("an earlier model")
+    (folder / "report.json").write_text('{"files": {"model.ldr": "checksum"}}')
     (folder / "mine.txt").write_text("not yours")
     return folder
 
@@ -459,6 +460,19 @@ def test_existing_folder_keeps_other_files(script: ModuleType, out: Path, tmp_pa
     assert (out / "model.ldr").read_text().startswith("0 box\n")
 
 
+def test_own_file_with_the_name_of_a_result_is_kept(
+    script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A file that no earlier run wrote is not replaced, and that is said before the work begins."""
+    add_box(BOX)
+    source = save(tmp_path / "box.blend")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "parts.csv").write_text("the user's")
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--width", "4"]) == 1
+    assert "parts.csv is a file that no earlier run wrote: move it away" in capsys.readouterr().err
+    assert contents(tmp_path / "out") == {"parts.csv": b"the user's"}
+
+
 def test_every_setting_is_a_flag(script: ModuleType) -> None:
     """Each field of Settings has its flag, and only what is said is changed."""
     parser, text = script.parser(), script.parser().format_help()
@@ -466,6 +480,7 @@ def test_every_setting_is_a_flag(script: ModuleType) -> None:
         assert f"--{entry.name.replace('_', '-')}" in text
     plain = vars(parser.parse_args(["in.obj", "--out", "out"]))
     assert not plain.keys() & {entry.name for entry in fields(Settings)}
+    assert parser.parse_args(["in.obj", "--out", "out", "--width", "1e3"]).width == 1000
     said = ["--no-hollow", "--one-to-one", "--cusp", "1.5", "--palette", "1,4", "--sampling", "image", "--height", "9"]
     options = vars(parser.parse_args(["in.obj", "--out", "out", *said]))
     given = {name: value for name, value in options.items() if name not in plain}
@@ -479,7 +494,8 @@ def test_every_setting_is_a_flag(script: ModuleType) -> None:
     [
         (["--width", "0"], "width is 0"),
         (["--width", "100000"], "width is 100000"),
-        (["--width", "many"], "--width"),
+        (["--width", "many"], "'many' is no whole number"),
+        (["--width", "12.5"], "'12.5' is no whole number"),
         (["--scale", "nan"], "scale is nan"),
         (["--scale", "1000000"], "studs"),
         (["--width", "3", "--height", "4"], "not allowed with"),
@@ -653,6 +669,8 @@ def test_folder_in_the_place_of_a_result(
 ) -> None:
     """A folder that is called like a result stops everything before the first file is replaced."""
     add_box(BOX)
+    (out / "model.ldr").unlink()
+    (out / "report.json").unlink()
     (out / "report.json").mkdir()
     assert_refused(script, save(tmp_path / "box.blend"), out, "report.json is a folder", capsys, ["--width", "4"])
 

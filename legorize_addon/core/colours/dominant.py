@@ -254,7 +254,7 @@ def chosen_palette(text: str, catalogue: Catalogue) -> Codes:
     if not text.strip():
         return catalogue.codes
     known = {str(int(code)): code for code in catalogue.codes}
-    words = [word.strip() for word in text.split(",") if word.strip()]
+    words = text.replace(",", " ").split()
     unknown = [word for word in words if word not in known]
     if unknown or not words:
         raise SettingsError(

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Final
 
 from ..errors import BuildError
-from .manifest import seal
+from .manifest import refuse_strangers, seal
 from .paths import named, one_slash
 from .publishing import finish, replace_folder
 from .workplace import PREFIX, alone, clear_abandoned, workplace
@@ -19,17 +19,19 @@ NEW: Final = "new"
 
 
 @contextmanager
-def new_folder(out: Path) -> Iterator[Path]:
+def new_folder(out: Path, *, names: Collection[str] = ()) -> Iterator[Path]:
     """Yield a folder to write into; what it holds becomes the results at the end, and only if all went well.
 
     Parameters
     ----------
     out : pathlib.Path
         Folder of the results; it may be missing, or a link to a folder. The
-        user's own files in it stay. Files of the results' names are replaced
-        (a link by a file), and files of an earlier run that this one does not
-        write are removed, as far as that run's ``report.json`` lists them and
-        they are unchanged.
+        user's own files in it stay. Files of an earlier run are replaced if they
+        have the results' names, and removed if this one does not write them, as
+        far as that run's ``report.json`` lists them and they are unchanged.
+    names : collection of str, optional
+        Files that will certainly be written: whether they may is known before
+        the work.
 
     Yields
     ------
@@ -40,7 +42,8 @@ def new_folder(out: Path) -> Iterator[Path]:
     Raises
     ------
     BuildError
-        The folder cannot be written, or something stands in the way of a file.
+        The folder cannot be written, or something stands in the way of a file,
+        such as one of the user's that has its name.
     """
     named(str(out), "folder", BuildError)
     with writing(out):
@@ -50,6 +53,7 @@ def new_folder(out: Path) -> Iterator[Path]:
         near = _near(target)
         for place in {near, _nearest(target), target.parent}:
             clear_up(place)
+        refuse_strangers(target, names)
     with ExitStack() as stack:
         with writing(out):
             work = stack.enter_context(workplace(near))

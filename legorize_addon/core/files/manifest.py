@@ -7,9 +7,13 @@ of one run, and what the user has changed since is the user's.
 from __future__ import annotations
 
 import json
+import os
+from collections.abc import Iterable
 from hashlib import sha256
 from pathlib import Path, PurePosixPath
 from typing import Final
+
+from ..errors import BuildError
 
 REPORT: Final = "report.json"
 FILES: Final = "files"
@@ -57,6 +61,22 @@ def ours(folder: Path) -> set[str]:
     files = listed(folder)
     same = {name for name, digest in files.items() if _is_file(folder / name, digest)}
     return same | {REPORT} if files else set()
+
+
+def refuse_strangers(folder: Path, names: Iterable[str]) -> None:
+    """Refuse to replace files that no earlier run wrote.
+
+    Raises
+    ------
+    BuildError
+        A file or link in the folder has one of the names, and its report does not list it.
+    """
+    files = listed(folder)
+    known = {*files, REPORT} if files else set()
+    for name in names:
+        if name not in known and os.path.lexists(folder / name):
+            what = "a folder" if (folder / name).is_dir() else "a file that no earlier run wrote"
+            raise BuildError(f"{folder / name} is {what}: move it away, or choose another folder for the results.")
 
 
 def changed(folder: Path) -> list[str]:

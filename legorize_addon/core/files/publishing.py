@@ -20,7 +20,7 @@ from typing import Final
 
 from ..errors import BuildError
 from .exchange import exchange
-from .manifest import names_in, ours
+from .manifest import names_in, ours, refuse_strangers
 from .workplace import JOURNAL
 
 OLD: Final = "old"
@@ -55,11 +55,13 @@ class Moves:
         Raises
         ------
         BuildError
-            A folder stands where a file has to be, or the other way round.
+            A folder stands where a file has to be, or the other way round, or
+            a file that no earlier run wrote.
         """
         files = names_in(fresh)
         for name in files:
             _check_way(target, name)
+        refuse_strangers(target, files)
         stale = sorted(ours(target) - set(files))
         return cls(os.path.relpath(target, work), os.path.relpath(fresh, work), tuple(files), tuple(stale))
 

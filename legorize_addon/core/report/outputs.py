@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import Any, Final
 
 from ..build import Build
 from ..errors import enough_memory
@@ -20,6 +20,9 @@ from ..files import (
 )
 from ..model import Assembly, Catalogue
 from .paper_tables import paper_tables
+
+CERTAIN: Final = ("model.ldr", "model.mpd", "build_order.csv", "parts.csv", "report.json")
+"""Files that every build has."""
 
 
 @enough_memory()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
+import tempfile
 from pathlib import Path
 
 import bpy
@@ -15,6 +16,8 @@ from legorize_addon.reading.at_rest import fbx_is_animated, without_animation
 from legorize_addon.reading.importers import load
 from legorize_addon.reading.objects import read_rendered
 from tests.blender.builders import add_object
+from tests.core.files.sources.test_lost_places import write as write_box
+from tests.core.files.sources.written import TRIANGLES
 
 IMPORTED = [".glb", ".gltf", ".fbx"]
 REMARK = "was left out: --frame takes the pose of a frame."
@@ -334,3 +337,39 @@ def test_hidden_objects_cannot_be_named(tmp_path: Path) -> None:
     box("hidden").hide_render = True
     with pytest.raises(MeshError, match="no object 'hidden'"):
         load(save(tmp_path / "scene.blend"), names=("hidden",))
+
+
+@pytest.mark.parametrize("name", ["a.obj", "a.stl", "text.stl", "a.ply", "big.ply", "text.ply", "a.glb", "a.gltf"])
+def test_vertices_without_a_place_bend_nothing(name: str, tmp_path: Path) -> None:
+    """A box with one corner that is nowhere lacks the faces at it, the others are where they were, and that is told."""
+    objects, remarks, _ = load(write_box(tmp_path, name, float("nan"), [7]))
+    mesh, more = read_rendered(objects, bpy.context)
+    corners = np.round(mesh.vertices[mesh.faces] / 1000, 3)
+    assert len(mesh.faces) == 12 - int((TRIANGLES == 7).any(axis=1).sum())
+    assert ((corners == 0) | (np.abs(corners) == 1)).all()
+    # no face leans, as one that ends at the origin instead would
+    assert (np.ptp(corners, axis=1) == 0).any(axis=1).all()
+    assert [remark for remark in (*remarks, *more) if "not finite numbers: the faces at" in remark]
+    assert not list(Path(tempfile.gettempdir()).glob("legorize-*/" + name))
+
+
+def test_a_file_with_nothing_but_such_vertices_is_refused(tmp_path: Path) -> None:
+    """Nothing is left that could be built."""
+    objects, _, _ = load(write_box(tmp_path, "a.obj", float("nan"), list(range(8))))
+    with pytest.raises(MeshError):
+        read_rendered(objects, bpy.context)
+
+
+def test_an_animated_file_loses_both(tmp_path: Path) -> None:
+    """A .gltf with animation and a vertex without a place: the copy of the copy finds its files."""
+    box("lid")
+    animate(bpy.context.object, 0, 3)
+    path = save(tmp_path / "lid.gltf")
+    data = bytearray((tmp_path / "lid.bin").read_bytes())
+    document = json.loads(path.read_text(encoding="utf-8"))
+    accessor = document["accessors"][document["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+    struct.pack_into("<f", data, document["bufferViews"][accessor["bufferView"]].get("byteOffset", 0), float("inf"))
+    (tmp_path / "lid.bin").write_bytes(data)
+    _, remarks, _ = load(path)
+    assert any("the faces at it were left out" in remark for remark in remarks)
+    assert any(REMARK in remark for remark in remarks)

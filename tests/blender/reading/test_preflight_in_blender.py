@@ -16,6 +16,7 @@ bpy = pytest.importorskip("bpy", reason="needs Blender as a Python module")
 
 from legorize_addon.reading.gltf_importer import readable_extensions  # noqa: E402
 from legorize_addon.reading.importers import importers, load  # noqa: E402
+from legorize_addon.reading.objects import read_rendered  # noqa: E402
 from tests.blender.builders import add_image, image_material  # noqa: E402
 
 
@@ -121,3 +122,32 @@ def test_remark_of_a_loss(tmp_path: Path) -> None:
     assert len(loaded.objects) == 1
     [remark] = loaded.remarks
     assert "paint.png" in remark
+
+
+def test_textures_that_cannot_be_read_are_told_once(tmp_path: Path) -> None:
+    """One remark names the extension; the colour beside the texture is taken without another one."""
+    document = box_document()
+    document["meshes"][0]["primitives"][0]["material"] = 0
+    document["materials"] = [
+        {"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1], "baseColorTexture": {"index": 0}}}
+    ]
+    document["textures"] = [{"extensions": {"KHR_texture_basisu": {"source": 0}}}]
+    document["images"] = [{"mimeType": "image/ktx2", "uri": "a.ktx2"}]
+    document["extensionsUsed"] = ["KHR_texture_basisu"]
+    document["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC2"})
+    document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
+    (tmp_path / "a.ktx2").write_bytes(b"\xabKTX 20\xbb\r\n\x1a\n")
+    objects, remarks, _ = load(write_glb(tmp_path / "box.glb", document))
+    mesh, more = read_rendered(objects, bpy.context)
+    [remark] = [*remarks, *more]
+    assert "KHR_texture_basisu" in remark
+    colours = {tuple(colour) for row in set(mesh.face_image.tolist()) for colour in mesh.images[row].reshape(-1, 3)}
+    assert colours == {(255, 0, 0)}
+
+
+def test_nodes_nested_very_deep_are_a_sentence(tmp_path: Path) -> None:
+    """Three thousand nodes, one below the other, are more than the importer can follow: that is said, and the cure."""
+    document = box_document()
+    document["nodes"] = [*({"children": [number + 1]} for number in range(3000)), {"mesh": 0}]
+    with pytest.raises(MeshError, match="nested deeper than Blender can read: flatten"):
+        load(write_glb(tmp_path / "deep.glb", document))

@@ -11,10 +11,11 @@ import pytest
 import legorize_addon
 from legorize_addon.reading.importers import load
 from legorize_addon.render.still import render_still
-from legorize_addon.scene.builds import builds, damage, point_objects
+from legorize_addon.scene.builds import builds, damage, n_deleted, point_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
 from legorize_addon.scene.hidden_sources import HIDDEN_SOURCES_KEY, orphans
 from legorize_addon.scene.state import state_of
+from legorize_addon.ui.export import written
 from legorize_addon.ui.properties import current_build
 from tests.blender.bricks import content, instances, show, table
 
@@ -226,3 +227,16 @@ def test_file_with_a_damaged_model_is_read(cube, tmp_path) -> None:
     path = tmp_path / "damaged.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     assert {thing.name for thing in load(path).objects} == {"Cube"}
+
+
+def test_exports_tell_of_deleted_bricks(cube, tmp_path) -> None:
+    """A model of which one layer's bricks were deleted is not exported as if it were whole."""
+    bpy.ops.legorize.build()
+    build = current_build(bpy.context.scene)
+    assert (n_deleted(build), written(tmp_path, build)[0]) == (0, {"INFO"})
+    bpy.data.objects.remove(point_objects(build)[0])
+    assert n_deleted(build) == 1
+    kind, text = written(tmp_path / "a.ldr", build)
+    assert kind == {"WARNING"}
+    assert "without the bricks of 1 object that was deleted" in text
+    assert bpy.ops.legorize.export_ldr(filepath=str(tmp_path / "a.ldr")) == {"FINISHED"}

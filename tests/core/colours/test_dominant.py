@@ -247,7 +247,8 @@ def test_only_the_chosen_palette_is_used():
 
 
 @pytest.mark.parametrize(
-    ("text", "codes"), [("4", [4]), (" 4,14 ", [4, 14]), ("14, 4, 4,", [4, 14]), ("0,1,15", [0, 1, 15])]
+    ("text", "codes"),
+    [("4", [4]), (" 4,14 ", [4, 14]), ("14, 4, 4,", [4, 14]), ("4\n14", [4, 14]), ("0,1,15", [0, 1, 15])],
 )
 def test_palette_names_codes(text, codes):
     """A palette is a list of codes in any order, each counted once."""

@@ -169,6 +169,26 @@ def test_something_in_the_way_changes_nothing(out: Path, way: str, name: str, wo
     assert [entry.name for entry in out.parent.iterdir()] == ["out"]
 
 
+@pytest.mark.parametrize("name", ["only-new.txt", "deep/mine.txt"])
+@pytest.mark.parametrize("link", [False, True])
+def test_files_that_no_run_wrote_are_not_replaced(out: Path, way: str, name: str, link: bool) -> None:
+    """A file or link of the user's that has the name of a result refuses the run, and stays."""
+    (out / name).unlink(missing_ok=True)
+    (out / name).parent.mkdir(exist_ok=True)
+    if link:
+        (out / name).symlink_to("nowhere")
+    else:
+        (out / name).write_text("mine")
+    before = contents(out)
+    with pytest.raises(BuildError, match=f"{name} is a file that no earlier run wrote"), new_folder(out) as folder:
+        write(folder, {name: "new", "report.json": "{}"})
+    assert contents(out) == before
+    with pytest.raises(BuildError, match=f"{name} is a file that"), new_folder(out, names=[name]):
+        pytest.fail("this is known before the work")
+    assert contents(out) == before
+    assert [entry.name for entry in out.parent.iterdir()] == ["out"]
+
+
 def test_folders_of_the_user_stay_where_they_are(out: Path, way: str) -> None:
     """With a folder of the user's, files are moved one by one, and the folder is the same one."""
     write(out, {"photos/holiday/1.txt": "sea"})

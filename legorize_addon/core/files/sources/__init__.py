@@ -10,9 +10,12 @@ Nothing here needs Blender.
 
 from __future__ import annotations
 
+from .lost_places import is_lost, without_lost_places
 from .preflight import check_source, unchanged
 
 __all__ = [
     "check_source",
+    "is_lost",
     "unchanged",
+    "without_lost_places",
 ]

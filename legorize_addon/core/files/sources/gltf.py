@@ -10,7 +10,7 @@ from typing import Any, Final, TypeAlias
 
 from ...errors import MeshError
 from .damage import damaged
-from .gltf_arrays import check_arrays, lost_places
+from .gltf_arrays import check_arrays
 from .gltf_buffers import buffers
 from .gltf_extensions import check_extensions, lost_textures
 from .gltf_structure import check_structure
@@ -21,7 +21,7 @@ _VERSION: Final = "2.0"
 
 
 def check_gltf(source: Path, extensions: Collection[str]) -> tuple[str, ...]:
-    """Refuse a glTF file that the importer cannot read; tell which textures and vertices it cannot.
+    """Refuse a glTF file that the importer cannot read; tell which textures it cannot.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def check_gltf(source: Path, extensions: Collection[str]) -> tuple[str, ...]:
     check_extensions(source, document, extensions)
     data = buffers(source, document, binary)
     check_arrays(source, document, data)
-    return (*lost_places(source, document, data), *lost_textures(source, document, data, extensions))
+    return lost_textures(source, document, data, extensions)
 
 
 def read_gltf(source: Path) -> tuple[Json, memoryview | None]:

@@ -62,23 +62,19 @@ def check_arrays(source: Path, document: Json, buffers: Buffers) -> None:
             _check_primitive(source, place, primitive, document, buffers)
 
 
-def lost_places(source: Path, document: Json, buffers: Buffers) -> tuple[str, ...]:
-    """Return a remark if vertices have no place: the importer puts them at the origin, which bends the shape."""
+def places(document: Json, buffers: Buffers) -> Iterator[tuple[int, np.ndarray]]:
+    """Yield the places of vertices, each array once: its buffer, and a view of that, (n, 3) float32.
+
+    Left out are arrays that are compressed, or sparse.
+    """
     accessors, views = document.get("accessors", []), document.get("bufferViews", [])
     numbers = {each.get("attributes", {}).get("POSITION") for _, each in _primitives(document)} - {None}
-    lost = sum(_without_place(accessors[number], views, buffers) for number in numbers)
-    if not lost:
-        return ()
-    which = "1 vertex whose coordinates are" if lost == 1 else f"{lost} vertices whose coordinates are"
-    moved = "it was" if lost == 1 else "they were"
-    return (f"{source.name} has {which} not finite numbers: {moved} put at the origin.",)
-
-
-def _without_place(accessor: Json, views: list[Json], buffers: Buffers) -> int:
-    """Return how many points of an array are no numbers or infinite; 0 where they are compressed."""
-    places = accessor["componentType"] == _FLOAT and accessor["type"] == "VEC3"
-    points = _rows(accessor, views, buffers, "<f4", 3) if places else None
-    return 0 if points is None else int((~np.isfinite(points)).any(axis=1).sum())
+    for number in sorted(numbers):
+        accessor = accessors[number]
+        points = accessor["componentType"] == _FLOAT and accessor["type"] == "VEC3"
+        rows = _rows(accessor, views, buffers, "<f4", 3) if points else None
+        if rows is not None:
+            yield views[accessor["bufferView"]]["buffer"], rows
 
 
 def _rows(accessor: Json, views: list[Json], buffers: Buffers, kind: str, width: int) -> np.ndarray | None:
