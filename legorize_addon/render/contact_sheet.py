@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.files import replacing
-from ..view import check_steps, n_steps, show_steps, steps_done
+from ..view import check_steps, highlight_step, highlighted, n_steps, show_steps, steps_done
 from .still import render_still
 
 MARGIN: Final = 4
@@ -55,10 +55,11 @@ def render_contact_sheet(
         The build does not know its steps, or the file cannot be written there.
     """
     check_steps(build)
-    before = steps_done(build)
+    before, bright = steps_done(build), highlighted(build)
     with replacing(path, "picture") as partial, tempfile.TemporaryDirectory() as folder:
         frame, taken = Path(folder) / "frame.png", []
         try:
+            highlight_step(build, visible=False)
             for steps in even_steps(n_steps(build), pictures):
                 show_steps(build, steps)
                 render_still(
@@ -67,6 +68,7 @@ def render_contact_sheet(
                 taken.append(_pixels(frame))
         finally:
             show_steps(build, before)
+            highlight_step(build, visible=bright)
         _write(tiled(taken), partial)
 
 

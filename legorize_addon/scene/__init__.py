@@ -21,7 +21,22 @@ from .builds import (
 )
 from .collections import clear_build, read_bricks, show_build, steps_of
 from .hidden_sources import orphans, show_orphans
-from .instancing import EXPLODE, HEAT_KEY, HEAT_MAP, HEAT_PARTS, STEPS, bricks_modifier, plastic, set_input
+from .instancing import (
+    EXPLODE,
+    HEAT_KEY,
+    HEAT_MAP,
+    HEAT_PARTS,
+    MATERIAL_KEY,
+    PALE,
+    PALE_KEY,
+    PARTS,
+    STEPS,
+    bricks_modifier,
+    get_input,
+    has_input,
+    plastic,
+    set_input,
+)
 from .model import Model, Source
 from .part_meshes import Detail, detail_of, parts_collection, parts_in_use, set_detail
 from .placing import layer_collections
@@ -40,7 +55,11 @@ __all__ = [
     "JOINED",
     "LAYER_KEY",
     "MARGIN",
+    "MATERIAL_KEY",
     "NO_MARGIN",
+    "PALE",
+    "PALE_KEY",
+    "PARTS",
     "REMOVED",
     "ROLE_KEY",
     "STEPS",
@@ -60,6 +79,8 @@ __all__ = [
     "clear_build",
     "damage",
     "detail_of",
+    "get_input",
+    "has_input",
     "hidden_side",
     "is_own",
     "layer_collections",

@@ -8,7 +8,8 @@ attribute ``heat`` counts in: there the same parts have other colours. "Explode"
 lifts each piece by its attribute ``tier``. From one on, "Steps" leaves what is
 there after that many building steps, by the attributes ``step``, in which a
 brick is placed, and ``removed``; until the step ``joined``, a piece stands
-``aside``.
+``aside``. With "Pale" a brick that was there before the last step counts so many
+variants on: there the same parts are pale.
 """
 
 from __future__ import annotations
@@ -25,9 +26,10 @@ from ..core.units import PLATE
 
 TREE_NAME: Final = "Legorize Bricks"
 TREE_KEY: Final = "legorize_tree"
-TREE_VERSION: Final = 4
+TREE_VERSION: Final = 5
 MATERIAL_KEY: Final = "legorize_colour"
 HEAT_KEY: Final = "legorize_heat"
+PALE_KEY: Final = "legorize_pale"
 MODIFIER_NAME: Final = "Bricks"
 PARTS: Final = "Parts"
 SECTION: Final = "Section"
@@ -35,6 +37,7 @@ HEAT_PARTS: Final = "Heat parts"
 HEAT_MAP: Final = "Heat map"
 EXPLODE: Final = "Explode"
 STEPS: Final = "Steps"
+PALE: Final = "Pale"
 
 INTERFACE: Final = (
     ("Geometry", "INPUT", "NodeSocketGeometry"),
@@ -44,6 +47,7 @@ INTERFACE: Final = (
     (HEAT_MAP, "INPUT", "NodeSocketBool"),
     (EXPLODE, "INPUT", "NodeSocketFloat"),
     (STEPS, "INPUT", "NodeSocketInt"),
+    (PALE, "INPUT", "NodeSocketInt"),
     ("Geometry", "OUTPUT", "NodeSocketGeometry"),
 )
 
@@ -54,6 +58,12 @@ NODES: Final[dict[str, tuple[str, tuple[int, int], dict[str, Any], dict[str, Any
     "Variant": ("GeometryNodeInputNamedAttribute", (-400, -150), {"data_type": "INT"}, {"Name": "variant"}),
     "Heat": ("GeometryNodeInputNamedAttribute", (-400, -270), {"data_type": "INT"}, {"Name": "heat"}),
     "Pick": ("GeometryNodeSwitch", (-200, -200), {"input_type": "INT"}, {}),
+    "Last": ("ShaderNodeMath", (-1000, -900), {"operation": "SUBTRACT"}, {1: 1.0}),
+    "Newest": ("FunctionNodeCompare", (-800, -900), {"data_type": "INT", "operation": "GREATER_EQUAL"}, {}),
+    "Arrived": ("FunctionNodeCompare", (-800, -1100), {"data_type": "INT", "operation": "EQUAL"}, {}),
+    "Bright": ("FunctionNodeBooleanMath", (-600, -1000), {"operation": "OR"}, {}),
+    "Offset": ("GeometryNodeSwitch", (-400, -1000), {"input_type": "INT"}, {"True": 0}),
+    "Paler": ("ShaderNodeMath", (-300, -100), {"operation": "ADD"}, {}),
     "Choice": ("GeometryNodeSwitch", (-400, 0), {"input_type": "COLLECTION"}, {}),
     "Turn": ("GeometryNodeInputNamedAttribute", (-400, -400), {"data_type": "INT"}, {"Name": "turn"}),
     "Angle": ("ShaderNodeMath", (-200, -400), {"operation": "MULTIPLY"}, {1: math.pi / 2}),
@@ -100,7 +110,18 @@ LINKS: Final = (
     ("Choice", "Output", "Children", "Collection"),
     ("Children", "Instances", "Instances", "Instance"),
     ("In", HEAT_MAP, "Pick", "Switch"),
-    ("Variant", "Attribute", "Pick", "False"),
+    ("In", STEPS, "Last", 0),
+    ("Step", "Attribute", "Newest", "A"),
+    ("Last", "Value", "Newest", "B"),
+    ("Joined", "Attribute", "Arrived", "A"),
+    ("Last", "Value", "Arrived", "B"),
+    ("Newest", "Result", "Bright", 0),
+    ("Arrived", "Result", "Bright", 1),
+    ("Bright", "Boolean", "Offset", "Switch"),
+    ("In", PALE, "Offset", "False"),
+    ("Variant", "Attribute", "Paler", 0),
+    ("Offset", "Output", "Paler", 1),
+    ("Paler", "Value", "Pick", "False"),
     ("Heat", "Attribute", "Pick", "True"),
     ("Pick", "Output", "Instances", "Instance Index"),
     ("Turn", "Attribute", "Angle", 0),
@@ -222,7 +243,7 @@ def get_input(modifier: bpy.types.NodesModifier, name: str) -> Any:
 
 def is_brick_material(material: bpy.types.Material) -> bool:
     """Tell whether a material is one that :func:`plastic` made."""
-    return any(isinstance(material.get(key), int) for key in (MATERIAL_KEY, HEAT_KEY))
+    return any(isinstance(material.get(key), int) for key in (MATERIAL_KEY, HEAT_KEY, PALE_KEY))
 
 
 def colour_material(colour: Colour) -> bpy.types.Material:
@@ -271,6 +292,11 @@ def plastic(name: str, rgb: Sequence[int], key: str, value: int) -> bpy.types.Ma
     shader.inputs["Base Color"].default_value = (red, green, blue, 1.0)
     shader.inputs["Roughness"].default_value = 0.25
     return material
+
+
+def has_input(modifier: bpy.types.NodesModifier, name: str) -> bool:
+    """Tell whether the tree of a modifier has an input of a name: those of earlier versions have fewer."""
+    return any(socket.name == name and socket.in_out == "INPUT" for socket in modifier.node_group.interface.items_tree)
 
 
 def _identifier(modifier: bpy.types.NodesModifier, name: str) -> str:

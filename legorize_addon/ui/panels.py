@@ -13,7 +13,7 @@ import bpy
 from ..core.settings import Settings, choices
 from ..core.units import BRICK, STUD
 from ..scene import builds, check_lines, damage, orphans, state_of
-from ..view import LEGEND, has_margins, n_pieces, n_steps, roles_shown
+from ..view import LEGEND, can_highlight, has_margins, n_pieces, n_steps, roles_shown
 from . import job
 from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
 from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
@@ -171,6 +171,8 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
             slider = row.row()
             slider.active = view.by_steps
             slider.prop(view, "step", text="")
+            if view.by_steps and can_highlight(build):
+                self.layout.prop(view, "highlight")
             buttons = self.layout.row(align=True)
             buttons.operator(LEGORIZE_OT_booklet.bl_idname, text="Booklet", icon="DOCUMENTS")
             buttons.operator(LEGORIZE_OT_layer_maps.bl_idname, text="Layer Maps", icon="MESH_GRID")

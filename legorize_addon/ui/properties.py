@@ -23,6 +23,7 @@ from ..view import (
     exploded,
     has_margins,
     heat_map_shown,
+    highlight_step,
     n_steps,
     roles_shown,
     section_of,
@@ -214,6 +215,7 @@ def _set_step(self: bpy.types.PropertyGroup, value: int) -> None:
     build = _whole_build(self)
     if build and n_steps(build):
         show_steps(build, max(1, min(value, n_steps(build))))
+        highlight_step(build, visible=self.highlight)
 
 
 def _by_steps(self: bpy.types.PropertyGroup) -> bool:
@@ -225,6 +227,11 @@ def _set_by_steps(self: bpy.types.PropertyGroup, value: bool) -> None:
     build = _whole_build(self)
     if build and n_steps(build):
         show_steps(build, _step(self) if value else 0)
+        highlight_step(build, visible=value and self.highlight)
+
+
+def _update_highlight(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    _set_by_steps(self, _by_steps(self))
 
 
 def _update_sources(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -334,6 +341,12 @@ class LegorizeView(bpy.types.PropertyGroup):
         min=1,
         get=_step,
         set=_set_step,
+    )
+    highlight: BoolProperty(
+        name="Highlight step",
+        description="Show what was there before the step in pale colours, and supports tinted",
+        default=True,
+        update=_update_highlight,
     )
     heat_map: BoolProperty(
         name="Heat map",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .heat_map import LEGEND, has_margins, heat_map_shown, show_heat_map
+from .highlight import can_highlight, highlight_step, highlighted
 from .show_result import show_result
 from .steps import check_steps, explode, exploded, n_pieces, n_steps, steps_done
 from .visibility import (
@@ -19,6 +20,7 @@ from .visibility import (
 
 __all__ = [
     "LEGEND",
+    "can_highlight",
     "check_steps",
     "corners_while_building",
     "cut_away",
@@ -26,6 +28,8 @@ __all__ = [
     "exploded",
     "has_margins",
     "heat_map_shown",
+    "highlight_step",
+    "highlighted",
     "n_pieces",
     "n_steps",
     "readable",

@@ -10,6 +10,7 @@ import bpy
 from ..core.model import Role
 from ..scene import Section, damage, state_of
 from .heat_map import has_margins, heat_map_shown, show_heat_map
+from .highlight import highlight_step, highlighted
 from .steps import explode, exploded, n_steps, steps_done
 from .visibility import cut_away, roles_shown, section_of, show_layers, show_role, show_steps
 
@@ -32,6 +33,8 @@ class KeptView:
         Building steps that are done; 0 for all.
     heat_map : bool
         Whether its heat map is shown.
+    highlighted : bool
+        Whether what was there before the last step is pale.
     """
 
     roles: Mapping[Role, bool]
@@ -40,6 +43,7 @@ class KeptView:
     exploded: float
     steps: int
     heat_map: bool
+    highlighted: bool
 
     @classmethod
     def of(cls, builds: Sequence[bpy.types.Collection]) -> KeptView | None:
@@ -54,6 +58,7 @@ class KeptView:
                     exploded=exploded(build),
                     steps=steps_done(build),
                     heat_map=heat_map_shown(build),
+                    highlighted=highlighted(build),
                 )
         return None
 
@@ -76,6 +81,7 @@ class KeptView:
         if n_steps(build):
             explode(build, self.exploded)
             show_steps(build, min(self.steps, n_steps(build)))
+            highlight_step(build, visible=self.highlighted)
         if self.heat_map and has_margins(build):
             show_heat_map(build, visible=True)
 

@@ -83,7 +83,8 @@ def do_steps(build: bpy.types.Collection, steps: int) -> None:
     objects = point_objects(build)
     if before and steps:
         low, high = sorted((before, steps))
-        objects = [points for points in objects if _changes(points, low, high)]
+        # what was new before is not any more
+        objects = [points for points in objects if _changes(points, low - 1, high)]
     _set(objects, STEPS, steps)
 
 

@@ -2,8 +2,22 @@
 
 from __future__ import annotations
 
-from .booklet import Booklet
-from .layer_maps import layer_files, layer_pages
-from .paper import PAPERS
+from typing import TYPE_CHECKING
 
-__all__ = ["PAPERS", "Booklet", "layer_files", "layer_pages"]
+from ..on_demand import on_demand
+from .shades import TINTS, pale, tint_for, tinted
+
+if TYPE_CHECKING:
+    from .booklet import Booklet
+    from .layer_maps import layer_files, layer_pages
+    from .paper import PAPERS
+else:
+    # a scene needs the colours alone
+    __getattr__ = on_demand(
+        __name__,
+        booklet=("Booklet",),
+        layer_maps=("layer_files", "layer_pages"),
+        paper=("PAPERS",),
+    )
+
+__all__ = ["PAPERS", "TINTS", "Booklet", "layer_files", "layer_pages", "pale", "tint_for", "tinted"]
