@@ -13,6 +13,7 @@
     python scripts/benchmark.py layouts   [MESH ...] [--peer PY]   against the layouts of the field, and a peer
     python scripts/benchmark.py supports  [MESH ...] [--out DIR]   trees, columns and beams against full columns
     python scripts/benchmark.py building  [MESH ...] [--out DIR]   building orders, followed from their files
+    python scripts/benchmark.py steps     [MESH ...] [--out DIR]   whether hands can follow the building steps
     python scripts/benchmark.py judge     [MESH ...] --judge DIR   an external judge, on our bricks and on a peer's
     python scripts/benchmark.py kills    [MESH] [--runs N] [--out DIR] killed runs: old or new results, nothing left
     python scripts/benchmark.py fuzz     [--cases N] [--seed S]    random bodies with random settings, within limits
@@ -54,6 +55,7 @@ from scripts.benchmarks import (  # noqa: E402
     pipeline,
     slicing,
     stability,
+    steps,
     supports,
     units,
 )
@@ -174,6 +176,10 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
         "building": of_models(
             "whether every model can be built", building.measure, numbers("--widths", [64], "studs"),
             number("--split", 3, "most pieces"),
+        ),
+        "steps": of_models(
+            "whether hands can follow the building steps", steps.measure, numbers("--widths", [32, 48], "studs"),
+            number("--split", 8, "most pieces"),
         ),
         "judge": of_models(
             "an external judge", judge.measure, number("--width", 48, "studs"),

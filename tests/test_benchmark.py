@@ -23,7 +23,7 @@ from legorize_addon.core.settings import Settings  # noqa: E402
 from legorize_addon.core.slicing.slices import slice_mesh  # noqa: E402
 from legorize_addon.core.slicing.trajectories import link_loops  # noqa: E402
 from scripts import benchmark  # noqa: E402
-from scripts.benchmarks import clock, goals, hollowing, judge, layout_figures, meshes, slicing, surface  # noqa: E402
+from scripts.benchmarks import clock, goals, hollowing, judge, layout_figures, meshes, slicing, steps, surface  # noqa: E402
 from scripts.benchmarks.stablelego import placed  # noqa: E402
 from scripts.benchmarks.tables import Table  # noqa: E402
 
@@ -448,3 +448,20 @@ def test_budget_command(box: Path, tmp_path: Path) -> None:
     assert row["bricks_ratio"] == pytest.approx(row["bricks_expected"] / row["bricks"])
     assert 50 < row["megabytes"] < 5000
     assert [error["what"] for error in tables["budget_errors"]] == ["bricks", "seconds", "megabytes"]
+
+
+def test_steps_are_counted_and_judged(box: Path) -> None:
+    """A small box meets every goal of the steps; its figures are those of its build."""
+    build = legorize(meshes.read_mesh(box), Settings(width=8))
+    found = steps.figures(build)
+    assert found["bricks"] == len(build.bricks)
+    assert found["afloat"] == found["pressed"] == found["cramped"] == 0
+    assert found["components"] == found["pieces"] == 1
+    assert found["steps"] == len(build.supports.steps)
+
+
+def test_mirrored_parts_far_apart_in_the_order_are_found() -> None:
+    """Of two pairs, one is placed in neighbouring steps and one is not."""
+    bricks = placed([("3003", x, 0, z, 0) for x in (0, 8) for z in (0, 3)], load_catalogue())
+    assert steps.mirrored(bricks, np.array([0, 1, 1, 5], np.int32)) == 0.5
+    assert steps.mirrored(bricks.take(np.array([0, 3])), np.array([0, 1], np.int32)) is None

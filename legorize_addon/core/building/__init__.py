@@ -9,22 +9,26 @@ from .moves import Action, Moves
 from .steps import MAIN, Kind, Step, Steps, Submodel
 
 if TYPE_CHECKING:
+    from .alone import steps_alone
     from .blocking import column_pairs, tangled
     from .check import Walk, walk
     from .contacts import BuildingContacts, building_contacts
     from .order import plan_steps, steps_of
     from .proof import Proof, prove_steps
     from .towers import STEADY, Tipping, no_prop, tipping
+    from .units import presses
 else:
     # a scene needs the moves alone, long before anything is ordered
     __getattr__ = on_demand(
         __name__,
+        alone=("steps_alone",),
         blocking=("column_pairs", "tangled"),
         check=("Walk", "walk"),
         contacts=("BuildingContacts", "building_contacts"),
         order=("plan_steps", "steps_of"),
         proof=("Proof", "prove_steps"),
         towers=("STEADY", "Tipping", "no_prop", "tipping"),
+        units=("presses",),
     )
 
 __all__ = [
@@ -44,7 +48,9 @@ __all__ = [
     "column_pairs",
     "no_prop",
     "plan_steps",
+    "presses",
     "prove_steps",
+    "steps_alone",
     "steps_of",
     "tangled",
     "tipping",

@@ -39,6 +39,9 @@ NEW_LOT: Final = 3.0
 HIGHER: Final = 1.5
 """Studs of way that are gone for a part a plate lower."""
 
+WAITS: Final = 6.0
+"""Studs of way that are gone for a part whose image can be built as well."""
+
 ASIDE: Final = 5.0
 """Studs from which on what is left belongs to another step, if this one has parts enough."""
 
@@ -102,12 +105,13 @@ class _Grouping:
         corner = self.middle[ready].sum(axis=1)
         return int(ready[np.lexsort((ready, corner, way, self.tile[ready], ~self.temporary[ready]))[0]])
 
-    def _filled(self, begun: list[int], enough: int) -> list[int]:
-        """Fill a step that is begun with what fits to it, up to some bricks."""
+    def _filled(self, begun: list[int], enough: int, *, unpaired: bool = False) -> list[int]:
+        """Fill a step that is begun with what fits to it, up to some bricks; if asked for, without images elsewhere."""
         step = _Begun(self.atoms)
         for atom in begun:
             self._take(atom, step)
-        while step.size < (self.atoms.most if step.tile else enough) and (best := self._best(step)) is not None:
+        enough = self.atoms.most if step.tile else enough
+        while step.size < enough and (best := self._best(step, unpaired=unpaired)) is not None:
             self._take(best, step)
         self.found.append(step.taken)
         self.last = self.middle[step.taken].mean(axis=0)
@@ -120,9 +124,9 @@ class _Grouping:
             self.left[other] -= 1
             self.ready[other] = self.left[other] == 0 and not self.done[other]
 
-    def _best(self, step: _Begun) -> int | None:
+    def _best(self, step: _Begun, *, unpaired: bool) -> int | None:
         """Return what fits best to a step, if it shall go on."""
-        ready = np.flatnonzero(self.ready)
+        ready = np.flatnonzero(self.ready & (self.image == NOBODY) if unpaired else self.ready)
         ready = ready[step.fits(ready)]
         higher = np.abs(self.level[ready] - step.level)
         if step.temporary:
@@ -135,7 +139,9 @@ class _Grouping:
         if not len(ready):
             return None
         new, near = ~step.has_lot[self.lot[ready]], step.near[ready]
-        cost = near + NEW_LOT * new + HIGHER * (0 if step.temporary else 1) * higher
+        image = self.image[ready]
+        waits = (image != NOBODY) & ~self.ready[image] & ~self.done[image]
+        cost = near + NEW_LOT * new + HIGHER * (0 if step.temporary else 1) * higher + WAITS * waits
         if step.size >= FEW:
             cost[(near > ASIDE) | (new & (step.n_lots >= LOTS))] = np.inf
         best = int(np.argmin(cost))
@@ -145,7 +151,7 @@ class _Grouping:
         """Build the image of a step next, as far as it can be built."""
         images = self.image[step]
         found = [image for image in images.tolist() if image != NOBODY and self.ready[image]]
-        return self._filled(found, FEW) if found else found
+        return self._filled(found, FEW, unpaired=True) if found else found
 
 
 class _Begun:

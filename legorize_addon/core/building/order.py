@@ -117,17 +117,34 @@ class _Writer:
         )
 
     def _prepare(self, tables: Sequence[Table], turn: int) -> None:
-        """Build the submodels that a step needs, and with each those equal ones that are needed soon."""
-        soon = [
-            put.submodel
-            for ahead in range(turn, min(turn + SOON, len(tables[0].steps)))
-            for table in tables
-            for put in table.steps[ahead]
-            if put.submodel != NOBODY
+        """Build the submodels that a step needs, and with each those equal ones that are needed soon.
+
+        What the mirrored step after it needs is built before both, so that they follow each other.
+        """
+        ahead = [[put.submodel for table in tables for put in table.steps[each]] for each in _next(tables, turn)]
+        soon = [number for numbers in ahead for number in numbers if number != NOBODY]
+        both = len(ahead) > 1 and self._mirrored(tables[0], turn)
+        needed = [number for numbers in ahead[: 1 + both] for number in numbers if number != NOBODY]
+        for number in needed:
+            for each in (number, *self._images(number, needed)):
+                if each not in self.built:
+                    self._build_alike(each, [other for other in soon if other not in self.built])
+
+    def _mirrored(self, table: Table, turn: int) -> bool:
+        """Whether a step has images in the next one."""
+        here, there = (self._rows_in(table.steps[each]) for each in (turn, turn + 1))
+        return bool(np.isin(self.planner.image[here], there).any())
+
+    def _images(self, number: int, others: Sequence[int]) -> list[int]:
+        """Return the submodel that is the mirror image of one, if it is among some others."""
+        images = set(self.planner.image[self.planner.all_rows(number)].tolist())
+        return [other for other in others if images == set(self.planner.all_rows(other))]
+
+    def _rows_in(self, step: Sequence[Put]) -> list[int]:
+        """Return the bricks that a step puts on, those of submodels included."""
+        return [
+            row for put in step for row in ([put.brick] if put.brick != NOBODY else self.planner.all_rows(put.submodel))
         ]
-        for number in [put.submodel for table in tables for put in table.steps[turn] if put.submodel != NOBODY]:
-            if number not in self.built:
-                self._build_alike(number, [each for each in soon if each not in self.built])
 
     def _alike(self, one: int, other: int) -> bool:
         shape = self.planner.shape
@@ -153,3 +170,8 @@ class _Writer:
     def _row(self, action: Action, brick: int, submodel: int, *, pressed: bool) -> None:
         piece = self.planner.submodels[submodel].piece
         self.rows.append((action, brick, piece, submodel, pressed, self.step))
+
+
+def _next(tables: Sequence[Table], turn: int) -> range:
+    """Return the numbers of a step and of those after it."""
+    return range(turn, min(turn + SOON, len(tables[0].steps)))

@@ -156,26 +156,36 @@ class Steps:
             owner[each.rows] = each.number
         return owner
 
-    def outermost(self) -> NDArray[np.int32]:
-        """Return with which submodel each one comes to the main one, (n_submodels,), 0 of that itself."""
+    def outermost(self, *, within_pieces: bool = False) -> NDArray[np.int32]:
+        """Return with which submodel each one comes to the main one, (n_submodels,), 0 of that itself.
+
+        With ``within_pieces``, with which one it comes to its piece, and of a piece
+        its own number.
+        """
         outer = np.arange(len(self.submodels), dtype=np.int32)
         for each in self.submodels:
-            if each.parent > MAIN:
+            above = self.submodels[max(each.parent, MAIN)]
+            if above.number > MAIN and not (within_pieces and above.kind == Kind.PIECE):
                 outer[each.number] = outer[each.parent]
         return outer
 
-    def arrival(self, n_bricks: int) -> NDArray[np.int32]:
+    def arrival(self, n_bricks: int, *, within_pieces: bool = False) -> NDArray[np.int32]:
         """Return the step in which each brick comes to the main model, (n_bricks,).
 
         Of a brick that is placed there it is the step of that; of one in a
-        submodel the step in which that is put on, ``NOBODY`` if it never is.
+        submodel the step in which that is put on, ``NOBODY`` if it never is. With
+        ``within_pieces``, the step in which it comes to its piece.
         """
         moves = self.moves
         joins = moves.action == Action.JOIN
         joined = np.full(len(self.submodels), NOBODY, dtype=np.int32)
         joined[moves.submodel[joins]] = moves.step[joins]
         owner, placed = self.submodel_of(n_bricks), moves.step_of(n_bricks)
-        return np.where(owner > MAIN, joined[self.outermost()[owner]], placed).astype(np.int32)
+        large = np.array(
+            [each.kind == Kind.MAIN or (within_pieces and each.kind == Kind.PIECE) for each in self.submodels]
+        )
+        outer = self.outermost(within_pieces=within_pieces)
+        return np.where(large[owner], placed, joined[outer[owner]]).astype(np.int32)
 
     def _step(self, rows: Ints) -> Step:
         moves = self.moves

@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Ints, Mask
-from ..model import NOBODY, Rows, components, stacked
+from ..model import NOBODY, Assembly, Rows, components, stacked
 from .blocking import knots, of_nodes, unique_pairs
 
 LARGEST: Final = 0.25
@@ -68,6 +68,28 @@ def find_units(node: Ints, level: Ints, pairs: Rows, below: Rows, *, ground: Mas
     return _Hanging(node, level, pairs, below, ground).units()
 
 
+def presses(assembly: Assembly, below: Rows, node: Ints) -> bool:
+    """Tell whether bricks would have to be pressed from below if others are put on as pieces.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        n bricks.
+    below : (m, 2) int32 array
+        Lower and upper brick of those in a stud column, see :func:`column_pairs`.
+    node : (n,) int64 array
+        Number of what each brick is put on with.
+
+    Returns
+    -------
+    bool
+    """
+    level = assembly.bricks.corner[:, 2].astype(np.int64)
+    numbers = np.unique(node, return_inverse=True)[1].reshape(-1).astype(np.int64)
+    found = find_units(numbers, level, assembly.graph.pairs, below, ground=level == level.min())
+    return bool(found.pressed.any())
+
+
 class _Hanging:
     """The search for units among nodes: single bricks, and pieces that are built already."""
 
@@ -96,10 +118,10 @@ class _Hanging:
 
     def _gather(self, standing: list[int]) -> None:
         """Let held bricks take along what hangs under them, the lowest first."""
-        agenda: list[tuple[int, int]] = []
+        agenda: list[tuple[bool, int, int]] = []
         self._hold(standing, agenda)
         while agenda:
-            _, head = heapq.heappop(agenda)
+            _, _, head = heapq.heappop(agenda)
             hanging = self._below(head)
             if not hanging:
                 continue
@@ -111,13 +133,14 @@ class _Hanging:
             self.held[hanging] = True
             self._hold([one for each in hanging for one in self.over[each]], agenda)
 
-    def _hold(self, found: list[int], agenda: list[tuple[int, int]]) -> None:
+    def _hold(self, found: list[int], agenda: list[tuple[bool, int, int]]) -> None:
         """Mark bricks as held, and all that rests on them."""
         while found:
             each = found.pop()
             if not self.held[each]:
                 self.held[each] = True
-                heapq.heappush(agenda, (int(self.level[each]), each))
+                # a piece takes nothing along: it is asked when nobody else does
+                heapq.heappush(agenda, (bool(self.size[each] > 1), int(self.level[each]), each))
                 found += self.over[each]
 
     def _below(self, head: int) -> list[int]:

@@ -37,7 +37,7 @@ SNAP: Final = 0.01
 LINE_END: Final = "\r\n"
 
 
-def write_ldr(assembly: Assembly, *, name: str, title: str) -> str:
+def write_ldr(assembly: Assembly, *, name: str, title: str, follow: str = "") -> str:
     """Write bricks as one LDraw model.
 
     Parameters
@@ -48,6 +48,9 @@ def write_ldr(assembly: Assembly, *, name: str, title: str) -> str:
         File name, "model.ldr".
     title : str
         What the model shows, for the first line.
+    follow : str, optional
+        File that says how the model is built, which then is named, as well as the
+        number of each step there.
 
     Returns
     -------
@@ -57,7 +60,10 @@ def write_ldr(assembly: Assembly, *, name: str, title: str) -> str:
         reduced by the part's own symmetry; ``0 !LEGORIZE`` lines keep role and
         piece.
     """
-    return LINE_END.join([*header(name, title), *body(assembly), ""])
+    remark = (
+        [f"0 // The finished model. To build it, follow {one_line(follow)}: it has the supports."] if follow else []
+    )
+    return LINE_END.join([*header(name, title), *remark, *body(assembly, numbered=bool(follow)), ""])
 
 
 def ldraw_matrix(origin: Floats, scale: float, mm_per_unit: float) -> Floats:
@@ -153,8 +159,8 @@ def brick_lines(assembly: Assembly) -> list[str]:
     ]
 
 
-def body(assembly: Assembly) -> Iterator[str]:
-    """Yield the lines of bricks step by step, with roles, pieces and ends of steps between."""
+def body(assembly: Assembly, *, numbered: bool = False) -> Iterator[str]:
+    """Yield the lines of bricks step by step, with roles, pieces, ends of steps and, if asked for, numbers between."""
     turn, _ = _places(assembly.bricks, assembly.catalogue)
     lines = brick_lines(assembly)
     order = np.lexsort(
@@ -170,8 +176,11 @@ def body(assembly: Assembly) -> Iterator[str]:
     )
     table = np.column_stack([order, assembly.bricks.role[order], assembly.bricks.piece[order]])
     step_ends = np.diff(assembly.bricks.step[order], append=-1) != 0
-    kind = None
+    kind, begins = None, True
     for (row, role, piece), ends in zip(table.tolist(), step_ends.tolist(), strict=True):
+        if numbered and begins:
+            yield f"0 // Step {assembly.bricks.step[row] + 1}"
+        begins = ends
         if kind != (role, piece):
             kind = role, piece
             yield f"0 !LEGORIZE ROLE {Role(role).name} PIECE {piece}"

@@ -35,7 +35,7 @@ def output_texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], titl
     parts, supports = (count_parts(Assembly(bricks, catalogue)) for bricks in (build.bricks, build.supports.removed))
     everything = Assembly(build.supports.bricks, catalogue)
     return {
-        "model.ldr": write_ldr(Assembly(build.bricks, catalogue), name="model.ldr", title=title),
+        "model.ldr": write_ldr(build.supports.final_alone, name="model.ldr", title=title, follow="model.mpd"),
         "model.mpd": write_mpd(everything, build.supports.steps, name="model.ldr", title=title),
         "build_order.csv": _order(build, catalogue),
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",

@@ -20,6 +20,7 @@ from ..building import (
     Walk,
     building_contacts,
     plan_steps,
+    steps_alone,
     tipping,
     walk,
 )
@@ -108,6 +109,15 @@ class AssemblyPlan:
     def final(self) -> Assembly:
         """The model that is there in the end, each brick with the step in which it is placed."""
         return self.assembly.take(~self.temporary)
+
+    @property
+    def final_alone(self) -> Assembly:
+        """The model that is there in the end, each brick with the step from which on it stands without supports."""
+        final, bricks = self.final, self.bricks
+        arrival = self.steps.arrival(len(bricks), within_pieces=True)[~self.temporary]
+        level = final.bricks.corner[:, 2]
+        step = steps_alone(arrival, final.graph.pairs, ground=level == level.min(initial=0))
+        return replace(final, bricks=replace(final.bricks, step=step))
 
     @property
     def removed(self) -> Bricks:

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Ints, Mask
-from ..building import column_pairs, tangled
+from ..building import column_pairs, presses, tangled
 from ..model import Assembly, Bricks, Catalogue, ContactGraph, Rows, components
 from .demand import support_demand
 from .tree import tree
@@ -35,8 +35,8 @@ INTERFACE: Final = 4
 LEAST: Final = 0.02
 """Share of the bricks that lie on either side of a cut at least."""
 
-SMALLEST: Final = 2
-"""Bricks of each part at least where a cut leaves several below it: one alone is no piece."""
+SMALLEST: Final = 4
+"""Bricks of each part at least where a cut leaves several below it: less is no work of its own."""
 
 ROUNDS: Final = 4
 """Times that a cut is moved up where something would hang from it."""
@@ -98,7 +98,7 @@ def segment(assembly: Assembly, *, most: int, deepest: int) -> tuple[Assembly, t
             option
             for number in price
             for option in _options(assembly, piece, number, price[number], deepest)
-            if len(price) + len(option.lower) <= most and not tangled(below, _nodes(option.pieces(piece)))
+            if len(price) + len(option.lower) <= most and _fits(assembly, below, option.pieces(piece))
         ]
         if not options:
             break
@@ -248,6 +248,12 @@ def _is_piece(bricks: Bricks, graph: ContactGraph, part: Mask, mine: Mask, *, fi
     level = bricks.corner[:, 2]
     stands = first and level[part].min() == level[mine].min()
     return bool(stands or _joint(graph, part, ~mine) >= INTERFACE)
+
+
+def _fits(assembly: Assembly, below: Rows, piece: NDArray[np.int16]) -> bool:
+    """Whether pieces can be put on one after the other, and nothing hangs from them that would have to be pressed."""
+    nodes = _nodes(piece)
+    return not tangled(below, nodes) and not presses(assembly, below, nodes)
 
 
 def _nodes(piece: NDArray[np.int16]) -> Ints:

@@ -44,7 +44,7 @@ def test_step_that_falls_is_named():
     assert found.collapsing.tolist() == [2, 3]
     assert len(found.undecided) == 0
     [sentence] = remarks_on_proof(found)
-    assert "2 steps (3, 4) fall" in sentence
+    assert "after 2 steps (3, 4)" in sentence
 
 
 def test_supports_make_all_steps_stand():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from legorize_addon.core.building.contacts import building_contacts
@@ -15,6 +17,10 @@ from tests.core.standing import CATALOGUE, table
 MAST = [("3003", 0, 0, 3 * k) for k in range(4)]
 NESTED = table(*MAST, ("3008", 0, 0, 12), ("3005", 7, 0, 9), ("3005", 7, 0, 6), ("3024", 4, 0, 11))
 """A mast, a beam on it, a long and a short thing under the beam."""
+
+
+HOOK = (("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3010", 0, 0, 6), ("3024", 3, 0, 5))
+"""A mast with an arm, and a plate below its end."""
 
 
 def planned(bricks):
@@ -51,6 +57,19 @@ def test_submodels_nest():
     assert sorted([*outer.rows.tolist(), *inner.rows.tolist()]) == sorted(steps.all_rows(1).tolist()) == [4, 5, 6, 7]
     assert steps.outermost().tolist() == [0, 1, 1]
     assert [steps.floor(number, NESTED) for number in range(3)] == [0, 6, 11]
+
+
+def test_bricks_of_a_piece_arrive_there_before_the_piece_does():
+    """What is placed in a piece comes to it at once, to the model when the piece is joined."""
+    bricks = table(("3003", 0, 0, 0), ("3003", 0, 0, 3), *((part, x, y, z + 6) for part, x, y, z in HOOK))
+    bricks = replace(bricks, piece=np.array([0, 0, 1, 1, 1, 1], np.int16))
+    steps = planned(bricks)
+    placed, piece, model = steps.moves.step_of(6), steps.arrival(6, within_pieces=True), steps.arrival(6)
+    small = steps.submodel_of(6) == 2
+    assert small.sum() == 2
+    assert (piece[~small] == placed[~small]).all()
+    assert (piece[small] > placed[small]).all()
+    assert set(model[2:].tolist()) == {len(steps) - 1}
 
 
 def test_bricks_arrive_with_what_they_are_part_of():

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from legorize_addon.core.building.blocking import column_pairs
-from legorize_addon.core.building.units import find_units
+from legorize_addon.core.building.units import find_units, presses
+from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.contacts import contact_graph
 from tests.core.standing import CATALOGUE, table
 
@@ -62,6 +63,14 @@ def test_under_a_piece_it_is_pressed():
     found = units(*bricks, node=[0, 1, 1, 2], ground=[True, False, False, False])
     assert found.pressed.tolist() == [False, False, False, True]
     assert [found.unit[2], found.unit[3]] in found.before.tolist()
+
+
+def test_pieces_under_which_something_hangs_press():
+    """What would have to be pressed under a piece is found before the piece is made."""
+    bricks = table(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3010", 0, 0, 6), ("3024", 3, 0, 5))
+    below = column_pairs(bricks, CATALOGUE)
+    assert presses(Assembly(bricks, CATALOGUE), below, np.array([0, 5, 5, 9]))
+    assert not presses(Assembly(bricks, CATALOGUE), below, np.arange(4))
 
 
 def test_what_nothing_holds_is_loose():

@@ -116,6 +116,17 @@ def test_header_and_steps():
     ]  # fmt: skip
 
 
+def test_file_to_follow_is_named_with_the_numbers_of_its_steps():
+    """The first lines say where to look, and each step what it is called there."""
+    bricks = table([(0, 0, 0, 0, 0, 4, 0, 0, 3), (0, 1, 0, 0, 0, 4, 0, 0, 7), (0, 2, 0, 0, 0, 4, 0, 0, 7)])
+    lines = write_ldr(Assembly(bricks, CATALOGUE), name="m.ldr", title="m", follow="m.mpd").split("\r\n")
+    assert "m.mpd" in lines[3]
+    assert [line[:9] for line in lines if line.startswith(("1", "0 STEP", "0 // S"))] == [
+        "0 // Step", "1 4 10 -2", "0 STEP", "0 // Step", "1 4 30 -2", "1 4 50 -2", "0 STEP",
+    ]  # fmt: skip
+    assert [line for line in lines if line.startswith("0 // S")] == ["0 // Step 4", "0 // Step 8"]
+
+
 def test_sub_model_is_turned_moved_and_coloured_by_its_call():
     """A sub-model's brick is turned with it, moved with it, and takes its colour where it has none of its own."""
     text = """0 FILE main.ldr
