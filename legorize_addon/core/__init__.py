@@ -7,17 +7,17 @@ above it in this table.
 ===================  =======================================================================
 ``geometry``         helpers on plain arrays
 ``model``            catalogue, unit grid, table of bricks, graph of their contacts
-``mesh``             the triangle mesh at the door: checked, repaired, oriented, upright, scaled
+``mesh``             the triangle mesh: checked, repaired, oriented, upright, scaled
 ``colours``          dominant colours of the textures -> brick colours that exist
-``texturing``        what is seen of the textures at the size of the model
+``texturing``        what can be seen of the textures at the size of the model
 ``slicing``          heights of the slices; planes x triangles -> closed, nested, coloured loops
 ``unit_bricks``      loops on the grid -> which cells are bricks or plates, in which colour
 ``shell``            which cells must be built, may be built, or stay empty; what holds them together
-``layout``           which bricks cover the cells, joined to one model
+``layout``           which bricks cover the cells, joined into one model
 ``statics``          whether it stands: forces in balance, or a collapse, as proof
-``building``         the order in which every brick finds hold, and its check
-``supports``         what stands below while the model is built; pieces that are joined
-``measures``         figures that building never needs
+``building``         an order in which every brick can be placed, and its check
+``supports``         temporary supports, pillars that stay, and pieces that are joined
+``measures``         figures for the report that building does not need
 ``instructions``     the booklet of the steps and layer maps, as SVG, HTML and PDF
 ``files``            LDraw documents, lists for shops, the folder of the results
 ``report``           what was built, in numbers and sentences

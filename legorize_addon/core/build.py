@@ -1,4 +1,4 @@
-"""What a run leaves behind: the result of every stage."""
+"""The result of every stage of a run."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Build:
     mesh : TriangleMesh
         The repaired mesh in the size of the model, in mm.
     repairs : Repairs
-        What was mended.
+        What was repaired.
     scale : float
         Model mm per world mm.
     turn : (4, 4) float64 array
@@ -68,14 +68,14 @@ class Build:
     grid : UnitGrid
         All unit bricks, before hollowing.
     hollow : UnitGrid
-        What must and what may be built.
+        Required and optional cells.
     assembly : Assembly
         The layout, with the pillars that stay in it, and the step in which each
         brick is placed.
     stability : Stability
         Whether they stand, and the proof.
     supports : AssemblyPlan
-        What stands below them while they are built, and the building order.
+        Their supports while they are built, and the building order.
     joints : tuple of Joint
         Between the pieces of a split model.
     proof : Proof or None

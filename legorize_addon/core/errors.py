@@ -23,7 +23,7 @@ from contextlib import contextmanager
 
 
 class LegorizeError(Exception):
-    """Base of the failures a user can understand and mend."""
+    """Base of the failures that a user can understand and put right."""
 
 
 class MeshError(LegorizeError):
@@ -35,7 +35,7 @@ class SettingsError(LegorizeError):
 
 
 class LimitError(SettingsError):
-    """The model would pass a limit. Where somebody can be asked, they may want it all the same."""
+    """The model is above a limit. The window asks whether to build it all the same."""
 
 
 class BuildError(LegorizeError):
@@ -48,7 +48,7 @@ class Cancelled(Exception):  # noqa: N818 - a request, not an error
 
 @contextmanager
 def enough_memory() -> Iterator[None]:
-    """Turn the end of the memory into a sentence; also a decorator.
+    """Turn a ``MemoryError`` into a sentence; also a decorator.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a build will come to, before it is made: its size, about how many bricks, how long, how much memory.
+"""An estimate of a build before it is made: size, number of bricks, time and memory.
 
 All of it follows from the extent of the mesh, its area and its volume, which
 take milliseconds. The coefficients were fitted to builds of eight models at 24
@@ -25,18 +25,18 @@ from .slicing import ALPHA
 from .units import BRICK, PLATES_PER_BRICK, STUD
 
 AGAIN: Final = " again"
-"""Ends the name of a stage that is done a second time."""
+"""End of the name of a stage that runs a second time."""
 
 _FACE: Final = np.array([STUD * BRICK, STUD * BRICK, STUD * STUD])
 """Faces of a unit brick across x, y and z in mm^2."""
 
 _FLAT: Final = 0.999
-"""Cosine from which a triangle counts as one across an axis: large bricks cover it."""
+"""Cosine from which a triangle counts as perpendicular to an axis: large bricks cover it."""
 
 _MM_PER_CM: Final = 10.0
 
 _ENDLESS: Final = 1e6
-"""Seconds from which it says nothing more how long a build takes."""
+"""Seconds from which the expected time is not shown any more."""
 
 
 def _metres(cm: float) -> str:
@@ -71,7 +71,7 @@ class Estimate:
     bricks : int
         About how many bricks, without supports.
     megabytes : float
-        About how much memory the process will have taken at most.
+        Estimated peak memory of the process.
     stages : mapping of str to float
         About how many CPU seconds each stage takes, in their order.
     """
@@ -90,7 +90,7 @@ class Estimate:
         return sum(self.stages.values())
 
     def sentence(self) -> str:
-        """Return what a user wants to know before the work begins, without a full stop."""
+        """Return the estimate in a sentence for the user, without a full stop."""
         wide, deep = (max(1, round(studs)) for studs in self.studs)
         cost = f" and take about {duration(self.seconds)} and {_number(self.megabytes / 1000)} GB"
         return (
@@ -100,7 +100,7 @@ class Estimate:
 
 
 def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
-    """Estimate what a build will come to, without building anything.
+    """Estimate a build without building anything.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
         The mesh has no faces, too few triangles, no size, or coordinates that
         are no finite numbers or too great.
     SettingsError
-        The mesh has no extent along what shall have the asked size.
+        The mesh has no extent along the side that should get the given size.
     """
     mesh = turn_mesh(mesh, settings.up)
     extent = np.ptp(checked_vertices(mesh), axis=0)
@@ -154,8 +154,8 @@ def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
 def check_limits(expected: Estimate, settings: Settings) -> None:
     """Refuse what is larger than the settings allow.
 
-    The limits are numbers that anybody can raise, not the memory that happens to
-    be free: the same file and settings are built, or refused, on every machine.
+    The limits are numbers that users can raise, not the memory that happens to be free: the same file and settings are
+    built, or refused, on every machine.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ def check_limits(expected: Estimate, settings: Settings) -> None:
 
 
 def within_limits(expected: Estimate, settings: Settings) -> Settings:
-    """Return settings whose limits allow what is expected, as far as they can, for somebody who wants it."""
+    """Return settings whose limits allow the expected model, as far as their ranges permit."""
     spent = _spent(expected)
     passed = [name for name, limit in _limits(settings).items() if spent[name] > limit]
     raised: dict[str, Any] = {name: min(_rounded_up(spent[name]), _highest(name)) for name in passed}
@@ -197,7 +197,7 @@ def _limits(settings: Settings) -> dict[str, int]:
 
 
 def _spent(expected: Estimate) -> dict[str, float]:
-    """Return what counts against each limit."""
+    """Return the value that is compared with each limit."""
     return {"limit_size": max(expected.cm), "limit_bricks": expected.bricks, "limit_memory": expected.megabytes}
 
 
@@ -226,7 +226,7 @@ def _smaller(settings: Settings, passed: Mapping[str, float]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Features:
-    """What costs depend on, or what each of these costs.
+    """The quantities that costs depend on, or the cost of one unit of each.
 
     Attributes
     ----------
@@ -236,7 +236,7 @@ class _Features:
     bricks : float
         About how many there will be.
     crowd : float
-        Those to the power of 1.5: what grows faster than the model.
+        Bricks to the power of 1.5, for costs that grow faster than the model.
     """
 
     constant: float = 1.0
@@ -279,10 +279,10 @@ _SECONDS: Final[Mapping[str, _Features]] = MappingProxyType({
 """CPU seconds of the stages."""
 
 _TIERS: Final = MappingProxyType({"fast": 0.3, "standard": 1.0, "exact": 6.0})
-"""How long each tier of the layout takes, of the standard one."""
+"""Time of each tier of the layout, as a multiple of the standard one."""
 
 _PROOF: Final = 3.0
-"""How long the proof of all steps takes, of all the rest."""
+"""Time of the proof of all steps, as a multiple of everything else."""
 
 
 def _faces_and_volume(mesh: TriangleMesh, scale: float) -> tuple[float, float, float]:
@@ -300,7 +300,7 @@ def _faces_and_volume(mesh: TriangleMesh, scale: float) -> tuple[float, float, f
 
 
 def _stages(build: _Features, settings: Settings) -> dict[str, float]:
-    """Return the CPU seconds of the stages that there will be."""
+    """Return the expected CPU seconds of the stages."""
     seconds = {name: cost.of(build) for name, cost in _SECONDS.items()}
     seconds["layout"] *= _TIERS[settings.layout]
     if settings.prove_steps:

@@ -1,8 +1,7 @@
 """Work that calls native code: on one thread of linear algebra, and never silent.
 
-A solver that is called once may work for minutes without a word. It lets other
-threads run meanwhile, so the work has a thread of its own, and the one that asked
-for it tells progress all the time and can be told to stop.
+A call of a solver may take minutes without reporting progress. Other threads can run meanwhile, so the work gets a
+thread of its own, and the calling thread keeps reporting progress and can stop the work.
 """
 
 from __future__ import annotations
@@ -19,16 +18,15 @@ from .progress import Progress
 Result = TypeVar("Result")
 
 PAUSE: Final = 0.2
-"""Seconds of silence after which what was told last is told again."""
+"""Seconds of silence after which the last progress is reported again."""
 
 
 @contextmanager
 def one_thread() -> Iterator[None]:
     """Let linear algebra run on the thread that calls it; also a decorator.
 
-    Several threads add up in an order that depends on how many there are, and
-    so would the result; of the small blocks here they make no quick work
-    either, as they wait for each other.
+    Several threads add in an order that depends on their number, and so would the result. They are not faster on the
+    small blocks here either, because they wait for each other.
     """
     from threadpoolctl import threadpool_limits
 
@@ -37,17 +35,16 @@ def one_thread() -> Iterator[None]:
 
 
 def watched(work: Callable[[Progress], Result], progress: Progress, *, pause: float = PAUSE) -> Result:
-    """Do some work, and tell progress even while it is silent.
+    """Do some work, and report progress even while it is silent.
 
     Parameters
     ----------
     work : callable
-        Called once, in a thread of its own, with a progress that hands all it
-        is told on, and returns when that is done.
+        Called once, in a thread of its own, with a progress callback that passes everything on and waits for the
+        answer.
     progress : Progress
-        Called in this thread: with all that the work tells, in order, and with
-        the last of it again after each `pause`. If it raises, the work is
-        stopped at its next word, and not waited for.
+        Called in this thread: with everything that the work reports, in order, and with the last report again after
+        each `pause`. If it raises, the work is stopped at its next report, and not waited for.
     pause : float
         Seconds.
 
@@ -78,7 +75,7 @@ def watched(work: Callable[[Progress], Result], progress: Progress, *, pause: fl
 
 
 class _Worker(threading.Thread, Generic[Result]):
-    """Work in a thread that keeps no process from ending; it waits for an answer to each word."""
+    """Work in a daemon thread; it waits for an answer to each report."""
 
     def __init__(self, work: Callable[[Progress], Result]) -> None:
         super().__init__(name="Legorize: work", daemon=True)
@@ -104,7 +101,7 @@ class _Worker(threading.Thread, Generic[Result]):
             raise Cancelled
 
     def listen(self, pause: float) -> tuple[str, float] | None:
-        """Return what the work tells within some seconds; it has ended after its last word."""
+        """Return what the work reports within some seconds; it has ended after its last report."""
         try:
             word = self._words.get(timeout=pause)
         except Empty:
@@ -113,11 +110,11 @@ class _Worker(threading.Thread, Generic[Result]):
         return word
 
     def answer(self) -> None:
-        """Let the work go on after a word."""
+        """Let the work continue after a report."""
         self._answers.put(None)
 
     def stop(self, pause: float) -> None:
-        """Let the work end at its next word, and wait for that for some seconds."""
+        """Let the work end at its next report, and wait some seconds for that."""
         self._abandoned = True
         self.answer()
         self.join(pause)

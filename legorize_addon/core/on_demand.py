@@ -1,4 +1,4 @@
-"""Names that a package offers but whose modules are imported only when somebody asks for them.
+"""Names that a package offers, but whose modules are imported only at their first use.
 
 A package's ``__init__`` runs for its lightest name too. Where some of its
 modules take long to load, as those with scipy, their names wait::
@@ -10,8 +10,8 @@ modules take long to load, as those with scipy, their names wait::
     else:
         __getattr__ = on_demand(__name__, order=("ordered",))
 
-Importing a name looks as ever, ``from ..building import ordered``, and checkers
-of types see it. A name that is also that of a module in the package cannot
+Importing a name looks the same as always, ``from ..building import ordered``, and
+type checkers see it. A name that is also that of a module in the package cannot
 wait, since Python itself puts a module under its name into the package.
 """
 
@@ -23,7 +23,7 @@ from typing import Any
 
 
 def on_demand(package: str, **modules: tuple[str, ...]) -> Callable[[str], Any]:
-    """Return a package's ``__getattr__`` that imports what is offered when it is asked for.
+    """Return a ``__getattr__`` for a package that imports offered names at their first use.
 
     Parameters
     ----------

@@ -44,8 +44,8 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
         As read, in world mm.
     settings : Settings
     progress : Progress
-        Told at least once a second the stage at work, or what it is at, and the
-        share of the whole run that is done, which never goes back.
+        Called at least once a second with the current stage, or its current part, and the share of the whole run that
+        is done, which never decreases.
 
     Returns
     -------
@@ -115,7 +115,7 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
 def _notes(
     settings: Settings, assembly: Assembly, found: Stability, plan: AssemblyPlan, proof: Proof | None
 ) -> tuple[str, ...]:
-    """Return what a user has to know about bricks and building, a sentence each."""
+    """Return what a user must know about bricks and building, one sentence each."""
     return (
         *remarks(assembly, found),
         *remarks_on_building(plan),

@@ -1,12 +1,11 @@
-"""How a long computation tells how far it has come.
+"""How a long computation reports its progress.
 
 A progress callback is called with the name of the stage and a share done in
 [0, 1]. It may raise :class:`~legorize_addon.core.errors.Cancelled`; the core
 lets that through, so that a request to stop ends the run at the next call.
 
-Stages know their own share alone. :class:`Overall` makes of these the share of
-the whole run, which never goes back, and :class:`Meter` what is shown of it: the
-stage, the share, and the time left.
+Stages only know their own share. :class:`Overall` turns these into the share of the whole run, which never decreases,
+and :class:`Meter` keeps what is shown: the stage, the share, and the time left.
 """
 
 from __future__ import annotations
@@ -20,11 +19,11 @@ Progress = Callable[[str, float], None]
 """Called with (stage, share done); may raise ``Cancelled``."""
 
 _SOONEST: Final = 0.005
-"""Share from which a time left is told: the estimate of less may be wrong by its own size."""
+"""Share from which a time left is shown: before that, the estimate is too uncertain."""
 
 
 def silent(stage: str, share: float) -> None:
-    """Ignore the progress, for runs that nobody watches."""
+    """Ignore the progress."""
 
 
 def part(progress: Progress, low: float, high: float) -> Progress:
@@ -51,14 +50,15 @@ class Overall:
     Parameters
     ----------
     seconds : mapping of str to float
-        How long each stage takes, at a guess; only their proportions count.
+        Estimated time of each stage; only the proportions count.
     progress : Progress
-        Called with the stage, and the share of the whole run, which never goes back.
+        Called with the stage, and the share of the whole run, which never
+        decreases.
 
     Notes
     -----
     Within a stage an object of this class is itself the :data:`Progress` of that
-    stage. Stages may name their parts: the name is handed on.
+    stage. Stages may name their parts: the name is passed on.
     """
 
     def __init__(self, seconds: Mapping[str, float], progress: Progress) -> None:
@@ -69,22 +69,22 @@ class Overall:
         self._stage = ""
 
     def __call__(self, stage: str, share: float) -> None:
-        """Tell the share of the stage at work that is done."""
+        """Report the share of the current stage that is done."""
         done = (self._before + self._now * min(max(share, 0.0), 1.0)) / self._total if self._total else 0.0
-        # what nobody expected to take long may have ended a stage before
+        # a stage without an expected time may have ended before
         self._stage, self._share = stage, max(self._share, min(done, 1.0))
         self._progress(stage, self._share)
 
     @contextmanager
     def stage(self, name: str, *, shown: str | None = None) -> Iterator[Overall]:
-        """Tell the beginning and the end of a stage.
+        """Report the beginning and the end of a stage.
 
         Parameters
         ----------
         name : str
             A name of `seconds`; any other stage counts as no time at all.
         shown : str, optional
-            The name to tell, if it is another one.
+            The name to report, if it differs.
 
         Yields
         ------
@@ -98,13 +98,13 @@ class Overall:
         self._before, self._now = self._before + self._now, 0.0
 
     def finish(self) -> None:
-        """Tell that all is done, whatever was expected to come."""
+        """Report that everything is done, even if more was expected."""
         self._share = 1.0
         self._progress(self._stage, 1.0)
 
 
 class Meter:
-    """What is shown of a run: a progress callback that keeps what it is told, and a clock.
+    """A progress callback that keeps the last report, with a clock.
 
     Parameters
     ----------
@@ -114,8 +114,7 @@ class Meter:
     Attributes
     ----------
     told : tuple of str and float
-        The stage and the share of the whole run that is done, as last told; in
-        one piece, as another thread may look.
+        The stage and the share of the whole run as last reported; one object, because another thread may read it.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
@@ -124,13 +123,13 @@ class Meter:
         self.told = ("Starting", 0.0)
 
     def __call__(self, stage: str, share: float) -> None:
-        """Keep what is told."""
+        """Keep a report."""
         self._first = self._first or stage
         self.told = (stage, share)
 
     @property
     def seconds_left(self) -> float | None:
-        """How long the rest takes if it goes on as up to now; unknown (``None``) in the first stage."""
+        """Seconds that the rest takes at the speed so far; ``None`` (unknown) in the first stage."""
         stage, share = self.told
         if self._first in (stage, None) or share < _SOONEST:
             return None

@@ -1,4 +1,4 @@
-"""Words of the user's own (names of models and files) where a program reads them: never a command, never a formula.
+"""Names that users chose (of models and files), made safe for programs: never a command, never a formula.
 
 References
 ----------

@@ -1,9 +1,9 @@
 """Every setting, once.
 
-A setting's name, type, default, limits, text and panel group stand in one
-place: its field here. Range checks, Blender's property group, the sidebar and
-the flags of the command line are all generated from these fields. The order of
-the fields is the order in the panel.
+The name, type, default, limits, text and panel group of a setting are in one
+place: its field here. Range checks, Blender's property group, the sidebar and the
+flags of the command line are all generated from these fields. The order of the
+fields is the order in the panel.
 """
 
 from __future__ import annotations

@@ -70,7 +70,7 @@ class Run:
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
-        """Announce a stage and note its CPU seconds; what is done again counts to what it repeats."""
+        """Announce a stage and note its CPU seconds; a repeated stage is added to the first one."""
         shown = name.removesuffix(AGAIN)
         start = time.process_time()
         with self.progress.stage(name, shown=shown):
@@ -83,7 +83,7 @@ def _in_plates(settings: Settings) -> bool:
 
 
 def prepare_mesh(run: Run, mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs, Floats, float, tuple[str, ...]]:
-    """Return the mesh as it is built, its repairs, turn and scale, and what has to be said of what is not seen."""
+    """Return the mesh as it is built, its repairs, turn and scale, and remarks on parts that cannot be seen."""
     settings = run.settings
     mesh, repairs = repair(mesh)
     mesh, turn = turn_upright(mesh, settings.up)
@@ -91,7 +91,7 @@ def prepare_mesh(run: Run, mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs, F
     mesh, repairs, share = seen_part(mesh, repairs, least=least, scale=scale)
     factor = scale(mesh)
     mesh = scale_mesh(mesh, factor)
-    # where nothing is seen, all of it was taken
+    # where nothing can be seen, all of it was used
     mesh = reduce_images(mesh, least=least * (share < 1), mean=settings.fine_texture == "mean")
     return mesh, repairs, turn, factor, remarks_on_unseen(share, least=least)
 
@@ -152,7 +152,7 @@ def make_unit_grid(
     frame: Grid,
     cut: Cut,
 ) -> UnitGrid:
-    """Return the unit bricks, of which there must be one at least."""
+    """Return the unit bricks, at least one."""
     settings = run.settings
     lattice = frame.plates() if _in_plates(settings) else frame
     facing = facing_of(mesh, surface) if settings.backing else None
@@ -171,7 +171,7 @@ def make_unit_grid(
 
 
 def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail | None:
-    """Return where plates may stay: in layers of three slices, and where they pay unless all were asked for."""
+    """Return where plates may stay: in layers of three slices, and only where they pay unless all are wanted."""
     if not _in_plates(settings):
         return None
     marked = np.bincount(layer, minlength=frame.n_layers) == PLATES_PER_BRICK
@@ -181,7 +181,7 @@ def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail
 
 
 def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
-    """Return what must and what may be built."""
+    """Return the required and the optional cells."""
     settings = run.settings
     # behind a picture, the first row or layer of its backing has to stay
     shell = settings.shell + bool(settings.backing)
@@ -209,7 +209,7 @@ def lay_bricks(run: Run, shell: UnitGrid) -> Bricks:
 
 
 def check_stability(run: Run, assembly: Assembly) -> tuple[Assembly, Stability]:
-    """Test the bricks by force, with pillars under what floats if there may be supports."""
+    """Test the bricks by forces, with pillars under floating bricks if supports are allowed."""
     if run.settings.supports != "none":
         assembly = add_pillars(assembly)
     return assembly, stability(assembly, clutch=run.settings.clutch, progress=run.progress)
@@ -231,13 +231,13 @@ def _exchanges(settings: Settings) -> Mask | None:
     if settings.learned_from and settings.layout == "fast" and settings.learned:
         return learned_table(settings.learned_from)
     if settings.learned_from:
-        # a wrong file is told of now, not when another layout is chosen
+        # a wrong file is reported now, not when another layout is chosen
         samples_text(settings.learned_from)
     return None if settings.learned else NO_EXCHANGES
 
 
 def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:
-    """Return the colour of bricks that nobody sees: the usual one, or that of the palette in which most parts exist."""
+    """Return the colour of hidden bricks: the usual one, or the colour of the palette in which most parts exist."""
     if FILLER in palette:
         return FILLER
     made = catalogue.exists_in(np.arange(len(catalogue.parts))[:, None], palette).sum(axis=0)

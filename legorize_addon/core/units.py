@@ -1,4 +1,4 @@
-"""Sizes of the building system, each written once.
+"""Sizes of the building system.
 
 Lengths are millimetres unless a name says LDU (LDraw units, 1 LDU = 0.4 mm).
 The world is right-handed with z up; LDraw is right-handed with -y up.

@@ -1,4 +1,4 @@
-"""Colours and how often they occur, of whatever number of texels, in bounded memory."""
+"""Colours and how often they occur, in bounded memory for any number of texels."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from ..arrays import Floats, Ints
 Bytes = NDArray[np.uint8]
 
 _MOST: Final = 1 << 18
-"""Different colours up to which each counts by itself: k-means on so many takes seconds."""
+"""Number of different colours up to which each counts by itself: k-means on so many takes seconds."""
 
 _CELL_BITS: Final = 2
 """Bits a channel by which more colours may differ and still count as one, their mean: 2^18 cells of four levels."""
 
 _AT_ONCE: Final = 1 << 20
-"""Texels counted in one go."""
+"""Texels counted at once."""
 
 
 class Counted(NamedTuple):
@@ -59,14 +59,13 @@ def count_texels(images: Sequence[Bytes], opacities: Sequence[Bytes | None] = ()
     opacities : sequence of (h, w) uint8 arrays or None, optional
         Alpha of each image, if there is any.
     least : float, optional
-        Alpha from which on a texel counts, 0 to 1; where no texel of an image
-        has that, all of it count.
+        Least alpha of a texel that counts, 0 to 1; if no texel of an image has it, all of them count.
 
     Returns
     -------
     Counted
-        Of more than 2^18 different colours those are one, with their exact
-        mean, that differ by less than four levels a channel.
+        If there are more than 2^18 different colours, those that differ by less than four levels per channel are merged
+        to their exact mean.
     """
     table = np.zeros(1 << 24, dtype=np.uint32)
     for row, image in enumerate(images):

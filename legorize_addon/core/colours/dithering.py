@@ -1,7 +1,6 @@
 """Shades that no brick has, as mixtures of brick colours that look like them from afar.
 
-Light adds up in the eye, so mixtures are reckoned in linear light; which brick
-colour is nearest is asked by CIEDE2000.
+Light adds up in the eye, so mixtures are computed in linear light; the nearest brick colour is found by CIEDE2000.
 
 References
 ----------
@@ -42,7 +41,7 @@ two studs, and up to 3 % farther on gradients blurred over one.
 """
 
 _BEYOND: Final = 0.1
-"""Light beyond black and white that is asked for: what no mixture can make up for is not passed on for ever."""
+"""Light beyond black and white that may be wanted: errors that no mixture can make up for are not passed on."""
 
 _LEVELS: Final = 64
 """Levels of each channel for which the nearest colour is looked up once."""
@@ -78,7 +77,7 @@ class PaletteMixer:
         Parameters
         ----------
         goal : (n, 3) float64 array
-            Light that is wanted: red, green, blue, 0 to 1.
+            Wanted light: red, green, blue, 0 to 1.
         row, column : (n,) int64 arrays
             Place in the pattern, which repeats.
 
@@ -105,14 +104,14 @@ class PaletteMixer:
         Parameters
         ----------
         goal : (h, w, s, 3) float64 array
-            Light that is wanted at the s parts of every place.
+            Wanted light at the s parts of every place.
         there : (h, w, s) bool array
-            Parts that there are.
+            Parts that exist.
 
         Returns
         -------
         (h, w, s) int16 array
-            LDraw codes, of no meaning where nothing is.
+            LDraw codes, without meaning where no part exists.
         """
         height, width, parts, _ = goal.shape
         chosen = np.zeros((height, width, parts), dtype=np.int64)

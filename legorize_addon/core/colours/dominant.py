@@ -25,7 +25,7 @@ from .difference import ciede2000, lab_from_srgb
 from .texels import border_table, boxes_varied, texel_at
 
 _SAMPLES: Final = 30_000
-"""Texels drawn for the clustering; more change the centres by less than a byte."""
+"""Texels sampled for the clustering; more change the centres by less than a byte."""
 
 _ITERATIONS: Final = 20
 
@@ -132,7 +132,7 @@ def surface_colours(
     mesh : TriangleMesh
     catalogue : Catalogue
     n_colours : int
-        Most dominant colours to find.
+        Largest number of dominant colours.
     palette : (k,) int16 array
         LDraw codes to choose from.
     one_to_one : bool
@@ -184,7 +184,7 @@ def dominant_colours(counted: Counted, *, n_colours: int, rng: np.random.Generat
     """
     if len(counted.counts) <= n_colours:
         return _rounded(counted)
-    # takes longer to load than a small model to build, and plain colours need none
+    # loading it takes longer than building a small model, and plain colours do not need it
     from sklearn.cluster import KMeans
 
     found = KMeans(n_clusters=n_colours, n_init=1, max_iter=_ITERATIONS, random_state=int(rng.integers(2**31))).fit(
@@ -267,7 +267,8 @@ def chosen_palette(text: str, catalogue: Catalogue) -> Codes:
 def _surface_texels(mesh: TriangleMesh, rng: np.random.Generator) -> Bytes:
     """Return texels drawn evenly over the surface, (n, 3) uint8."""
     area = np.linalg.norm(mesh.normals, axis=1)
-    # one even comb instead of independent draws: every face gets its share, with no luck in it
+    # evenly spaced samples instead of independent ones: every face gets exactly
+    # its share
     comb = (np.arange(_SAMPLES) + rng.random()) / _SAMPLES * area.sum()
     face = np.minimum(np.searchsorted(np.cumsum(area), comb), len(area) - 1)
     a, b = rng.random((2, _SAMPLES))
@@ -308,7 +309,7 @@ def _nearest_centres(images: tuple[Bytes, ...], centres: Bytes) -> tuple[Bytes, 
     ----------
     Paper, Algorithm 1, lines 3 to 12.
     """
-    # every colour is looked at once, however many texels have it; a table of all 2^24 beats sorting them
+    # each colour is classified once, however many texels have it; a table of all 2^24 is faster than sorting
     table = np.zeros(1 << 24, dtype=np.uint8)
     for image in images:
         table[packed(image).ravel()] = 1

@@ -54,7 +54,7 @@ def boxes_varied(table: NDArray[np.int32], low: Floats, high: Floats, *, clamp: 
     """
     size = np.array([table.shape[1] - 1, table.shape[0] - 1])
     (x0, y0), (x1, y1) = (texel_at(ends, table[1:, 1:].shape, clamp=clamp) for ends in (low, high))
-    # boxes that reach over the rim of a repeated image do not end as many texels on as they are wide
+    # boxes that cross the rim of a repeated image wrap around
     width, height = (np.floor(high * size) - np.floor(low * size)).T
     across = np.zeros(len(low), dtype=bool) if clamp else (x1 - x0 != width) | (y1 - y0 != height)
     x1, y1 = np.where(across, x0, x1), np.where(across, y0, y1)

@@ -1,4 +1,4 @@
-"""Helpers on plain arrays that know nothing of bricks: ranges, cuts at grid lines, support polygons, neighbourhoods."""
+"""Helpers on plain arrays, unaware of bricks: ranges, cuts at grid lines, support polygons, neighbourhoods."""
 
 from __future__ import annotations
 

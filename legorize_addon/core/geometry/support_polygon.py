@@ -1,4 +1,4 @@
-"""The outline of feet: their convex hull, and how far a place lies inside of it."""
+"""The outline of feet: their convex hull, and how far a point lies inside it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which bricks cover the cells: :func:`lay` in its three tiers, and what joins their result to one model."""
+"""Which bricks cover the cells: :func:`lay` in its three tiers, and the joining of their result into one model."""
 
 from __future__ import annotations
 

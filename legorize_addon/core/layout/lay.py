@@ -42,7 +42,7 @@ from .problem import (
 from .solvers import exact, fewer_small, greedy, guessed_prices, linear
 
 FILLER: Final = 71
-"""LDraw code of Light Bluish Gray, in which nearly every part is made: for bricks that nobody sees."""
+"""LDraw code of Light Bluish Gray, in which nearly every part is made: for hidden bricks."""
 
 _SLAB: Final = 1 << 15
 """Cells that are laid together: enough to drown the cost of a numpy call, few
@@ -88,28 +88,28 @@ def lay(
     rng : numpy.random.Generator
         Decides between equals; the same state gives the same bricks.
     tier : str
-        How much is done for few bricks: ``"fast"`` (see :mod:`.greedy`),
+        How much work goes into few bricks: ``"fast"`` (see :mod:`.greedy`),
         ``"standard"`` (see :mod:`.linear`) or ``"exact"`` (see :mod:`.exact`).
     exchanges : (4, 16, 16, 24) bool array, optional
-        What the fast tier exchanges, as :meth:`~.svm.Machine.table`; by default
-        what was learned from the shipped samples, nothing if all are False.
+        What the fast tier exchanges, as :meth:`~.svm.Machine.table`; by default those of the built-in training; none if
+        all are False.
     filler : int
-        LDraw code of the bricks that nobody sees.
+        LDraw code of hidden bricks.
     progress : Progress
         Told before each batch of sheets.
 
     Returns
     -------
     Bricks
-        Every must cell lies in one brick, every may cell in one or none, each
-        brick has the colour of its cells and is made in it. By ascending level,
-        one step a layer.
+        Every required cell lies in one brick, every optional cell in one or none,
+        and each brick has the colour of its cells and is made in it. By ascending
+        level, one step a layer.
 
     Raises
     ------
     BuildError
-        There is nothing to build, or a must cell cannot be covered, because no
-        part of one cell is made in its colour.
+        There is nothing to build, or a required cell cannot be covered, because no part of one cell is made in its
+        colour.
     """
     work = _work(grid, catalogue, filler)
     bricks = _cover(grid, work, rng, tier, exchanges, progress)
@@ -120,7 +120,7 @@ def lay(
 def lay_unjoined(
     grid: UnitGrid, catalogue: Catalogue, *, rng: np.random.Generator, tier: Tier = "standard", filler: int = FILLER
 ) -> Bricks:
-    """Do as :func:`lay` does, but leave bricks that hold to nothing where they are."""
+    """Like :func:`lay`, but leave loose bricks where they are."""
     return _cover(grid, _work(grid, catalogue, filler), rng, tier, None, silent)
 
 
@@ -155,7 +155,7 @@ def _cover(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Listed:
-    """Sheets of one height, what may lie there, and what their cells are worth at a guess."""
+    """Sheets of one height, their placements, and estimated prices of their cells."""
 
     sheets: Sheets
     among: Shapes

@@ -1,4 +1,4 @@
-"""The textured triangle mesh at the door: checked, repaired, oriented, scaled."""
+"""The textured triangle mesh: checked, repaired, oriented, scaled."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Which side of a surface is outside: consistent winding, bodies turned outwards.
 
-A *patch* is what hangs together through edges of exactly two faces; within a
-patch the winding of one face settles that of all others.
+A *patch* is connected through edges of exactly two faces; within a patch the winding of one face decides that of all
+others.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ ROUNDING: Final = 1e-9
 """Volume over area, a thickness in diagonals of the mesh, that is zero but for rounding."""
 
 SAMPLES: Final = 16
-"""Points of a patch that all have to lie inside others before it counts as a cavity or a lining."""
+"""Points of a patch that must all lie inside others before it counts as a cavity or a lining."""
 
 RAYS_AT_ONCE: Final = 1 << 22
-"""Pairs of a point and a face that are looked at in one go, which bounds the memory."""
+"""Pairs of a point and a face that are tested at once, which bounds the memory."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Winding:
-    """What has to be turned so that neighbours agree.
+    """The faces to turn so that neighbours agree.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Winding:
     patch : (n_f,) int64 array
         Patch of every face, counting up in the order of their first faces.
     one_sided : (n_p,) bool array
-        Patches that no choice makes consistent, such as a Moebius strip.
+        Patches that cannot be made consistent, such as a Moebius strip.
     """
 
     flip: Mask
@@ -50,7 +50,7 @@ class Winding:
 def consistent_winding(edges: Edges, area: Floats) -> Winding:
     """Decide which faces to turn so that every patch is wound one way.
 
-    The way that more of a patch's area has already is kept. Faces that agree
+    The winding that most of a patch's area already has is kept. Faces that agree
     as they are get merged first; what is left is a small graph whose nodes are
     doubled, (group as it is) and (group turned).
 
@@ -88,8 +88,8 @@ def inside_out(
     is negative; an open one is measured with its openings capped. A patch that
     runs against the rest of the model and lies inside an odd number of others
     stays as it is: a closed one in closed ones is a cavity, an open one in open
-    ones a lining, such as the inner side of a van. That takes a patch whose
-    winding nobody had to mend. Sheets without a clear inside go with the
+    ones a lining, such as the inner side of a van. This holds only for a patch
+    whose winding did not need repair. Sheets without a clear inside follow the
     greater area of the rest.
 
     Parameters
@@ -116,7 +116,7 @@ def inside_out(
     corners, is_open = points[faces], np.bincount(owner, minlength=len(mended)) > 0
     area, volume = _areas_and_volumes(corners, patch, caps, owner)
     clear = (np.abs(volume) > np.where(is_open, BULKY * area**1.5, ROUNDING * area)) & ~one_sided
-    # a patch that was mended says nothing about the model: it was any way round
+    # a repaired patch says nothing about the model: its winding was arbitrary
     model = (np.where(mended, np.abs(volume), volume) * clear).sum()
     against = clear & ~mended & ((volume < 0) != (model < 0))
     inner = np.zeros(len(mended), bool)
@@ -214,7 +214,7 @@ def _crossing(points: Floats, corners: Floats) -> Ints:
     a = corners[rows]
     b = a[:, [1, 2, 0]]
     p = points[rows, None]
-    # an edge is looked at from its lower end always, so that both its triangles see the ray on the same side
+    # an edge is always tested from its lower end, so that both its triangles find the ray on the same side
     swap = (a[..., 0] > b[..., 0]) | ((a[..., 0] == b[..., 0]) & (a[..., 1] > b[..., 1]))
     low, high = np.where(swap[..., None], b, a), np.where(swap[..., None], a, b)
     run, way = high - low, p - low

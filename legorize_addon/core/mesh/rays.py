@@ -1,4 +1,4 @@
-"""Where vertical rays through a fine lattice meet the mesh: the surface that slices see least."""
+"""Where vertical rays through a fine lattice meet the mesh: on level surface, which slices miss."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..geometry import ranges
 from .triangle_mesh import TriangleMesh
 
 _NEAR: Final = 1e-9
-"""A ray this near to an edge, in pitches, meets it."""
+"""A ray that is this close to an edge, in pitches, meets it."""
 
 _MARGIN: Final = 1e-6
 """Triangles that rays see no wider than this, in pitches, are upright; lattice points this far beside are tested."""

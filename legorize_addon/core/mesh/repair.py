@@ -1,4 +1,4 @@
-"""Mending a triangle mesh: welding, duplicate faces, triangles without area, small holes.
+"""Repairing a triangle mesh: welding, duplicate faces, triangles without area, small holes.
 
 Works on plain arrays. Lengths are shares of the mesh's diagonal, so that the
 constants hold for a model of any size.
@@ -30,7 +30,7 @@ HOLE_AREA: Final = 0.25
 
 
 def weld(points: Floats, tolerance: float) -> Ints:
-    """Name for every point the first point that it coincides with.
+    """Return for every point the first point that it coincides with.
 
     Points in one cell of half the tolerance are one at once; what lies on
     either side of a cell border is found by a k-d tree. Chains of close points

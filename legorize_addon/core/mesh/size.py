@@ -1,4 +1,4 @@
-"""How large the model gets, and whether that can be built."""
+"""The size of the model, and whether it can be built."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def model_scale(mesh: TriangleMesh, *, size_by: str, width: int, height: int, sc
     Raises
     ------
     SettingsError
-        The mesh has no extent along what shall have the asked size.
+        The mesh has no extent along the side that should get the given size.
 
     References
     ----------

@@ -1,4 +1,4 @@
-"""How triangles hang together: half-edges grouped by edge, connected parts, open rims."""
+"""How triangles are connected: half-edges grouped by edge, connected parts, open rims."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
-"""A textured triangle mesh, and the door through which it enters the core.
+"""A textured triangle mesh, and its check and repair at the entry to the core.
 
-:class:`TriangleMesh` is what every stage reads. :func:`repair` checks what a
-user hands in, mends what can be mended, turns every body outwards and counts
-what it did.
+Every stage reads a :class:`TriangleMesh`. :func:`repair` checks the user's mesh, repairs what it can, turns every body
+outwards and counts what it did.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ FEWEST_TRIANGLES: Final = 2
 
 SMALLEST: Final = 1e-6
 LARGEST: Final = 1e12
-"""Diagonals in mm within which areas and volumes of all triangles are ordinary numbers."""
+"""Diagonals in mm within which areas and volumes neither overflow nor underflow."""
 
 FARTHEST: Final = 1e9
 """Distance from the origin in diagonals up to which float64 tells coordinates ``WELD`` apart."""
@@ -82,10 +81,9 @@ class Repairs:
     Attributes
     ----------
     welded : int
-        Vertices that became one with another at the same place.
+        Vertices merged with another one at the same place.
     degenerate, duplicate : int
-        Triangles left out for want of area, or because another one lies on the
-        same three vertices.
+        Triangles left out because they have no area, or because another one lies on the same three vertices.
     flipped, turned : int
         Single triangles, and whole patches, turned to face outwards.
     filled : int
@@ -129,14 +127,14 @@ class Repairs:
 
 
 def repair(mesh: TriangleMesh, *, fill: bool = True) -> tuple[TriangleMesh, Repairs]:
-    """Check a mesh, mend it, and turn every body outwards.
+    """Check a mesh, repair it, and turn every body outwards.
 
-    Vertices at one place become one; faces without area, repeated faces and
-    backs of double-sided surfaces go; small holes are filled in the colours
-    around them; every patch is wound one way, outwards (cavities inwards).
-    Larger openings stay open. What stays keeps its order, and a mesh that needs
-    nothing comes back as it was. Triangles without area stay where the surface
-    would be torn without them, so do not divide by an area.
+    Vertices at one place become one; faces without area, repeated faces and backs
+    of double-sided surfaces are removed; small holes are filled in the colours
+    around them; every patch is wound one way, outwards (cavities inwards). Larger
+    openings stay open. What stays keeps its order, and a mesh that needs nothing
+    comes back as it was. Triangles without area stay where the surface would be
+    torn without them, so do not divide by an area.
 
     Parameters
     ----------
@@ -148,7 +146,7 @@ def repair(mesh: TriangleMesh, *, fill: bool = True) -> tuple[TriangleMesh, Repa
     Returns
     -------
     mesh : TriangleMesh
-        The mended mesh, with the same images.
+        The repaired mesh, with the same images.
     repairs : Repairs
         What was done, and what is left.
 
@@ -282,7 +280,7 @@ def _frame(vertices: Floats) -> tuple[Floats, float]:
 
 
 def _sound(points: Floats, faces: NDArray[np.int32], mesh: TriangleMesh) -> tuple[_Surface, int]:
-    """Drop the faces that are none; return the rest and how many repeated others."""
+    """Drop faces without area or that repeat others; return the rest and the number of repeats."""
     a, b, c = faces.T
     rows = np.flatnonzero((a != b) & (b != c) & (c != a))
     n_duplicate = 0
@@ -298,7 +296,7 @@ def _sound(points: Floats, faces: NDArray[np.int32], mesh: TriangleMesh) -> tupl
         n_duplicate += int(drop.sum())
         if not drop.any():
             drop = useless_slivers(area <= WELD / 2 * longest, edges)
-        # one removal may lay bare the next
+        # one removal may uncover the next
         if not drop.any():
             return _Surface(points, kept, mesh.uvs[rows], mesh.face_image[rows], area, edges), n_duplicate
         rows = rows[~drop]
@@ -329,7 +327,7 @@ def _filled(surface: _Surface, patch: Ints) -> tuple[_Surface, Ints, int]:
 
 
 def _assembled(vertices: Floats, surface: _Surface, mesh: TriangleMesh) -> TriangleMesh:
-    """Return the mended mesh without unused vertices."""
+    """Return the repaired mesh without unused vertices."""
     used = np.zeros(len(vertices), bool)
     used[surface.faces] = True
     faces = (np.cumsum(used) - 1)[surface.faces].astype(np.int32)

@@ -1,8 +1,7 @@
-"""Which way is up: turning a mesh upright, and telling from its shape how it stands.
+"""Which way is up: turning a mesh upright, and finding from its shape how it stands.
 
-Files without an axis of their own lie as their writers meant. What is meant to
-stand can be told from how it would stand on a table: legs, wheels and bases
-bear it, noses and backs do not.
+Some file formats do not say which axis points up. The shape can tell: legs, wheels and bases are made to stand on,
+noses and backs are not.
 """
 
 from __future__ import annotations
@@ -25,10 +24,10 @@ TURNS: Final = MappingProxyType(
         "z": ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
     }
 )
-"""Rotation by which each axis comes to point along z; for y that of the importers of Blender."""
+"""Rotation that turns each axis to z; for y, the one of Blender's importers."""
 
 FALLEN: Final = -90.0
-"""Degrees of what has no base at all."""
+"""Degrees for a shape without any base."""
 
 _SHAKY: Final = 7.0
 _FIRM: Final = 3.0
@@ -41,14 +40,14 @@ eight times as high as wide.
 """
 
 _FLATTER: Final = 8.0
-"""Columns and pictures stand shakily and lie firmly: they are not laid down to less than this part of their height."""
+"""Columns and pictures are unstable upright, stable lying: not laid down to less than this share of their height."""
 
 _BASE: Final = 0.003
 """Share of the diagonal within which points of the base lie: the soles of a figure, not the curve of its back."""
 
 
 _SAMPLES: Final = 1_000_000
-"""Triangles that are enough to find the middle of a surface."""
+"""Number of triangles that is enough to find the centre of a surface."""
 
 
 def turn_upright(mesh: TriangleMesh, up: str) -> tuple[TriangleMesh, Floats]:
@@ -120,7 +119,7 @@ def steadiness(vertices: Floats, faces: NDArray[np.integer]) -> float:
         Degrees between the upright and the line from the nearest edge of the base to the middle of the surface. Below
         0 it falls by itself, :data:`FALLEN` without any base.
     """
-    # takes a while to load, and only files without an axis need it
+    # slow to import, and only files without an axis need it
     from scipy.spatial import ConvexHull, QhullError
 
     used = np.zeros(len(vertices), dtype=bool)

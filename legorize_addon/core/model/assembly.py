@@ -17,7 +17,7 @@ from .contacts import ContactGraph, contact_graph, middles
 
 @dataclass(frozen=True, eq=False)
 class Assembly:
-    """Bricks of a catalogue; what follows from them is found when it is asked for, once.
+    """Bricks of a catalogue; what follows from them is computed once, at its first use.
 
     The word and the idea are those of rigid-block equilibrium: blocks and the
     interfaces between them.

@@ -1,4 +1,4 @@
-"""Which cell columns of a grid are laid as whole bricks, and which of its cells touch."""
+"""Which cell columns of a grid are built as whole bricks, and which of its cells touch."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class Touching:
 
 
 def every_plate(columns: NDArray[Any]) -> NDArray[Any]:
-    """Repeat what holds of columns, (n_layers, n_y, n_x), for their plates, (n_layers, 3, n_y, n_x)."""
+    """Repeat values of columns, (n_layers, n_y, n_x), for their plates, (n_layers, 3, n_y, n_x)."""
     layers, rows, across = columns.shape
     return np.broadcast_to(columns[:, None], (layers, PLATES_PER_BRICK, rows, across))
 

@@ -13,15 +13,14 @@ from numpy.typing import NDArray
 from ..arrays import Mask
 
 NOBODY: Final = -1
-"""Row that stands for no brick: the owner of an empty cell, what a move of a whole piece names."""
+"""Stands for no brick: the owner of an empty cell, or the brick of a move that joins a whole piece."""
 
 
 class Role(IntEnum):
-    """What a brick or cell is there for; the scene shows each role by itself.
+    """The purpose of a brick or cell; the scene can show each role by itself.
 
-    Supports outside are taken out again when the model is built. Those inside
-    stay, and so do those that are kept outside because they alone hold a part of
-    the model.
+    Supports outside are removed when the model is built. Those inside stay, and so do those outside without which a
+    part of the model would fall.
     """
 
     SHELL = 0
@@ -78,5 +77,5 @@ class Bricks:
 
 
 def concatenate(tables: Sequence[Bricks]) -> Bricks:
-    """Put tables one behind the other; there must be one at least."""
+    """Concatenate tables, at least one."""
     return Bricks(*(np.concatenate([getattr(each, name) for each in tables]) for name in Bricks.__slots__))

@@ -1,6 +1,6 @@
 """The parts and colours to build with, and which part is made in which colour.
 
-The facts stand in ``assets/parts.csv``, ``assets/colours.csv`` and
+The facts are in ``assets/parts.csv``, ``assets/colours.csv`` and
 ``assets/availability.csv``; ``assets/README.md`` names their sources. The
 catalogue holds only colours to build a whole model of: every colour of it may
 be used.
@@ -160,7 +160,7 @@ class Catalogue:
         raise BuildError(f"Colour {code} is not in the catalogue: choose one of the LDraw codes {choice}.")
 
     def exists_in(self, part_rows: ArrayLike, codes: ArrayLike) -> Mask:
-        """Tell which parts are made in which colours.
+        """Return which parts are made in which colours.
 
         Parameters
         ----------

@@ -1,7 +1,7 @@
-"""How the bricks hold together: cells, collisions, stud contacts, components.
+"""How the bricks are connected: cells, collisions, stud contacts, components.
 
 A brick sits on another one when a cell of its underside lies on a cell of the
-other's top. Bricks that hang together by such contacts form a component; a
+other's top. Bricks that are connected by such contacts form a component; a
 component that stands on the lowest plate is grounded, every other one floats.
 """
 
@@ -36,7 +36,7 @@ class ContactGraph:
         Cell of the grid (x, y, z) that is ``owner[0, 0, 0]``; zero unless a
         brick lies at negative coordinates.
     collisions : int
-        Cells that more than one brick claims.
+        Cells that more than one brick fills.
     pairs : (n_pairs, 2) int32 array
         Lower and upper brick of each contact, sorted, each pair once.
     studs : (n_pairs,) int32 array
@@ -162,7 +162,7 @@ def stacked(pairs: Rows, n: int) -> tuple[list[list[int]], list[list[int]]]:
 
 
 def components(pairs: Rows, n: int) -> Rows:
-    """Label what hangs together.
+    """Label the connected components.
 
     Parameters
     ----------
@@ -191,7 +191,7 @@ def _owners(brick: Rows, columns: Rows, heights: Rows) -> tuple[Rows, int]:
     base = np.ravel_multi_index(tuple(columns[:, ::-1].T), tuple(shape))
     cells = np.repeat(base, heights) + above * (shape[1] * shape[2])
     claimant = np.repeat(brick, heights)
-    # where bricks collide anyone may have written last: who does not find himself there has lost
+    # where bricks collide the order of writing is arbitrary: a brick whose row was overwritten collides
     flat[cells] = claimant
     lost = flat[cells] != claimant
     np.minimum.at(flat, cells[lost], claimant[lost])
@@ -208,7 +208,7 @@ def _contacts(lower: Rows, upper: Rows, n: int) -> tuple[Rows, Rows]:
 
 
 def _grounded(component: Rows, level: Rows) -> Mask:
-    """Tell which bricks are in components that stand on the lowest plate."""
+    """Return which bricks are in components that stand on the lowest plate."""
     standing = np.zeros(len(level), dtype=bool)
     standing[component[level == level.min(initial=np.iinfo(np.int32).max)]] = True
     grounded: Mask = standing[component]

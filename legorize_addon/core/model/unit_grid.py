@@ -13,14 +13,14 @@ from ..arrays import Floats, Mask
 from ..units import PLATE, STUD
 
 COLOUR_ANY: Final = -1
-"""Colour of a cell that nobody sees: the layout may choose."""
+"""Colour of a hidden cell: the layout may choose."""
 
 COLOUR_EMPTY: Final = -2
 """Colour of a cell where nothing may be built."""
 
 
 class Fill(IntEnum):
-    """Whether the layout has to fill a cell (visible or carrying), may, or must not."""
+    """Whether a cell must be filled (visible or carrying), may be filled, or must stay empty."""
 
     EMPTY = 0
     OPTIONAL = 1
@@ -50,13 +50,13 @@ class UnitGrid:
 
     @property
     def solid(self) -> Mask:
-        """Cells that must or may be built, shape (n_layers, 3, n_y, n_x)."""
+        """Required and optional cells, shape (n_layers, 3, n_y, n_x)."""
         solid: Mask = self.cover != Fill.EMPTY
         return solid
 
 
 def ground_of(filled: Mask) -> int:
-    """Return the plane that stands on the ground: the lowest one in which there is anything.
+    """Return the plane that stands on the ground: the lowest one that is not empty.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What can be known of whether a model stands; apart from the search, which takes long to import."""
+"""The possible verdicts on whether a model stands; separate from the search, which takes long to import."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ UNSUPPORTED: Final = -1.0
 
 
 class Verdict(Enum):
-    """What is known of the model."""
+    """The verdict on a model."""
 
     STABLE = "stable"
     COLLAPSES = "collapses"

@@ -1,4 +1,4 @@
-"""What of the grid must be built, may be built, or stays empty, and what its shell needs to hold together."""
+"""Which cells of the grid are required, optional or empty, and what the shell needs to hold together."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
-"""Ceilings inside a hollowed model: what carries them while the model is built from below.
+"""Ceilings inside a hollowed model, and what carries them while the model is built from below.
 
 A ceiling spans a hollow; a brick holds there if it lies on a cell that stands on
 something. Where the hollow is wider than bricks reach, corbels lean out of the
 walls, one stud a layer, or pillars rise from the floor. Both are cheapest paths
 downwards: the price of a path is the number of its cells, and every path may end
-at what is there already, so that corbels share their lower part.
+at existing cells, so that corbels share their lower part.
 
 References
 ----------
@@ -117,10 +117,10 @@ def carriers(columns: Columns, way: Way, progress: Progress = silent) -> tuple[M
 
 
 def _carried(columns: Columns, progress: Progress, *, leaning: bool) -> Mask:
-    """Return cells to fill so that no ceiling is left uncarried, as far as that is possible."""
+    """Return cells to fill so that every ceiling is carried wherever possible."""
     before, turns = columns.hollow, 0
     while (uncarried := columns.uncarried).any():
-        # a few turns as a rule: each halves what is left of the share
+        # usually a few turns: each halves the share
         turns += 1
         progress("hollowing", 1 - 0.5**turns)
         n_layers = int(np.flatnonzero(uncarried.any(axis=(1, 2)))[-1])
@@ -133,7 +133,7 @@ def _carried(columns: Columns, progress: Progress, *, leaning: bool) -> Mask:
 
 
 def _prices(columns: Columns, n_layers: int, *, leaning: bool) -> NDArray[np.int16]:
-    """Return how many cells it takes to fill each hollow cell and whatever carries it, layer by layer.
+    """Return the number of cells that it takes to fill each hollow cell and everything that carries it, layer by layer.
 
     A filled cell is carried by the cell below itself, or leans on a neighbour in
     its layer that stands on something or is made to.
@@ -172,7 +172,7 @@ def _heads(columns: Columns, uncarried: Mask, price: NDArray[np.int16]) -> Ints:
     gain = np.rint(near * np.prod(window)).astype(np.int64)
     worth = np.where(columns.bottom[layers] & (below < _NOWHERE), gain * _PRECISION // below, 0)
     order = np.arange(worth.size, 0, -1).reshape(worth.shape)
-    # no two cells rank alike, so that the choice depends on nothing else
+    # no two cells have the same rank, so that the choice is unique
     rank = np.where(worth > 0, worth * worth.size + order, 0)
     best = ndimage.maximum_filter(rank, (1, 2 * _REACH + 3, 2 * _REACH + 3), mode="constant")
     layer, y, x = np.nonzero((rank > 0) & (rank == best))
@@ -181,7 +181,7 @@ def _heads(columns: Columns, uncarried: Mask, price: NDArray[np.int16]) -> Ints:
 
 
 def _paths(columns: Columns, heads: Ints, price: NDArray[np.int16], *, leaning: bool) -> Mask:
-    """Return the cells of cheapest paths from the heads down to what is there."""
+    """Return the cells of cheapest paths from the heads down to existing cells."""
     n_x = columns.hollow.shape[2]
     plane = columns.hollow.shape[1] * n_x
     around = np.array([y * n_x + x for y, x in _AROUND], dtype=np.int64)
@@ -204,7 +204,7 @@ def _paths(columns: Columns, heads: Ints, price: NDArray[np.int16], *, leaning: 
 
 
 def _held(cell: Ints, top: Mask, plane: int) -> Mask:
-    """Tell which cells, given by flat indices, stand on a stud or on the ground."""
+    """Return which cells, given by flat indices, stand on a stud or on the ground."""
     held: Mask = (cell < plane) | top[cell - plane]
     return held
 

@@ -1,4 +1,4 @@
-"""What a shell needs beyond its own cells to hold together once it is laid."""
+"""Cells that a shell needs in addition so that its bricks hold together."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .roofs import reinforce_roofs
 
 
 def make_cohesive(grid: UnitGrid, *, plates: bool) -> UnitGrid:
-    """Join bodies that nearly touch, reinforce thin roofs, open walls for what sticks out.
+    """Join bodies that nearly touch, reinforce thin roofs, and lay walls in plates where parts stick out.
 
     Parameters
     ----------

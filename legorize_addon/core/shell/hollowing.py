@@ -1,9 +1,8 @@
-"""Hollowing: which cells must be built, which may be, and which stay empty.
+"""Hollowing: which cells are required, which are optional, and which stay empty.
 
-A shell of constant thickness around everything empty must be built: it shows,
-or it carries what shows. So must what carries the ceilings inside. The cells one
-further in may be built, which lets the layout use larger bricks that hold the
-shell together; the rest is left out.
+A shell of constant thickness around everything empty is required: it can be seen, or it carries what can be seen. The
+cells that carry the ceilings inside are required as well. The cells one further in are optional, so that the layout can
+use larger bricks that hold the shell together; the rest stays empty.
 
 References
 ----------
@@ -39,7 +38,7 @@ def hollow(
     open_bottom: bool = False,
     progress: Progress = silent,
 ) -> UnitGrid:
-    """Sort the cells of a solid model into must, may and empty.
+    """Sort the cells of a solid model into required, optional and empty.
 
     Parameters
     ----------
@@ -52,10 +51,9 @@ def hollow(
         Compare each layer with both neighbours, or as the paper does with the
         one above alone, which leaves undersides open.
     ceilings : {"cheaper", "corbels", "pillars", "free"}
-        What carries ceilings inside, see :func:`~.ceilings.carriers`.
+        How ceilings inside are carried, see :func:`~.ceilings.carriers`.
     open_bottom : bool
-        Leave out what only covers the underside on the ground. With "upper"
-        it is left out anyway.
+        Leave out cells that only cover the underside on the ground. With "upper" they are left out anyway.
     progress : Progress, optional
         Told between the steps.
 
@@ -66,8 +64,8 @@ def hollow(
         around these, ``EMPTY`` elsewhere; everything ``REQUIRED`` when `shell` is
         None. Full columns of three plates have one cover. Colours stay as they
         are in the cells that remain, but ceilings are carried in any colour.
-        Shell cells without a colour of their own, which nobody sees, and corbels
-        get the role ``INSIDE``, pillars ``SUPPORT_INSIDE``.
+        Hidden shell cells without a colour of their own and corbels get the role
+        ``INSIDE``, pillars ``SUPPORT_INSIDE``.
     """
     cover, colour, role = grid.cover.copy(), grid.colour.copy(), grid.role.copy()
     cover[grid.solid] = Fill.REQUIRED

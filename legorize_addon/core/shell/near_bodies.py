@@ -21,7 +21,7 @@ _NEAR: Final = np.array([4.0, 2.0, 2.0])
 """Steps in plates and cells within which bodies are joined: a stud between them, or three plates."""
 
 _ASIDE: Final = 1.5
-"""How much farther a step aside counts than one upwards: what is stacked holds by itself."""
+"""Factor by which a step sideways counts more than one upwards: stacked bricks hold by themselves."""
 
 
 def join_near_bodies(grid: UnitGrid, *, plates: bool) -> UnitGrid:
@@ -64,7 +64,7 @@ def join_near_bodies(grid: UnitGrid, *, plates: bool) -> UnitGrid:
 
 
 def free_bodies(grid: UnitGrid) -> int:
-    """Count the bodies of a model that touch no other one.
+    """Count the separate bodies of a model.
 
     Parameters
     ----------

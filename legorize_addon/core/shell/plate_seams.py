@@ -1,9 +1,7 @@
-"""Where brick columns have to be laid as plates, so that parts can hold to each other.
+"""Where brick columns must be laid as plates, so that parts can be joined.
 
-Bricks hold by their studs: what lies beside each other is joined only by a part
-that covers both. A part is a brick or a plate, so a plate that sticks out from a
-wall of bricks holds to nothing, unless the wall is made of plates where it
-enters.
+Bricks are joined by their studs: cells side by side are joined only by a part that covers both. So a plate that sticks
+out from a wall of bricks is joined to nothing, unless the wall is made of plates where the plate enters.
 """
 
 from __future__ import annotations
@@ -20,11 +18,11 @@ from ..arrays import Ints, Mask
 from ..model import Role, Touching, UnitGrid, agree, brick_columns, every_plate
 
 _ROUNDS: Final = 8
-"""Most rounds: each joins what touches what the rounds before have joined."""
+"""Largest number of rounds: each joins what touches the parts joined before."""
 
 
 def add_plate_seams(grid: UnitGrid) -> UnitGrid:
-    """Lay brick columns in plates where nothing else can hold what touches them.
+    """Lay brick columns in plates where nothing else can join what touches them.
 
     Parameters
     ----------
@@ -53,7 +51,7 @@ def add_plate_seams(grid: UnitGrid) -> UnitGrid:
 
 
 def parts_of(touching: Touching, colour: NDArray[np.int16], whole: Mask) -> tuple[Ints, Mask]:
-    """Tell which cells can hold to each other: what is stacked, or side by side and coverable by one brick or plate.
+    """Return which cells can be joined: stacked ones, or cells side by side that one brick or plate can cover.
 
     Parameters
     ----------
@@ -77,11 +75,11 @@ def parts_of(touching: Touching, colour: NDArray[np.int16], whole: Mask) -> tupl
     laid = touching.laid(colour, whole)
     cover = (whole[first] == whole[second]) & agree(laid[first], laid[second])
     sideways = node[touching.sideways[:, cover]]
-    # a part across two cells holds to both if each has something below or above
+    # a part across two cells joins both if each has something below or above
     strong = stacked[sideways].all(axis=0)
     ends = np.concatenate([sideways[:, ~strong], sideways[::-1, ~strong]], axis=1)
     hanging = ends[:, ~stacked[ends[0]] & stacked[ends[1]]]
-    # what has neither holds to one neighbour and passes nothing on
+    # a cell that has neither is joined to one neighbour and passes nothing on
     hanging = hanging[:, np.unique(hanging[0], return_index=True)[1]]
     pairs = np.concatenate([upright, sideways[:, strong], hanging], axis=1)
     graph = coo_array((np.ones(pairs.shape[1], dtype=bool), tuple(pairs)), shape=(len(whole), len(whole)))

@@ -1,7 +1,7 @@
-"""The difference of the regions of two layers: what of one layer the other leaves uncovered.
+"""The difference of the regions of two layers: the part of one layer that the other leaves uncovered.
 
-A region is the set of cells of a layer. The paper tells four cases apart, by
-how the region of the next layer lies to the one at hand; one formula covers all.
+A region is the set of cells of a layer. The paper has four cases, by how the regions of the two layers overlap; one
+formula covers all of them.
 
 References
 ----------

@@ -1,8 +1,7 @@
-"""Plates under roofs that are one layer thick, which else would fall apart along their seams.
+"""Plates under roofs that are one layer thick, which otherwise would fall apart along their seams.
 
-Bricks hold by their studs alone: a roof of one layer is a puzzle whose pieces do
-not hold to each other. Builders put a second layer under it, and so does this
-stage, wherever a brick cannot reach what stands below or on top of the roof.
+Bricks are joined only by their studs, so the bricks of a roof of one layer are not joined to each other. Builders put a
+second layer under it, and so does this stage, wherever a brick cannot reach something below or on top of the roof.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ _OVERLAP: Final = 2
 
 
 def reinforce_roofs(grid: UnitGrid, *, plates: bool) -> UnitGrid:
-    """Put plates, or bricks, of any colour under what nothing else holds.
+    """Put plates or bricks of any colour under cells that nothing else holds.
 
     Parameters
     ----------
@@ -43,7 +42,7 @@ def reinforce_roofs(grid: UnitGrid, *, plates: bool) -> UnitGrid:
     solid = _stacked(grid.solid)
     single = solid & ~np.repeat(brick, PLATES_PER_BRICK, axis=0)
     added = np.zeros_like(solid)
-    # a stair of plates, each on the rim of the next, carries nothing: what holds is as high as a brick
+    # a stair of plates, each on the rim of the next, carries nothing: supports must be as high as a brick
     upright = ndimage.binary_opening(solid, np.ones((PLATES_PER_BRICK, 1, 1), dtype=bool))
     for present, code, height in ((brick, colour, PLATES_PER_BRICK), (single, _stacked(grid.colour), 1)):
         below, above = _vertical(upright, ground_of(solid), height)

@@ -20,7 +20,7 @@ from ..units import CELL_AREA, STUD
 from .trajectories import Outline
 
 _LEFT: Final = 1e-7
-"""An edge this near to a grid line, in cells, belongs to the cell on its left, the inside."""
+"""An edge that is this close to a grid line, in cells, belongs to the cell on its left, the inside."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

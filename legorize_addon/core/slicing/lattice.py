@@ -82,7 +82,7 @@ def fit_grid(mesh: TriangleMesh, *, symmetric: bool, plates: bool = False) -> Gr
     # the enlargement of a small model is less than the one free cell that every side needs
     start -= np.where(low[:2] - start < STUD, STUD, 0)
     if symmetric:
-        # what is thin has one row of cells around its middle, unless all is too small
+        # a thin model has one row of cells around its middle, unless it is too small everywhere
         fewest = 1 if size.max() >= STUD / 2 else 0
         odd = np.maximum(np.round(size / STUD), fewest).astype(int) % 2
         cells += (cells + odd) % 2
@@ -128,7 +128,7 @@ def _margin(cells: Mask, point: Floats) -> float:
 
 
 def _centre_of_mass(mesh: TriangleMesh) -> Floats:
-    """Return the centre of the volume, or of the surface where the mesh holds no volume."""
+    """Return the centre of the volume, or of the surface if the mesh encloses no volume."""
     corners = mesh.vertices[mesh.faces] - mesh.vertices[0]
     middle = corners.sum(axis=1)
     volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))

@@ -1,4 +1,4 @@
-"""Which slices stand for which level of the grid.
+"""Which slices represent which level of the grid.
 
 A level is a layer of bricks or of plates. A layer of bricks has one slice or
 three, the middles of its plates. For bricks each counts for the one layer; for
@@ -20,7 +20,7 @@ from .lattice import Grid
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Levels:
-    """Pairs of a slice and a level that it stands for, both rising.
+    """Pairs of a slice and a level that it represents, both ascending.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Levels:
     thickness: Floats
 
     def standing(self, slice_: Ints) -> tuple[Ints, Ints]:
-        """Repeat things of slices for every level that their slice stands for.
+        """Repeat items of slices for every level that their slice represents.
 
         Parameters
         ----------
@@ -60,7 +60,7 @@ class Levels:
 
 
 def levels_of(heights: Floats, layer: NDArray[np.int32], plate: NDArray[np.int8], grid: Grid) -> Levels:
-    """Tell which slices stand for which levels of a grid.
+    """Find which slices represent which levels of a grid.
 
     Parameters
     ----------

@@ -24,10 +24,10 @@ _GAP: Final = 8.0
 """Open ends this near to each other, in mm, are joined before a chain is closed on itself."""
 
 _SHRINK: Final = 8
-"""A pass over all open ends is worth its while where it joins at least one of so many."""
+"""A pass over all open ends pays if it joins at least one in this many."""
 
 _ASKED: Final = 8
-"""Nearest places that are asked for at first, and each time all are taken twice as many."""
+"""Number of nearest places to query first; doubled each time that all of them are used up."""
 
 _DIGIT: Final = 16
 """Bits of a digit: numpy sorts numbers of 16 bits in linear time."""
@@ -57,7 +57,7 @@ def successors(faces: NDArray[np.int32], slices: Slices) -> Ints:
     half = 3 * slices.face.astype(np.int64)
     up, down = _run_starts(half + slices.exit), _run_starts(half + slices.enter)
     n = len(slices.mesh.vertices)
-    # an edge is told by its lower and its upper vertex
+    # an edge is identified by its lower and its upper vertex
     rising, falling = (
         faces.take(lower).astype(np.int64) * n + faces.take(upper)
         for lower, upper in (slices.rises(up), slices.falls(down))
@@ -98,7 +98,7 @@ def _sorting(key: Ints) -> Ints:
 
 
 def matched_ends(slices: Slices, following: Ints) -> tuple[Ints, Ints]:
-    """Choose which open chain goes on where another one breaks off.
+    """Choose which open chain continues where another one ends.
 
     Within a slice the nearest pair is joined first, then the nearest of those that
     are left, and so on up to 8 mm; what is left closes on itself.
@@ -142,7 +142,7 @@ def _match_nearest(ends: Floats, starts: Floats, match: Ints) -> None:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Places:
-    """Points that are all different, and what lies there.
+    """Different points, and the members at each.
 
     Attributes
     ----------
@@ -171,7 +171,7 @@ class _Places:
         return cls(points[row[order]], member, np.cumsum(size) - size, size)
 
     def take(self, place: int, size: int) -> Ints:
-        """Return some members of a place, which are free no longer."""
+        """Return some members of a place, and mark them as taken."""
         first = int(self.first[place])
         self.first[place] += size
         self.left[place] -= size
@@ -196,7 +196,7 @@ def _nearest_pairs(ends: _Places, starts: _Places) -> tuple[Ints, Ints, int] | N
 
 
 def _join(ends: _Places, starts: _Places, first: Ints, second: Ints, match: Ints) -> int:
-    """Join the members of pairs of places one to one, as many as both have; return how many that is."""
+    """Join the members of pairs of places one to one, as many as both have; return their number."""
     size = np.minimum(ends.left[first], starts.left[second])
     match[ends.member[ranges(ends.first[first], size)[1]]] = starts.member[ranges(starts.first[second], size)[1]]
     for places, rows in ((ends, first), (starts, second)):
@@ -243,7 +243,7 @@ def _by_distance(
 
 
 def _unmatched(match: Ints) -> Mask:
-    """Return the elements that are the partner of none, where -1 is no partner."""
+    """Return the elements that are nobody's partner; -1 means no partner."""
     free = np.ones(len(match), dtype=bool)
     free[match[match >= 0]] = False
     return free

@@ -13,7 +13,7 @@ from ..geometry import ranges
 from .loops import loop_areas
 
 _MOST: Final = 1 << 21
-"""Pairs of loops, or edges, that are looked at together, to bound the memory."""
+"""Pairs of loops, or edges, that are tested at once, to bound the memory."""
 
 _OCTAVES: Final = 3
 """Loops whose widths differ by up to this many factors of two are sorted together."""
@@ -69,7 +69,7 @@ def _boxed_pairs(low: Floats, high: Floats, loop_slice: NDArray[np.int32], rank:
         yield _boxed(low, high, rank, *np.nonzero(loop_slice[:, None] == loop_slice))
         return
     extent = float(high[:, 0].max() - low[:, 0].min())
-    # slices lie apart by more than any loop is wide
+    # slices are farther apart than any loop is wide
     left = low[:, 0] - low[:, 0].min() + loop_slice * (4 * extent + 1)
     # a little more than needed: far from the start of the row sums have lost some digits
     margin = 1e-12 * float(left.max())
@@ -94,7 +94,7 @@ def _boxed(low: Floats, high: Floats, rank: Ints, son: Ints, around: Ints) -> tu
 
 
 def _blocks(size: Ints) -> list[Ints]:
-    """Return consecutive rows whose sizes add up to what may be looked at together."""
+    """Return consecutive rows whose sizes add up to what may be tested at once."""
     block = np.cumsum(size) // _MOST
     return np.split(np.arange(len(size)), np.flatnonzero(np.diff(block)) + 1)
 

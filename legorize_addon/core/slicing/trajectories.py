@@ -31,10 +31,10 @@ from .slices import Slices
 Codes = NDArray[np.int16]
 
 _SEVERAL: Final = np.iinfo(np.int16).min
-"""Stands for the colour of a triangle that may have several."""
+"""Marks a triangle that may have several colours."""
 
 _MOST_PIECES: Final = 1 << 21
-"""Pieces between texel borders that are looked at together, to bound the memory."""
+"""Pieces between texel borders that are processed at once, to bound the memory."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,4 +1,4 @@
-"""Textures at the size of the model: what of them is seen, how finely, and as which colours."""
+"""Textures at the size of the model: what can be seen of them, how finely, and in which colours."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
-"""What is not seen is not built: parts of the surface whose alpha is too low are left out.
+"""What cannot be seen is not built: surface whose alpha is too low is left out.
 
-A face that is seen in part is cut along the texels that are seen, as finely as
-matters for a stud: faces on the border are halved until their sides are short
-enough, and each part stays or goes as a whole. Faces far from the border stay
+A face that is partly visible is cut along its visible texels, as finely as matters for a stud: faces on the border are
+halved until their sides are short enough, and each part is kept or removed as a whole. Faces far from the border stay
 large.
 """
 
@@ -25,20 +24,20 @@ _MOST_PARTS: Final = 400_000
 """Faces that cutting may add; a forest of leaves is cut less finely."""
 
 _POINTS: Final = 8
-"""Points along a side of a small face at which the texels are looked up."""
+"""Points along a side of a small face at which texels are looked up."""
 
 _FINEST_CUT: Final = 0.25
-"""Length in studs of the sides of faces along which is cut what is not seen: the border moves by an eighth."""
+"""Length in studs of the sides of faces at the border: the border then moves by at most an eighth."""
 
 _FINER: Final = 1.5
-"""Times that a model may grow, for want of what is not seen, before its faces are cut again."""
+"""Factor by which a model may grow when hidden parts are left out before its faces are cut again."""
 
 _HIDDEN, _SEEN, _BOTH = range(3)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Texels:
-    """Which texels of an image are seen.
+    """Which texels of an image are visible.
 
     Attributes
     ----------
@@ -133,7 +132,7 @@ def cut_unseen(mesh: TriangleMesh, *, least: float, finest: float) -> tuple[Tria
 def seen_part(
     mesh: TriangleMesh, repairs: Repairs, *, least: float, scale: Callable[[TriangleMesh], float]
 ) -> tuple[TriangleMesh, Repairs, float]:
-    """Cut off what is not seen of a model, as finely as matters at its size.
+    """Cut off the parts of a model that cannot be seen, as finely as matters at its size.
 
     Parameters
     ----------
@@ -149,15 +148,15 @@ def seen_part(
     Returns
     -------
     TriangleMesh
-        The part that is seen. A model of which nothing would be left is taken whole: some exporters write an alpha of 0
-        into materials that their own program shows.
+        The visible part. A model that would vanish is used whole: some exporters write an alpha of 0 into materials
+        that their own program shows as opaque.
     Repairs
-        Of the mesh as it came, but whether it is closed now.
+        Of the given mesh, but with whether it is closed now.
     float
         Share of the area that is not seen: 1 where nothing is.
     """
     whole, share, finest = mesh, 0.0, np.inf
-    # what is seen may be smaller than the whole, so that each part of it becomes larger
+    # the visible part may be smaller than the whole, so that it becomes larger in the model
     while finest > _FINER * (finer := STUD * _FINEST_CUT / scale(mesh)):
         finest = finer
         mesh, share = cut_unseen(whole, least=least, finest=finest)
@@ -169,7 +168,7 @@ def seen_part(
 
 
 def remarks_on_unseen(share: float, *, least: float) -> tuple[str, ...]:
-    """Return a sentence on what was left out, or had to be taken as seen; none if all is seen.
+    """Return a sentence on what was left out, or was built although transparent; none if all is visible.
 
     Parameters
     ----------

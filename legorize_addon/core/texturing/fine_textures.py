@@ -1,10 +1,11 @@
-"""Textures that change within a stud: what is seen of them from afar is their mean, in linear light.
+"""Textures that change within a stud: from afar they look like their mean in linear light.
 
-An image is looked at in blocks of about a stud. Where the texels of a block differ
-clearly but its mean is much like those of the blocks around it, the texture repeats
-or is noise finer than a stud, and no choice among its colours would be right: its
-texels take the mean. Where the means change from block to block there is something
-to be seen, such as the rim of an eye or a stripe, and its texels stay.
+An image is divided into blocks of about a stud. Where the texels of a block
+differ clearly but its mean is much like those of the blocks around it, the
+texture repeats or is noise finer than a stud, and no choice among its colours
+would be right: its texels take the mean. Where the means change from block to
+block there is something to be seen, such as the rim of an eye or a stripe, and
+its texels stay.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from ..colours import linear_from_srgb, srgb_from_linear
 from .box_means import box_means
 
 _CLEAR: Final = 32.0
-"""Spread within a block, in sRGB bytes, from which on a texture is no matter of shades."""
+"""Spread within a block, in sRGB bytes, from which a texture is more than shades of one colour."""
 
 _LEVEL: Final = 0.4
 """Difference from the blocks around as a share of the spread, below which a block is like them.
@@ -47,7 +48,7 @@ def average_windows(image: Bytes, window: tuple[int, int], *, clamp: bool) -> By
     Returns
     -------
     (h, w, 3) uint8 array
-        The image itself where nothing in it is that fine.
+        The image itself if nothing in it is that fine.
     """
     shape = tuple(max(1, round(size / each)) for size, each in zip(image.shape[:2], window, strict=True))
     if shape == image.shape[:2]:

@@ -1,12 +1,11 @@
-"""Images no finer than matters at the size of the model.
+"""Images that are not finer than needed at the size of the model.
 
-Seen from where a brick model is looked at, texels much smaller than a stud are
-not seen by themselves: what is seen is their mean, in linear light. So every face
-takes a reduced image whose texels are not much smaller than the part of a stud
-that can decide a brick's colour. That bounds the work, as no edge crosses more of
-them than it has studs, whatever the image coordinates are. Texels that are not
-seen have no say; where no seen texel is near they take the colour of the nearest
-ones.
+From the usual distance, texels much smaller than a stud cannot be told apart: one
+sees their mean, in linear light. So every face gets a reduced image whose texels
+are not much smaller than the part of a stud that can decide a brick's colour.
+That bounds the work, because the number of texels that an edge crosses is bounded
+by its studs, whatever the image coordinates are. Hidden texels do not count;
+where no visible texel is near they take the colour of the nearest visible ones.
 
 References
 ----------
@@ -30,7 +29,7 @@ from .box_means import box_means
 from .fine_textures import average_windows
 
 TEXELS_PER_STUD: Final = 16
-"""Most texels that a stud's length crosses along one side of an image."""
+"""Largest number of texels that a stud's length crosses along one side of an image."""
 
 _MOST_CROSSED: Final = 128
 """Most texels that an edge crosses for each stud of its face, and one more stud, however odd the face is."""
@@ -45,15 +44,14 @@ Bytes = NDArray[np.uint8]
 
 
 def reduce_images(mesh: TriangleMesh, *, least: float, mean: bool = True) -> TriangleMesh:
-    """Give each face an image that is no finer than matters.
+    """Give each face an image that is not finer than needed.
 
     Parameters
     ----------
     mesh : TriangleMesh
         In the size of the model.
     least : float
-        Alpha from which on a texel is seen, 0 to 1; the others have no say. At 0,
-        where everything is built, a half is asked for.
+        Least alpha of a visible texel, 0 to 1; others do not count. At 0, where everything is built, one half is used.
     mean : bool, optional
         Whether texture finer than a stud becomes its mean, see :mod:`.fine_textures`.
 
@@ -112,7 +110,7 @@ def _near_zero(mesh: TriangleMesh) -> Floats:
 
 
 def _resolutions(mesh: TriangleMesh) -> tuple[Ints, Ints]:
-    """Find how fine the image of each face is.
+    """Find how finely the image of each face is needed.
 
     Returns
     -------

@@ -1,9 +1,8 @@
 """Bricks behind a flat picture or relief, which hold it together.
 
-The bricks of a lying picture are as many pieces as they are bricks: nothing joins
-what lies side by side. A layer behind them, whose bricks lie across their
-seams, does; so does a row behind a standing one, which may also become part
-of its bricks, as nobody sees its colour.
+Nothing joins the bricks of a lying picture, because they lie side by side. A layer behind them joins them, as its
+bricks lie across their seams. A row behind a standing picture does the same, and may also become part of its bricks,
+because its colour is hidden.
 
 References
 ----------
@@ -36,7 +35,7 @@ def add_backing(grid: UnitGrid, facing: Facing, *, depth: int) -> UnitGrid:
     grid : UnitGrid
         All unit bricks of the model, before hollowing.
     facing : Facing
-        Which way the model looks.
+        The direction that the model faces.
     depth : int
         Layers of bricks below a lying model, or rows of studs behind a standing
         one, where the model reaches farthest back; more where it does not.
@@ -44,9 +43,8 @@ def add_backing(grid: UnitGrid, facing: Facing, *, depth: int) -> UnitGrid:
     Returns
     -------
     UnitGrid
-        Larger towards the back by what has no room. The backing must be built,
-        in any colour, and so must bricks and
-        plates that it hides.
+        Enlarged towards the back where the backing needs room. The backing is required, in any colour, and so are the
+        bricks and plates that it hides.
     """
     solid = grid.solid.reshape(-1, *grid.solid.shape[2:])
     if not solid.any() or depth == 0:

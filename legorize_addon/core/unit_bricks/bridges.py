@@ -1,4 +1,4 @@
-"""Cells that join what touches only at an edge or a corner.
+"""Cells that join parts which touch only at an edge or a corner.
 
 A thin leg that leans steps sideways from layer to layer, and its cells meet at
 their edges: no stud holds there. One more cell beside the joint gives both a
@@ -30,8 +30,7 @@ def bridging_cells(solid: Mask, surface: Floats) -> Mask:
     ----------
     solid : (n_layers, n_y, n_x) bool array
     surface : (n_layers, n_y, n_x) float64 array
-        Surface of the mesh in each cell: of two ways around a joint the one with
-        more of it is taken.
+        Surface of the mesh in each cell: of two ways around a joint the one with more surface is used.
 
     Returns
     -------
@@ -51,8 +50,8 @@ def bridging_cells(solid: Mask, surface: Floats) -> Mask:
 def under_steps(solid: Mask) -> Mask:
     """Return cells to add where thin walls step aside from layer to layer, below the upper of two that meet at an edge.
 
-    Such walls may be joined elsewhere, so that they stay one part, but hang there
-    and tear off. What is added shows from below alone.
+    Such walls may be joined elsewhere, so that they are one part, but here they hang and tear off. The added cells show
+    only from below.
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ from .visibility import nearest_faces, reached_by_air
 Codes = NDArray[np.int16]
 
 CLEAR: Final = 22.0
-"""CIEDE2000 from which on a border between two colours is clear to everybody."""
+"""CIEDE2000 difference from which a border between two colours is clearly visible."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,7 +41,7 @@ class Ballot:
     votes : (n_seen, k) float64 array
         Weight of each colour at each cell, in the order of ``np.nonzero(seen)``.
     score : (n_seen, k) float64 array
-        The colour with the greatest one wins.
+        The colour with the greatest score wins.
     difference : (k, k) float64 array
         CIEDE2000: row by what takes the code, column by the brick.
     """
@@ -125,10 +125,10 @@ def likeliest_colours(
 
 
 def colour_differences(codes: Codes, catalogue: Catalogue, surface: SurfaceColours | None) -> Floats:
-    """Return how different what takes one brick colour looks from each brick colour.
+    """Return how different the surface behind one brick colour looks from each brick colour.
 
-    Orange fur that has to become brown bricks may be nearer to red than brown
-    is, so texels are compared where they are known.
+    Orange fur that becomes brown bricks may be closer to red than brown is, so texels are compared where they are
+    known.
 
     Parameters
     ----------

@@ -1,9 +1,8 @@
 """Cells in mixed colours: from afar they look like the mean of the texture on them.
 
-First every cell gets its likeliest colour and it is settled where plates pay; so
-that is decided by what the texture shows, not by the mixture. Then the plates of
-a column that have one colour are mixed as one, with any colour of the palette.
-Nothing settles them again.
+First every cell gets its closest colour, and it is decided where plates pay: by the texture, not by the mixture. Then
+the plates of a column that have one colour are mixed as one, with any colour of the palette. They are not changed
+again.
 """
 
 from __future__ import annotations
@@ -41,8 +40,8 @@ class Dithering:
     palette : (k,) int16 array
         LDraw codes of the colours to mix.
     facing : Facing or None
-        The way that a flat model looks, across whose front errors are passed on;
-        None mixes in a fixed pattern everywhere.
+        The direction that a flat model faces; errors are passed on across its front. None mixes in a fixed pattern
+        everywhere.
     """
 
     palette: Codes
@@ -51,7 +50,7 @@ class Dithering:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Units:
-    """What is given one colour: the visible plates of a column, or the cell of a brick, that had one before.
+    """The units that get one colour: the visible plates of a column, or the cell of a brick, that had one before.
 
     Attributes
     ----------
@@ -112,7 +111,7 @@ def dithering_of(
 
 
 def remarks_on_dithering(mesh: TriangleMesh, kind: str) -> tuple[str, ...]:
-    """Return a sentence where errors cannot be passed on, none elsewhere.
+    """Return a sentence if errors cannot be passed on.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""Which way a flat model looks: a picture or a relief, lying or standing.
+"""The direction that a flat model faces: a picture or a relief, lying or standing.
 
-A picture that is backed is seen from its front alone, so its front decides how
-its bricks are coloured, and the backing goes to the other side.
+A backed picture is only seen from the front, so its front decides the colours of its bricks, and the backing goes to
+the other side.
 """
 
 from __future__ import annotations
@@ -22,25 +22,25 @@ _FLAT: Final = 0.25
 """Greatest thickness of a flat model, as a share of its next larger side."""
 
 _OPEN: Final = 0.5
-"""How much more of the surface has to look one way than the other; of a closed one as much looks either way."""
+"""How much more of the surface must face one way than the other; a closed surface faces both ways equally."""
 
 _FORWARD: Final = 0.1
-"""Cosine to the front from which on surface counts as part of the picture."""
+"""Cosine to the front from which surface counts as part of the picture."""
 
 _EDGE: Final = 1e-6
-"""Weight of what looks aside, which decides only where nothing of the front is on a brick."""
+"""Weight of surface that faces sideways, which decides only where no front is on a brick."""
 
 _UP: Final = 2
 
 
 @dataclass(frozen=True, slots=True)
 class Facing:
-    """The way that a flat model looks.
+    """The direction that a flat model faces.
 
     Attributes
     ----------
     axis : int
-        Along which it is thin: 0, 1 or 2 for x, y or z.
+        The axis along which it is thin: 0, 1 or 2 for x, y or z.
     sign : int
         Whether it looks along the axis, 1, or against it, -1.
     """
@@ -49,10 +49,10 @@ class Facing:
     sign: int
 
     def weighed(self, samples: SurfaceSamples) -> SurfaceSamples:
-        """Return the samples with what looks forward before all else, and without what looks backward.
+        """Return the samples with those that face forward first, and without those that face backward.
 
-        What looks aside counts only behind the foremost brick: the edges of a
-        picture do not frame it, but a relief has walls.
+        Samples that face sideways count only behind the foremost brick: the edges of a picture do not frame it, but a
+        relief has walls.
 
         Parameters
         ----------
@@ -79,11 +79,10 @@ def is_flat(mesh: TriangleMesh) -> bool:
 
 
 def facing_of(mesh: TriangleMesh, surface: SurfaceColours) -> Facing:
-    """Find out which way a flat model looks.
+    """Find out which way a flat model faces.
 
-    A lying one looks up. A standing one looks where its surface does if that is
-    open, else to the side that shows more colours; where these are equal, as in
-    Blender's views from the front and from the right, against y or along x.
+    A lying model faces up. A standing one faces the way of its surface if that is open, else the side that shows more
+    colours; if these are equal it faces -y or +x, as in Blender's views from the front and from the right.
 
     Parameters
     ----------
@@ -121,7 +120,7 @@ def facing_of(mesh: TriangleMesh, surface: SurfaceColours) -> Facing:
 
 
 def _more_colours(mesh: TriangleMesh, surface: SurfaceColours, axis: int) -> int:
-    """Return by how many brick colours what looks along an axis has more than what looks against it."""
+    """Return how many more brick colours the surface facing along an axis has than the surface facing against it."""
     turned = replace(mesh, vertices=np.roll(mesh.vertices, _UP - axis, axis=1))
     corner: Floats = turned.vertices[:, :2].min(axis=0)
     face, _, uvs = vertical_hits(turned, corner=corner, pitch=STUD)

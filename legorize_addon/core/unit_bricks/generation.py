@@ -62,7 +62,8 @@ class Rules:
     Attributes
     ----------
     keep_thin : bool
-        Add cells where the surface would else be lost: legs, ears, thin walls.
+        Add cells where the surface would otherwise be lost: legs, ears, thin
+        walls.
     longest : bool
         Colour by the greatest trajectory length, as the paper does, instead of
         by likeness to all the surface of a cell.
@@ -76,8 +77,7 @@ class Rules:
         The way that a flat model is looked at, if from one side alone: what looks
         that way colours the bricks, unless by length.
     dithering : Dithering or None
-        How colours are mixed, after plates are settled; None leaves each cell
-        its likeliest colour.
+        How colours are mixed, after plates are decided; None leaves each cell its closest colour.
     """
 
     keep_thin: bool = True
@@ -156,7 +156,7 @@ def unit_bricks(
 def _solid(
     share: Floats, samples: SurfaceSamples, *, keep_thin: bool, detail: Detail | None, progress: Progress
 ) -> Mask:
-    """Return the cells that are filled: by half, or because the surface would else be lost."""
+    """Return the cells that are filled: half covered, or because the surface would otherwise be lost."""
     solid = half_covered(share)
     progress("unit bricks", 0.1)
     if keep_thin:
@@ -215,7 +215,7 @@ def mean_areas(area: Floats, levels: Levels, n_levels: int) -> Floats:
 def _unit_grid(colour: NDArray[np.int16], grid: Grid) -> UnitGrid:
     """Return a grid whose solid cells all must be built, given the colours of bricks or of plates.
 
-    What is too thin for cells may reach below all others; the ground is where the model stands.
+    Parts too thin for cells may reach below all others; the ground is where the model stands.
     """
     times = round(grid.height / PLATE)
     planes = np.repeat(colour, times, axis=0)

@@ -1,4 +1,4 @@
-"""Neighbouring cell columns agree where that saves parts: iterated conditional modes.
+"""Neighbouring cell columns become alike where that saves parts: iterated conditional modes.
 
 Every cell column of a layer is laid as a brick or as plates, in colours. Each
 changes, one after the other, to what costs least given its neighbours: its own
@@ -103,7 +103,7 @@ class Columns:
 
 
 def relax(codes: Codes, columns: Columns, active: Ints, offers: Offers, worth: float) -> Codes:
-    """Let columns change until none gains by it, or a few times each.
+    """Change columns until no change gains anything, or a few times each.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def relax(codes: Codes, columns: Columns, active: Ints, offers: Offers, worth: f
                 state[rows[moved]] = offered[moved, best[moved]]
                 changed = _around(rows[moved], columns)
                 joined[changed] = _joins(state, columns, changed)
-                # whoever has one of these as a neighbour may gain now
+                # a column with one of these as a neighbour may gain now
                 ready |= np.isin(active, _around(changed, columns))
         if not ready.any():
             break

@@ -1,7 +1,7 @@
-"""Which surface another skin covers at once: a body under its cloak, a wall under its paint.
+"""Which surface is hidden right behind another one: a body under its cloak, a wall under its paint.
 
-The lattice of the outer air cannot tell two skins apart that lie nearer to each
-other than its cells are wide, so the samples themselves are compared.
+The lattice of the outer air cannot separate two surfaces that are closer to each other than its cells are wide, so the
+samples themselves are compared.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ _NEXT: Final = 16
 """Samples in front that each is compared with."""
 
 _NEAREST: Final = 0.1
-"""Distance in studs from which on another skin covers a sample; one nearer is the same skin."""
+"""Least distance in studs of a surface that hides a sample; a closer one is the same surface."""
 
 _FARTHEST: Final = 0.8
-"""Distance in studs up to which it does; the air lattice sees what is farther off."""
+"""Greatest distance in studs of it; the air lattice handles what is farther away."""
 
 _ASIDE: Final = 0.3
-"""Studs that the covering sample may lie aside of the line straight ahead."""
+"""Studs that the hiding sample may lie beside the line straight ahead."""
 
 _SAME_WAY: Final = 0.3
-"""Least cosine between two skins that face the same way."""
+"""Least cosine between two surfaces that face the same way."""
 
 
 def occluded(samples: SurfaceSamples) -> Mask:
@@ -42,8 +42,7 @@ def occluded(samples: SurfaceSamples) -> Mask:
     Returns
     -------
     (n,) bool array
-        True where a sample that faces nearly the same way lies straight ahead,
-        a tenth to eight tenths of a stud off.
+        True where a sample that faces nearly the same way lies straight ahead, a tenth to eight tenths of a stud away.
     """
     place, normal = samples.place * samples.sides, samples.normal * samples.sides
     normal /= np.maximum(np.sqrt(np.einsum("ij,ij->i", normal, normal)), np.finfo(float).tiny)[:, None]

@@ -1,4 +1,4 @@
-"""Offset bricks in the grid: their role, and the colours of what needs none.
+"""Offset bricks in the grid: their role, and the colours of cells that need none.
 
 References
 ----------
@@ -43,7 +43,7 @@ def add_offset_bricks(
     """
     shape = (-1, *grid.colour.shape[2:])
     colour = grid.colour.reshape(shape) if plates else grid.colour[:, 0]
-    # what no air reaches has no horizontal faces to close
+    # cells that no air reaches have no horizontal faces to close
     filled = ~outer_air(colour >= COLOUR_ANY)
     offsets = offset_rings(filled, height=PLATE if plates else BRICK, critical_angle=critical_angle)
     if literal:

@@ -69,7 +69,7 @@ class Offsets:
 
 
 class OverhangKind(IntEnum):
-    """What hangs over."""
+    """The kinds of overhangs."""
 
     POINT = 0
     EDGE = 1
@@ -261,7 +261,7 @@ def recolour_rings(colour: NDArray[np.int16], left_alone: Mask, source: Mask) ->
 
 
 def overhang_kinds(solid: Mask) -> Overhangs:
-    """Sort what has nothing below it into point, edge and face overhangs.
+    """Sort bricks with nothing below into point, edge and face overhangs.
 
     Bricks of a level with nothing below, connected edge to edge, are one
     overhang: a point if nothing beside them rests on the level below, so that they

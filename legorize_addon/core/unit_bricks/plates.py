@@ -41,8 +41,8 @@ class Detail:
         as the share of its faces times the difference as a share of a clear one.
         0 keeps all plates that differ from a brick.
     worth : float
-        Error, as above, that one part less is worth: neighbouring columns agree
-        where that costs less. 0 decides every column by itself.
+        Error, as above, to accept for one part less: neighbouring columns become alike where that costs less. 0 decides
+        every column by itself.
     """
 
     marked: Mask
@@ -85,7 +85,7 @@ def _settled_alone(solid: Mask, share: Floats, detail: Detail) -> Mask:
     there = plates[layer, :, y, x]
     inside = share.reshape(plates.shape)[layer, :, y, x]
     error, full, none = (np.abs(inside - what).mean(axis=1) for what in (there, 1.0, 0.0))
-    # what was added though less than half covered is thin; it and what carries it stay
+    # cells that were added although less than half covered are thin; they and what carries them stay
     thin = (there & (inside < 0.5)).any(axis=1)
     resting = _resting(plates)[layer, y, x]
     drop = (none < full) & resting & ~thin
@@ -105,7 +105,7 @@ def _resting(plates: Mask) -> Mask:
 
 
 def settle_colours(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -> Codes:
-    """Give cell columns of three plates one colour where several do not pay.
+    """Give cell columns of three plates one colour where several colours do not pay.
 
     Where one part less is worth something, neighbours are taken into account.
 

@@ -1,4 +1,4 @@
-"""Fewer parts: cell columns take plates and colours after their neighbours where that costs little.
+"""Fewer parts: cell columns take the plates and colours of their neighbours where that costs little.
 
 A single plate between bricks, or a cell in a shade of its own, is a part of its
 own that holds little. What a column may become instead is weighed against the
@@ -24,13 +24,13 @@ _LIKELIEST: Final = 4
 """Colours of its own surface that a column is tried in."""
 
 _CONTRAST: Final = 1.5
-"""Power of differences in colour: shades may give way, what is clear at a glance shall stay."""
+"""Exponent on colour differences: small ones may be traded away."""
 
 
 def smooth_shapes(solid: Mask, share: Floats, *, least_gain: float, worth: float) -> Mask:
     """Fill up cell columns of one or two plates where that saves parts.
 
-    Nothing is taken away, so that nothing thin is lost, and no hole or gap opens.
+    Nothing is removed, so that nothing thin is lost, and no hole or gap opens.
 
     Parameters
     ----------
@@ -147,7 +147,7 @@ class _Colours:
     likeliest : (n, m) int16 array
         Colours of their own, ``COLOUR_ANY`` for none.
     price : (n,) float64 array
-        What several colours of a full column cost besides.
+        Extra cost of several colours in a full column.
     """
 
     codes: Codes
@@ -177,7 +177,7 @@ def _undecided(codes: Codes, columns: Columns) -> Ints:
 
 
 def _likeliest(cost: Floats, voted: Mask, codes: Codes) -> Codes:
-    """Return the colours of a column's surface that are most like all of it, ``COLOUR_ANY`` where there are no more.
+    """Return the colours of a column's surface that are closest to all of it, ``COLOUR_ANY`` where there are no more.
 
     Parameters
     ----------

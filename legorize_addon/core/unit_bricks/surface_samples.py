@@ -21,7 +21,7 @@ from ..slicing import Grid, Levels, Pieces, Trajectories
 from ..units import BRICK, STUD
 
 _RAYS: Final = 3
-"""Rays along each side of a cell, and of light along each stud's length."""
+"""Rays along each side of a cell, and rays for light along each stud's length."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -225,7 +225,7 @@ def face_normals(mesh: TriangleMesh, height: float = BRICK) -> Floats:
 
 
 def inner_cells(samples: SurfaceSamples, solid: Mask) -> Ints:
-    """Return the cell whose skin each sample is: its own, or the nearest one inwards.
+    """Return the cell whose surface each sample is: its own, or the nearest one inwards.
 
     A sample in a cell that is not solid belongs to the neighbour behind the
     surface, along the steepest axis of the normal first.

@@ -1,8 +1,7 @@
-"""Cells for what is too thin to cover half of any cell: legs, ears, antlers, walls.
+"""Cells for parts too thin to cover half of any cell: legs, ears, antlers, walls.
 
-Wherever surface lies farther than half a cell from every brick, bricks are added
-where most of that surface is, one at a time around each place, until all of it
-is near to a brick.
+Wherever surface is farther than half a cell from every brick, bricks are added where most of that surface is, one at a
+time around each place, until all of it is close to a brick.
 """
 
 from __future__ import annotations
@@ -21,13 +20,13 @@ _LEAST_AREA: Final = 12.0
 """Surface in mm^2, of both sides together, for which a brick is added; the sides of plates count three times."""
 
 _RIM_AREA: Final = 18.0
-"""The same beside the model, where a brick more only rounds a rim up."""
+"""The same beside the model, where another brick would only enlarge a rim."""
 
 _GAP_AREA: Final = 32.0
 """Surface in mm^2 for which a gap in a wall is filled: half of a cell's side."""
 
 _ROUNDING: Final = 1e-6
-"""Distances in cells and areas in mm^2 below this are none."""
+"""Distances in cells and areas in mm^2 below this count as zero."""
 
 _AROUND: Final = np.array([step for step in np.ndindex(3, 3, 3) if step != (1, 1, 1)]) - 1
 _EVERYWHERE: Final = (True, True, True)
@@ -62,7 +61,7 @@ def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
     axis = np.argmax(np.abs(samples.normal * np.minimum(samples.sides, 1) ** 2), axis=1)
     # the sides of a plate are as much of it as the sides of a brick are of a brick
     samples = replace(samples, area=samples.area * np.where(axis == 0, 1, BRICK / samples.height))
-    # beside the model a cell takes more, else its rims turn out ragged
+    # beside the model a cell needs more, otherwise its rims become ragged
     rim = np.zeros_like(solid)
     for each in range(3):
         rim |= np.logical_or(*_neighbours(solid, each))
@@ -84,7 +83,7 @@ def thin_cells(samples: SurfaceSamples, solid: Mask) -> Mask:
 
 
 def _add(samples: SurfaceSamples, lost: Ints, known: Mask, least: Floats, beside: Mask | None = None) -> bool:
-    """Make the cells known that hold most lost surface; return whether there were any."""
+    """Mark the cells with most lost surface as known; return whether there were any."""
     cell, area = _lost_area(samples.cell[lost], samples.area[lost], known.shape)
     enough = (area >= least[cell]) & ~known.ravel()[cell]
     if beside is not None:
@@ -94,7 +93,7 @@ def _add(samples: SurfaceSamples, lost: Ints, known: Mask, least: Floats, beside
 
 
 def _mend(samples: SurfaceSamples, place: Floats, facing: Ints, known: Mask, axis: int) -> bool:
-    """Go on with walls that face along an axis, from known cells to where no brick before or behind stands for them."""
+    """Continue walls that face along an axis, from known cells to where no brick before or behind represents them."""
     lost = facing[~_near(place[facing], known, tuple(each == axis for each in range(3)))]
     beside = np.zeros_like(known)
     for other in {0, 1, 2} - {axis}:
@@ -104,7 +103,7 @@ def _mend(samples: SurfaceSamples, place: Floats, facing: Ints, known: Mask, axi
 
 
 def _fill_gaps(samples: SurfaceSamples, place: Floats, axis: Ints, known: Mask) -> None:
-    """Fill cells between two known ones that hold much surface which no brick before or behind it stands for.
+    """Fill cells between two known ones if they hold much surface that no brick before or behind represents.
 
     The bricks beside a gap of one cell are near to all the surface in it, each to
     a half, and would leave a hole in a wall.
@@ -143,7 +142,7 @@ def _near(place: Floats, known: Mask, axes: tuple[bool, ...]) -> Mask:
     """Return whether each place lies in a known cell, or within half a cell of one along some axes at once."""
     padded = np.pad(known, 1)
     flags, strides, last = padded.ravel(), padded.strides, np.array(padded.shape) - 1
-    # the middle first: there most places find their cell and are done with
+    # the middle first: most places find their cell there
     steps = [_STEPS if each else _STEPS[:1] for each in axes]
     flat = [
         [np.minimum(np.maximum(np.floor(along + step) + 1, 0), end).astype(np.intp) * stride for step in choice]

@@ -1,7 +1,7 @@
-"""Which surface can be seen: what the air around the model reaches.
+"""Which surface can be seen: the surface that the air around the model reaches.
 
 Bodies that overlap, the inside of a hollow vehicle, the surface of a sealed
-cavity: none of these must give its colour to a brick that stands in front.
+cavity: none of these may give its colour to a brick in front of it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _FINE_LIMIT: Final = 80_000_000
 """Fine cells beyond which unit cells are used instead, to bound the memory."""
 
 _TIE: Final = 1e-12
-"""Squared distances nearer than this are equal: the first cell keeps the point."""
+"""Squared distances that differ by less than this are equal: the first cell keeps the point."""
 
 _MARGIN: Final = 4
 """Fine cells of air around the grid on every side."""
@@ -81,7 +81,7 @@ class OuterAir:
 
 
 def air_around(samples: SurfaceSamples, shape: tuple[int, int, int], *, on_ground: bool) -> OuterAir:
-    """Find out where the air around a surface gets to.
+    """Find out how far the air around a surface reaches.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def reached_by_air(samples: SurfaceSamples, shape: tuple[int, int, int]) -> Mask
 
 
 def _grown(mask: Mask) -> Mask:
-    """Return the mask grown by one cell face to face; an order faster than binary_dilation."""
+    """Return the mask grown by one cell face to face; ten times as fast as binary_dilation."""
     grown = mask.copy()
     for axis in range(mask.ndim):
         source, target = np.moveaxis(mask, axis, 0), np.moveaxis(grown, axis, 0)
@@ -145,7 +145,7 @@ def _fine_cells(place: Floats, fine: Ints, shape: tuple[int, ...]) -> Ints:
 def nearest_faces(place: Floats, sides: Floats, solid: Mask, air: Mask) -> Ints:
     """Return the cell whose outer face is nearest to each point.
 
-    Only the eight cells around a point are looked at.
+    Only the eight cells around a point are tested.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""One model out of loose components: exchanges, small windows laid anew, plates across the seams."""
+"""Joining loose components into one model: exchanges, small windows laid anew, plates across the seams."""
 
 from __future__ import annotations
 

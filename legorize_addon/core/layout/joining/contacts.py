@@ -31,11 +31,11 @@ shows less, one on top shows more."""
 _HIDDEN: Final = 0.5
 _SEEN: Final = 8.0
 _ON_TOP: Final = 1.5
-"""Price of a cell that is added where nobody sees it and where it is seen; how much dearer it is on top of a brick."""
+"""Price of an added cell if hidden and if visible, and the extra price on top of a brick."""
 
 _SEAM: Final = 0.01
 _LONGEST: Final = 30
-"""What each cell of the seam between two bricks is worth: a longer plate lies better; and how many count."""
+"""Value of each cell of the seam between two bricks (a longer plate lies better), and how many count."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -129,7 +129,7 @@ def _reaches(owner: Rows) -> Iterator[_Reach]:
 
 
 def _stacked(owner: Rows) -> Mask:
-    """Tell which bricks lie on others or bear some, and that nobody does not, (n + 1,)."""
+    """Return which bricks lie on or carry others, False for nobody, (n + 1,)."""
     below, above = owner[:-1], owner[1:]
     touch = (below != above) & (below != NOBODY) & (above != NOBODY)
     stacked = np.zeros(owner.max() + 2, dtype=bool)

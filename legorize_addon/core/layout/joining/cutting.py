@@ -2,7 +2,8 @@
 
 A brick that gives away one plate of some of its cells becomes plates: the other
 two levels keep their outline, and what is left of the cut one lies between them
-or beside them. So it holds all that it held before, and the new plate besides.
+or beside them. So it holds everything that it held before, and the new plate as
+well.
 """
 
 from __future__ import annotations
@@ -93,7 +94,7 @@ class Forms:
                         yield form, corner
 
     def tiled(self, squares: set[Square], like: Laid, level: int, height: int) -> list[Laid] | None:
-        """Cover squares in the colour and role of a brick; None where its colour has not the parts for it."""
+        """Cover squares in the colour and role of a brick; None if the parts for it do not exist in its colour."""
         left, tiles = set(squares), []
         while left:
             found = next(self.within(left, min(left), height, like.colour), None)
@@ -161,12 +162,12 @@ class Bench:
         return pieces
 
     def reaches(self, tie: Laid, seam: Seam) -> bool:
-        """Tell whether a tie meets something at both ends of a seam: a brick that it cuts, or one below or above."""
+        """Return whether a tie meets something at both ends of a seam: a brick that it cuts, or one below or above."""
         levels = (seam.level, tie.level - 1, tie.level + tie.form.height)
         return all(any(self.at(level, end) != NOBODY for level in levels) for end in seam.ends)
 
     def holds(self, pieces: list[Laid]) -> bool:
-        """Tell whether pieces in the place of bricks hold to each other and to all that the bricks held to."""
+        """Return whether the pieces that replace bricks are joined to each other and to all their neighbours."""
         place = {(piece.level, square): row for row, piece in enumerate(pieces) for square in piece.squares}
         height = pieces[0].form.height
         # bricks around come after the pieces, by number
@@ -206,7 +207,7 @@ class Bench:
 
 
 def _whole(beside: list[set[int]]) -> bool:
-    """Tell whether all nodes hang together, given neighbours of each; a link may be told at one end alone."""
+    """Return whether all nodes are connected, given neighbours of each; a link may be listed at one end only."""
     mutual: list[set[int]] = [set() for _ in beside]
     for node, others in enumerate(beside):
         mutual[node] |= others

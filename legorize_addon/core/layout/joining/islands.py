@@ -1,4 +1,4 @@
-"""Which bricks are loose: apart from others that cells of one colour, or stacking, could hold them to."""
+"""Which bricks are loose: apart from others to which cells of one colour, or stacking, could join them."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Islands:
         node = np.append(component, np.int32(NOBODY))[owner]
         free = np.flatnonzero((owner == NOBODY) & (colour != COLOUR_EMPTY))
         n_known = int(component.max(initial=NOBODY)) + 1
-        # what the bricks of a component cover is held together already
+        # the cells of one component are joined already
         node.reshape(-1)[free] = np.arange(n_known, n_known + len(free))
         pairs = np.concatenate([_meeting(node.reshape(-1), colour, axis) for axis in range(3)])
         return cls(node, components(pairs, n_known + len(free)))
@@ -49,7 +49,7 @@ def _meeting(node: Rows, colour: Plane, axis: int) -> Rows:
 
 
 def loose_bricks(bricks: Bricks, links: ContactGraph, islands: Islands, catalogue: Catalogue) -> Mask:
-    """Tell which bricks are not in the main component of their island: the largest one, on the ground if any is."""
+    """Return which bricks are not in the main component of their island: the largest one, on the ground if any is."""
     brick, column = stud_columns(bricks, catalogue)
     component, first, size = np.unique(links.component, return_index=True, return_counts=True)
     x, y, z = column[np.searchsorted(brick, first)].T

@@ -1,6 +1,6 @@
-"""Hold loose bricks: join components to the main one by exchanging bricks.
+"""Join loose components to the main one by exchanging bricks.
 
-Bricks lie in columns of cells: whatever is stacked is connected. So two
+Bricks lie in columns of cells: stacked bricks are connected. So two
 components can be joined only by a brick across columns of both. Such bricks are
 offered to :func:`~.exchange.exchange` with a reward, in all sheets that a loose
 component reaches; free cells of the second row, under a wide roof or over a
@@ -71,7 +71,7 @@ def connect_loose(
     rng: np.random.Generator,
     progress: Progress,
 ) -> Bricks:
-    """Join what is loose to the rest, as far as a few rounds of exchanges can.
+    """Join loose bricks to the rest, as far as a few rounds of exchanges can.
 
     Parameters
     ----------
@@ -91,8 +91,7 @@ def connect_loose(
     Returns
     -------
     Bricks
-        Covers the same must cells, with no more loose and no more floating
-        bricks than before.
+        Covers the same required cells, with no more loose and no more floating bricks than before.
     """
     links = contact_graph(bricks, catalogue)
     if links.n_components <= 1:
@@ -106,7 +105,7 @@ def connect_loose(
         if not cells.n_loose or way == len(_WAYS):
             break
         progress("connection", number / _ROUNDS)
-        # what may be laid stays the same until the bricks change
+        # the possible placements stay the same until the bricks change
         offers = offers or [_Offer.of(bricks, sheets, among, cells, rng) for sheets, among in work]
         relaid = [offer.joined(*_WAYS[way], rng) for offer in offers]
         if all(new is offer.bricks for new, offer in zip(relaid, offers, strict=True)):
@@ -205,13 +204,13 @@ class _Offer:
         found = placements(replace(sheets, required=_near(loose) & worthwhile), among)
         problem = pose(sheets, among, found, cells.owner, cells.required)
         at = labels.reshape(3, -1)[:, sheets.cells]
-        # what touches nothing above or below would be loose itself
+        # a placement that touches nothing above or below would be loose itself
         alone = found.totals(at[:2].max(axis=0) >= 0) == 0
         problem = replace(problem, cost=problem.cost + _JOIN * alone)
         here = np.flatnonzero(np.isin(bricks.corner[:, 2], sheets.level))
         corner = bricks.corner[here]
         corner[:, 2] = np.searchsorted(sheets.level, corner[:, 2])
-        # bricks out of reach are not found and stay as they are
+        # bricks out of reach are not found and do not change
         lying = found.find(among.rows_of(bricks.part[here], bricks.turn[here]), corner)
         row, reward = _offers(found, at, most, rng)
         return cls(bricks, problem, here[lying >= 0], lying[lying >= 0], row, reward)
@@ -238,7 +237,7 @@ def _near(loose: Mask) -> Mask:
     """Tell which cells are near those that are loose, (n_sheets, n_y, n_x)."""
     near = np.zeros_like(loose)
     for sheet, marked in zip(near, loose, strict=True):
-        # loose cells are few: only the part of a sheet around them is looked at
+        # loose cells are few: only the part of a sheet around them is searched
         box = spread(marked.any(axis=1), _REACH), spread(marked.any(axis=0), _REACH)
         sheet[box] = maximum_filter(marked[box], size=2 * _REACH + 1)
     return near

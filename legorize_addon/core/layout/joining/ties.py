@@ -1,11 +1,11 @@
-"""Plates across seams, laid last, where no layout of the cells holds together.
+"""Ties: plates across seams, laid last, where no layout of the cells holds together.
 
-What is still loose once the bricks are laid is joined to what it touches by a
+Bricks that are still loose after the layout are joined to what they touch by a
 plate across the seam, a *tie*, for which the bricks on both sides are cut. The
-tie has the colour of one side: where that would show, a plate is added below
-an edge, and only where there is no room for one are a cell or two in the
-neighbour's colour. Where there is nothing to cut, a plate is added below or above.
-The cheapest joints come first, as in a least spanning tree (Kruskal 1956).
+tie has the colour of one side: where that would show, a plate is added below an
+edge, and only where there is no room for one are a cell or two in the neighbour's
+colour. Where there is nothing to cut, a plate is added below or above. The
+cheapest joints come first, as in a least spanning tree (Kruskal 1956).
 """
 
 from __future__ import annotations
@@ -101,14 +101,14 @@ def _as_laid(grid: UnitGrid, bricks: Bricks, links: ContactGraph) -> UnitGrid:
 
 
 def _joined(bench: Bench, component: Rows, colour: Plane, *, plates: bool) -> int:
-    """Lay ties between components, more of them where more hangs on them; return how many were laid."""
+    """Lay ties between components, more of them where they carry more; return how many were laid."""
     found = near_contacts(bench.owner, component, colour, plates=plates)
     height = 1 if plates else PLATES_PER_BRICK
     pairs = component[found.bricks]
     seams = _seams(found)
     home = np.arange(component.max() + 1)
     laid = []
-    # no colour is given up where another place costs less
+    # no colour is changed where another place costs less
     for rows, most_wrong in ((found.price < RECOLOURED, 0), (found.price > -np.inf, _MOST_WRONG)):
         for row in np.flatnonzero(rows).tolist():
             one, other = pairs[row]
@@ -137,7 +137,7 @@ def _hanging(joints: Rows, size: Ints) -> list[int]:
     weight, hanging = size.tolist(), [0] * len(joints)
     whole = np.bincount(components(joints, len(size)), size)[components(joints, len(size))]
     leaves = [node for node, others in enumerate(beside) if len(others) == 1]
-    # leaves are taken off until none is left; each hands its weight on
+    # leaves are removed until none is left; each passes its weight on
     for leaf in leaves:
         if beside[leaf]:
             other, row = beside[leaf].popitem()
@@ -150,7 +150,7 @@ def _hanging(joints: Rows, size: Ints) -> list[int]:
 
 
 def _more(found: NearContacts, pairs: Rows, laid: list[int], hanging: list[int]) -> Iterator[int]:
-    """Yield the places for more ties at joints on which much hangs: free ones, and a few of another colour."""
+    """Yield the places for more ties at joints that carry much: free ones, and a few of another colour."""
     pairs = np.sort(pairs, axis=1)
     for joint, bricks in zip(laid, hanging, strict=True):
         if bricks >= _BRICKS_A_STRAP:

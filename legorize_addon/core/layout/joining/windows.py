@@ -1,4 +1,4 @@
-"""Exact re-laying of small windows, where exchanging bricks no longer joins what is loose.
+"""Laying small windows anew by exact optimisation, where exchanging bricks no longer joins loose components.
 
 Around a place where a loose component touches another one, the bricks of one
 sheet are taken out and laid anew at least cost, such that they join all that is
@@ -94,7 +94,8 @@ def join_by_windows(
     Returns
     -------
     Bricks
-        Covers the same must cells, in fewer components where windows could join them.
+        Covers the same required cells, in fewer components where windows could
+        join them.
     """
     links = contact_graph(bricks, catalogue)
     if links.n_components <= 1:
@@ -278,12 +279,12 @@ def _joined(held: Mask) -> Index:
     further = together | (held @ held.T)
     while not np.array_equal(together, further):
         together, further = further, further @ further
-    # of nothing there is no first
+    # nothing has no first
     return together.argmax(axis=1) if len(held) else np.zeros(0, dtype=np.intp)
 
 
 def _better(model: _Model, component: Rows, out: Ints, known: Ints, held: Mask, base: int) -> bool:
-    """Tell whether fewer bricks float than before, or as many and in fewer components.
+    """Return whether fewer bricks float than before, or as many and in fewer components.
 
     Parameters
     ----------
