@@ -1,4 +1,4 @@
-"""Files to be imported as their models are at rest: with the poses that their nodes have by themselves.
+"""Files imported with their models at rest: without animation, in the poses of their nodes.
 
 Importers give an object the action that comes first, which then overwrites the
 node's own place. What glTF animates is taken out of a copy of the file before

@@ -1,4 +1,4 @@
-"""Colours that no image holds, baked to one: procedural textures, mixed shaders, generated coordinates.
+"""Colours that are in no image, baked to one: procedural textures, mixed shaders, generated coordinates.
 
 A copy of the mesh is unwrapped by xatlas, its materials are replaced by copies
 that emit their base colour, and Cycles bakes what they emit; once more with

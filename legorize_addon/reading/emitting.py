@@ -1,4 +1,4 @@
-"""Changes to copies of node trees, so that a renderer can bake what only it can tell."""
+"""Changes to copies of node trees, so that a renderer can bake values that only it can compute."""
 
 from __future__ import annotations
 

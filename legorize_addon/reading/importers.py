@@ -1,4 +1,4 @@
-"""Files opened or imported into an empty Blender: which kinds there are, and what of them is taken."""
+"""Opening or importing files into an empty Blender: the kinds of files, and which objects are read."""
 
 from __future__ import annotations
 
@@ -176,7 +176,7 @@ def _reason(path: Path, error: RuntimeError) -> str:
     text = str(error).strip()
     lines = [line for line in text.splitlines() if not line.startswith("Location:")]
     reason = lines[-1].removeprefix("Error: ").replace(str(path.resolve()), path.name).rstrip(".")
-    # an importer in Python hands on its traceback
+    # an importer in Python passes on its traceback
     return f"the importer has failed with {reason}" if "Traceback" in text else reason
 
 

@@ -1,4 +1,4 @@
-"""What of the chosen objects has no surface that could be built, and the sentences about it."""
+"""Chosen objects without a surface that could be built, and the sentences about them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _INFINITE: Final = 1e30
 """Numbers from here on stand for infinity, for which Blender sets the greatest float, 3.4e38."""
 
 _NAMED: Final = 3
-"""Names in a sentence; of more objects the number is told."""
+"""Names in a sentence; more objects are counted."""
 
 
 class Why(Enum):
@@ -35,7 +35,7 @@ class LeftOut:
     """The objects that are left out while others are read."""
 
     def __init__(self) -> None:
-        # dictionaries keep their order, sets have another one in every run
+        # dictionaries keep their order; that of sets differs in every run
         self._names: dict[Why, dict[str, None]] = {why: {} for why in Why}
         self._bare: dict[bpy.types.Object, str] = {}
         self._taken: set[bpy.types.Object] = set()

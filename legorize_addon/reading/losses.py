@@ -1,4 +1,4 @@
-"""What Blender passes over in silence, or in lines that nobody sees, when it opens a file."""
+"""Losses that Blender does not report, or only in printed lines, when it opens a file."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def _ignored(source: Path, said: bytes) -> Iterator[str]:
 
 
 def _newer(source: Path) -> Iterator[str]:
-    """Tell when a Blender file comes from a later version."""
+    """Yield a remark if a Blender file comes from a later version."""
     version = bpy.data.version[:2]
     if bpy.data.filepath and version > bpy.app.version[:2]:
         yield (
@@ -54,7 +54,7 @@ def _newer(source: Path) -> Iterator[str]:
 
 
 def _unlinked(source: Path) -> Iterator[str]:
-    """Tell which linked files, or parts of them, are not there."""
+    """Yield a remark on each linked file that is missing or lacks data."""
     lost: dict[str, list[str]] = {}
     for block in bpy.data.user_map():
         if block.library is not None and block.is_missing:

@@ -1,4 +1,4 @@
-"""Importers and renderers speak to whoever develops them: their lines and tracebacks stay off the user's screen."""
+"""Keeping the lines and tracebacks of importers and renderers off the user's screen."""
 
 from __future__ import annotations
 

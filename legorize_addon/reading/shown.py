@@ -1,4 +1,4 @@
-"""What is taken of a scene: what Blender shows of the chosen objects.
+"""What is read of a scene: what Blender shows of the chosen objects.
 
 There is one rule. Blender's dependency graph lists all that is shown, with
 modifiers, instances, levels of subdivision and animation as they are shown, and

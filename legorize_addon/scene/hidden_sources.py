@@ -1,4 +1,4 @@
-"""What the scene knows of hidden originals: whoever deletes a model the Blender way finds them again.
+"""What the scene keeps about hidden originals, to show them again after a model was deleted in Blender's own way.
 
 A build hides what it was made of and keeps how that was hidden before. The build
 may be deleted together with this, so the scene keeps a second copy.

@@ -98,7 +98,7 @@ def place_plane(plane: bpy.types.Object, section: Section, extent: Sequence[Sequ
         place = Vector((0.0, 0.0, 0.0))
         place[along] = _between(low + section.at * (high - low), CELL_SIZE[along] / 2, flip=section.flip)
         turn = (FLIPS if section.flip else TURNS)[section.axis]
-    # whoever drags a slider mostly stays between the same two middles: then nothing is to be evaluated
+    # a dragged slider mostly stays between the same two middles: then nothing needs to be evaluated
     if plane.location != place or plane.rotation_euler != Euler(turn):
         plane.location, plane.rotation_euler = place, turn
 

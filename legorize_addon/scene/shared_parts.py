@@ -1,8 +1,8 @@
 """The parts that builds show: shared by copies of a build, its own where it changes them, gone when nothing uses them.
 
 Blender copies a build's collection with its objects, but not the parts that they
-instance, which lie outside of every scene. So nobody owns parts: whoever uses
-them keeps them, and what nothing uses any more is swept away.
+instance, which lie outside of every scene. So parts have no owner: they stay
+while something uses them, and unused ones are removed.
 """
 
 from __future__ import annotations

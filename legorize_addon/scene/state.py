@@ -2,8 +2,8 @@
 
 The property's form is versioned. The state of version 0.1.0 names no version
 and is read as version 1; later fields that it lacks are as in a new build.
-Whatever has another form was put there by somebody else: it is no build, and
-nothing that it names is ever touched.
+A property of any other form is not ours: it is not a build, and nothing that it
+names is ever touched.
 """
 
 from __future__ import annotations
@@ -270,7 +270,7 @@ def state_of(build: bpy.types.Collection) -> BuildState:
 
 
 def is_build(collection: bpy.types.Collection) -> bool:
-    """Tell whether a collection is a build of ours, and not a stranger's that has a property of the same name."""
+    """Return whether a collection is a build, not one of somebody else with a property of the same name."""
     group = collection.get(BUILD_KEY)
     if not hasattr(group, "to_dict"):
         return False

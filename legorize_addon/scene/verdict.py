@@ -1,4 +1,4 @@
-"""What the panel says of whether a model stands."""
+"""What the panel says about whether a model stands."""
 
 from __future__ import annotations
 

@@ -30,14 +30,14 @@ SAID: Final = 6.0
 NAVIGATION: Final = frozenset(
     {"MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM"}
 )
-"""Events that pass while a job runs: one may look around, not change the scene under its feet."""
+"""Events that are allowed while a job runs: looking around, but not changing the scene."""
 
 
 class Reporting:
     """The one place where an expected failure becomes a report."""
 
     def reported(self, work: Callable[..., set[str]], *arguments: Any) -> set[str]:
-        """Call a function; report its failure and cancel if it has one that the user can mend."""
+        """Call a function; report an expected failure and cancel."""
         try:
             with enough_memory():
                 return work(*arguments)
@@ -284,7 +284,7 @@ def _clear_status() -> None:
 
 
 def _forget_status() -> None:
-    """Let no timer outlive what it belongs to."""
+    """Remove the timers of jobs before their window or file goes away."""
     if bpy.app.timers.is_registered(_clear_status):
         bpy.app.timers.unregister(_clear_status)
 

@@ -1,4 +1,4 @@
-"""Where files of learned samples lie, and the name by which a scene knows one on every machine.
+"""Where training files are stored, and the relative name by which a scene finds one on every machine.
 
 A name that begins with // is relative to the .blend, as everywhere in Blender;
 any other one without a folder is a file beside the .blend or, if there is none,

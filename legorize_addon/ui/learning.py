@@ -1,4 +1,4 @@
-"""Learning from the user's own models: more samples for the machine of the quick layout, in the user's own folder."""
+"""Learning from the user's own models: more training samples for the fast layout, in the user's own folder."""
 
 from __future__ import annotations
 

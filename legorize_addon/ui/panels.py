@@ -1,4 +1,4 @@
-"""The sidebar tab "Legorize": the button, the settings, what is shown, what came out."""
+"""The sidebar tab "Legorize": the button, the settings, the view, the result."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
         self._draw_damage(context)
 
     def _draw_damage(self, context: bpy.types.Context) -> None:
-        """Draw what was deleted by other ways than ours, and the button that mends it."""
+        """Draw what was deleted in Blender's own way, and the button that repairs it."""
         lost = [entry.source.name for entry in orphans(context.scene)]
         if lost:
             _wrapped(context, self.layout, f"Hidden, although the model was deleted: {', '.join(lost)}", "ERROR")

@@ -1,4 +1,4 @@
-"""What is to be built: which objects, read on the main thread, with which settings, in place of what."""
+"""Requests to build: which objects, read on the main thread, with which settings, and which builds they replace."""
 
 from __future__ import annotations
 

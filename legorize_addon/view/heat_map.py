@@ -70,7 +70,7 @@ def heat_of(margin: Floats) -> NDArray[np.int32]:
 
 
 def has_margins(build: bpy.types.Collection) -> bool:
-    """Tell whether a build knows what its bricks have left; those of earlier versions do not."""
+    """Return whether a build knows what its bricks have left; builds of earlier versions do not."""
     return all(MARGIN in points.data.attributes for points in point_objects(build))
 
 

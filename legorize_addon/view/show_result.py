@@ -1,4 +1,4 @@
-"""A run's result into the scene: the finished model, with its supports at hand."""
+"""Putting the result of a run into the scene: the finished model, with hidden supports."""
 
 from __future__ import annotations
 

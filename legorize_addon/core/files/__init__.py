@@ -1,4 +1,4 @@
-"""What is written: LDraw documents, lists for shops, and the folder that they come in."""
+"""Output files: LDraw documents, lists for shops, and their folder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Two folders change places in one step, where the system can do that.
+"""Exchange two folders in one step, where the system can do that.
 
 Python has no function for it, so the system's own is called.
 
@@ -28,8 +28,7 @@ def exchange(one: Path, other: Path) -> bool:
     Returns
     -------
     bool
-        Whether they did; if not, because the system or the file system has no
-        such call or refuses it, nothing has changed.
+        Whether they did. If the system or the file system has no such call or refuses it, nothing has changed.
     """
     if sys.platform == "win32":
         return False

@@ -1,4 +1,4 @@
-"""The folder of the results: all of it is there in the end, or it is as it was before."""
+"""The folder of the results: written as a whole, or left as it was."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NEW: Final = "new"
 
 @contextmanager
 def new_folder(out: Path, *, names: Collection[str] = ()) -> Iterator[Path]:
-    """Yield a folder to write into; what it holds becomes the results at the end, and only if all went well.
+    """Yield a folder to write into; its contents become the results at the end, if nothing failed.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def temporary_of(folder: Path) -> Path:
 
 
 def clear_up(place: Path) -> None:
-    """End and remove what runs that are no longer alive left in a folder; nothing if it is not there."""
+    """Finish and remove what killed runs left in a folder, if it exists."""
     if place.is_dir():
         with alone(place):
             clear_abandoned(place, finish)
@@ -86,7 +86,7 @@ def _publish(work: Path, fresh: Path, target: Path) -> None:
     first = target.relative_to(above).parts[0]
     missing = work / NEW / target.relative_to(above)
     if missing != fresh:
-        # somebody has made a part of the folders meanwhile
+        # another process has created a part of the folders meanwhile
         missing.parent.mkdir(parents=True, exist_ok=True)
         fresh.rename(missing)
     (work / NEW / first).rename(above / first)
@@ -103,7 +103,7 @@ def _near(target: Path) -> Path:
         return _nearest(target)
     above = target.parent
     same_disk = target.stat().st_dev == above.stat().st_dev and not target.is_mount()
-    # whoever works in the folder, as the shell of this run does then, is to find it again
+    # processes whose working folder it is, such as the shell of this run, must find it again
     worked_in = Path(os.path.realpath(os.curdir)).is_relative_to(target)
     return above if same_disk and os.access(above, os.W_OK | os.X_OK) and not worked_in else target
 

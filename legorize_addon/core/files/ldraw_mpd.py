@@ -2,8 +2,8 @@
 
 The model, its pieces and its sub-assemblies are sub-models with steps of their
 own; supports stand among the bricks, in the steps in which they are built.
-There is no command of LDraw itself that takes something out again. Two that are
-widely read say it: LPub3D removes groups, LeoCAD hides parts from a step on.
+LDraw itself has no command that takes something out again. Two programs have one:
+LPub3D removes groups, LeoCAD hides parts from a step on.
 
 References
 ----------
@@ -132,7 +132,7 @@ def _group(step: int) -> str:
 
 
 def _remark(step: Step) -> str:
-    """Return what is to be said of a step."""
+    """Return the comment lines of a step."""
     if step.action == Action.REMOVE:
         return ": take these supports out"
     return (f", {step.times} times" if step.times > 1 else "") + (", pressed from below" if step.pressed else "")

@@ -1,7 +1,7 @@
-"""Which files of a folder a run wrote: the report says it, each with its checksum.
+"""Which files of a folder a run wrote: the report lists them with checksums.
 
-So the next run knows what it may remove, a reader can tell that all files are
-of one run, and what the user has changed since is the user's.
+So the next run knows which files it may remove, a reader can check that all files are of one run, and files that the
+user has changed are kept.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def listed(folder: Path) -> dict[str, str]:
         files = json.loads((folder / REPORT).read_text(encoding="utf-8"))[FILES]
         return {name: str(files[name]) for name in files if _inside(name)}
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
-        # whoever wrote it, it is no list of ours
+        # it is not a list of ours
         return {}
 
 
@@ -80,7 +80,7 @@ def refuse_strangers(folder: Path, names: Iterable[str]) -> None:
 
 
 def changed(folder: Path) -> list[str]:
-    """Return the names of the files that somebody changed after an earlier run wrote them, ascending."""
+    """Return the names of the files that were changed after an earlier run wrote them, ascending."""
     return sorted(name for name in listed(folder).keys() - ours(folder) if _is_file(folder / name))
 
 
@@ -94,7 +94,7 @@ def checksum(file: Path) -> str:
 
 
 def _is_file(path: Path, digest: str = "") -> bool:
-    """Tell whether there is a file, of a certain content if one is named; what cannot be read is none of ours."""
+    """Return whether a file exists, with a certain content if one is given; an unreadable file is not one of ours."""
     try:
         return path.is_file() and not path.is_symlink() and digest in ("", checksum(path))
     except OSError:

@@ -1,4 +1,4 @@
-"""Paths that a user gives: what cannot be used is told in a sentence before any work."""
+"""Paths that a user gives: unusable ones are refused in a sentence before any work."""
 
 from __future__ import annotations
 

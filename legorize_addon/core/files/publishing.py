@@ -1,10 +1,10 @@
-"""New files take the place of an earlier run's, all of them or none.
+"""New files replace those of an earlier run, all of them or none.
 
 Where the system can let two folders change places, that is one step: the new
 folder also gets links to the user's own files, and no reader ever sees a
 mixture. Elsewhere files are moved one by one, after a list of the moves was
-written: what goes wrong is taken back, and what a killed run began is ended by
-the next run.
+written: if a move fails all are undone, and if a run is killed the next one
+finishes its moves.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Moves:
 
     @classmethod
     def planned(cls, work: Path, fresh: Path, target: Path) -> Moves:
-        """Find out what to move.
+        """Find the files to move.
 
         Raises
         ------
@@ -103,7 +103,7 @@ def replace_folder(work: Path, fresh: Path, target: Path) -> None:
 
 
 def carry_out(work: Path, moves: Moves) -> None:
-    """Move what the journal says, from wherever it was left; take all back if that fails, or if it is to stop."""
+    """Make the remaining moves of the journal; undo all if one fails, or if the run is to stop."""
     target = work / moves.target
     try:
         for row, name in enumerate((*moves.stale, *moves.files)):
@@ -118,10 +118,10 @@ def carry_out(work: Path, moves: Moves) -> None:
 
 
 def finish(work: Path) -> None:
-    """End what a killed run began: its new files are there in the end, or, if that cannot be, the old ones."""
+    """Finish the moves of a killed run: its new files are there in the end or, if that is impossible, the old ones."""
     moves = Moves.read(work)
     if not (work / moves.target).is_dir():
-        # moved or removed by somebody meanwhile
+        # moved or removed meanwhile
         (work / JOURNAL).unlink()
         return
     with suppress(OSError):
@@ -208,7 +208,7 @@ def _users(target: Path, own: set[str], folders: set[str], within: str = "") -> 
 
 
 def _alike(fresh: Path, target: Path) -> bool:
-    """Give the new folder the rights of the old one; tell whether it then belongs to the same people."""
+    """Give the new folder the permissions of the old one; return whether it then has the same owners."""
     one, other = fresh.stat(), target.stat()
     if (one.st_uid, one.st_gid, one.st_dev) != (other.st_uid, other.st_gid, other.st_dev):
         return False
@@ -232,7 +232,7 @@ def _linked(users: Sequence[str], target: Path, fresh: Path) -> bool:
 
 
 def _bring(before: Path, target: Path, own: set[str], folders: set[str]) -> None:
-    """Bring what somebody saved in the old folder between the links and the exchange into the new one."""
+    """Move files that were saved in the old folder between the links and the exchange into the new one."""
     with suppress(NotADirectoryError):
         for name in list(_users(before, own, folders)):
             there = target / name

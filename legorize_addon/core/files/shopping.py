@@ -134,7 +134,7 @@ def pick_a_brick_csv(parts: PartsList, catalogue: Catalogue) -> tuple[str, Parts
     left_out : PartsList
         Pairs whose element number is not known; they must be bought elsewhere.
     """
-    # the shop cannot read a line without a number, so the caller has to tell what is missing
+    # the shop cannot read a line without a number, so the caller must report what is missing
     element = catalogue.element[parts.part, parts.colour]
     known = element != 0
     rows = zip(element[known].tolist(), parts.count[known].tolist(), strict=True)

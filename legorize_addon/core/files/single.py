@@ -1,4 +1,4 @@
-"""One file, written as a whole: it is there as a whole, or it is as it was before."""
+"""One file, written as a whole or left as it was."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .paths import named, writable
 
 @contextmanager
 def replacing(path: str | Path, what: str = "file") -> Iterator[Path]:
-    """Yield a path to write to, which becomes the file at the end, if all went well.
+    """Yield a path to write to, which becomes the file at the end if nothing failed.
 
     Parameters
     ----------

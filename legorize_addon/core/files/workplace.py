@@ -1,8 +1,8 @@
 """A temporary folder that belongs to one run, and what killed runs left.
 
 The run holds a lock on a file in it, which the system gives back when the
-process ends, however it ends. So another run can tell a folder at work from one
-that nobody owns any more, without trusting numbers of processes.
+process ends, however it ends. So another run can distinguish a folder in use from
+an abandoned one, without relying on process numbers.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ else:
 
 @contextmanager
 def workplace(near: Path) -> Iterator[Path]:
-    """Yield a new folder that is gone at the end, unless moves out of it have begun and could not be finished.
+    """Yield a new folder that is removed at the end, unless moves out of it have begun and could not be finished.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def _abandoned(folder: Path) -> bool:
         with (folder / LOCK).open("r+b") as lock:
             _lock(lock)
     except FileNotFoundError:
-        # made, and not yet or no longer somebody's; only an empty one is surely not worth anything
+        # created, and not locked yet or any more; only an empty one is certainly worthless
         with suppress(OSError):
             folder.rmdir()
         return False

@@ -1,8 +1,8 @@
-"""Bricks that were laid in the filler's colour although they can be seen: they take the colour they are beside.
+"""Bricks that were laid in the filler's colour although they can be seen take the colour of their neighbours.
 
-What makes roofs and joints hold has no colour of its own, and mostly nobody sees
-it. Where it is seen, as under the chassis of a car, the colour of what it holds
-is right. Bricks take it after the layout, so that they could be laid freely.
+Bricks that make roofs and joints hold have no colour of their own, and most are hidden. Where they can be seen, as
+under the chassis of a car, they should have the colour of what they hold. Bricks take it after the layout, so that they
+could be laid freely.
 """
 
 from __future__ import annotations
@@ -41,18 +41,18 @@ def recolour_visible(bricks: Bricks, grid: UnitGrid, graph: ContactGraph, catalo
     Returns
     -------
     Bricks
-        Those that were seen in a colour of nobody's choice have the commonest
-        colour of the coloured bricks right above them, or else beside them, in
-        which their part is made; they stay as they are where there is none.
+        Visible ones without a colour of their own have the most frequent colour
+        of the coloured bricks right above them, or else beside them, in which
+        their part is made; they stay as they are where there is none.
     """
     free = _free(bricks, grid, graph)
-    # what lies on the ground is not seen from below
+    # cells on the ground cannot be seen from below
     owner = graph.owner[ground_of(graph.owner != NOBODY) :]
     seen = ndimage.binary_dilation(outer_air(owner != NOBODY), border_value=0) & (owner != NOBODY)
     wanted = np.zeros(len(bricks), dtype=bool)
     wanted[owner[seen]] = True
     wanted &= free
-    # what has taken a colour hands it on
+    # a brick that has got a colour passes it on
     while (more := _coloured(bricks, graph, wanted, free, catalogue)) is not None:
         bricks, taken = more
         wanted[taken] = free[taken] = False
@@ -76,7 +76,7 @@ def _coloured(
 
 
 def _free(bricks: Bricks, grid: UnitGrid, graph: ContactGraph) -> Mask:
-    """Tell which bricks cover no cell that has a colour."""
+    """Return which bricks cover no cell that has a colour."""
     colour = grid.colour.reshape(-1, *grid.colour.shape[2:])
     cell = np.argwhere(graph.owner != NOBODY)
     owner = graph.owner[tuple(cell.T)]

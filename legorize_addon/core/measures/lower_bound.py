@@ -53,7 +53,7 @@ def lower_bound(grid: UnitGrid, catalogue: Catalogue, *, progress: Progress = si
     Returns
     -------
     int
-        At least one brick for each must cell that none shares with another one,
+        At least one brick for each required cell that none shares with another one,
         and so on: the sum over all components of the linear programme's bound,
         rounded up.
     """
@@ -113,7 +113,7 @@ def cell_prices(candidates: Candidates, required: Mask, corner: Index) -> Floats
     (n_cells,) float64 array
         Prices in bricks, not above 0 where a cell need not be covered.
     """
-    # to begin with, a brick is worth one brick if all of its must cells have no better one
+    # to begin with, a brick is worth one brick if all of its required cells have no better one
     needed = np.repeat(candidates.totals(required[candidates.cells]), candidates.size)
     most = np.ones(len(required), dtype=np.int64)
     np.maximum.at(most, candidates.cells, needed)

@@ -1,4 +1,4 @@
-"""What a builder has to know of supports and steps, in sentences."""
+"""What a builder must know about supports and steps, in sentences."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SHOWN: Final = 5
 
 
 def remarks_on_building(supports: AssemblyPlan) -> tuple[str, ...]:
-    """Name what a builder has to know of the supports, and what cannot be built.
+    """Say what a builder must know about the supports, and what cannot be built.
 
     Parameters
     ----------
@@ -27,8 +27,8 @@ def remarks_on_building(supports: AssemblyPlan) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        A sentence each; empty if every brick finds hold, every support comes
-        out, and nothing has to stay or to be held.
+        A sentence each; empty if every brick is held when placed, every support comes out, and nothing has to stay or
+        to be held.
     """
     return (*_staying(supports), *_by_hand(supports), *_faults(supports))
 

@@ -1,4 +1,4 @@
-"""The checks that decide whether a finished model may be called good."""
+"""The checks that decide whether a finished model is good."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the user should know of how the bricks hold and stand: what cannot, and why, in sentences."""
+"""What the user should know about connection and stability: what fails, and why, in sentences."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def _reasons(assembly: Assembly, found: Stability) -> list[str]:
 
 def _why(assembly: Assembly) -> str:
     """Return why the components are not one."""
-    # what this imports takes long to load, and the names above are asked for without it
+    # slow to import, and the names above are used without it
     from ..model import contact_graph
 
     links = contact_graph(assembly.bricks, assembly.catalogue)
@@ -147,5 +147,5 @@ def _ends(levels: Rows) -> list[int]:
 
 
 def count_of(n: int, one: str, more: str) -> str:
-    """Return a number with the words that go with it."""
+    """Return a number with its noun in singular or plural."""
     return f"{n} {one if n == 1 else more}"

@@ -66,7 +66,7 @@ def planes(cells):
 
 
 def assert_covers(bricks, grid, catalogue=CATALOGUE):
-    """Assert that bricks cover a grid: must cells once, may cells at most once, colours kept, parts exist."""
+    """Assert that bricks cover a grid: required cells once, optional cells at most once, colours kept, parts exist."""
     links = contact_graph(bricks, catalogue)
     assert links.collisions == 0
     owner = np.full(planes(grid.cover).shape, NOBODY)
@@ -106,7 +106,7 @@ def ring(side):
 
 
 def assert_covered_once(problem, rows):
-    """Assert that placements cover the must cells of a problem once, the others at most once."""
+    """Assert that placements cover the required cells of a problem once, the others at most once."""
     times = np.bincount(problem.placements.cells[problem.placements.entries(rows)], minlength=len(problem.required))
     assert times.max() == 1
     assert (times[problem.required] == 1).all()

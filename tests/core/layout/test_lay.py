@@ -46,7 +46,7 @@ def random_grid(seed, plates):
 @given(st.integers(0, 2**32 - 1), st.booleans(), st.sampled_from(TIERS))
 @settings(max_examples=25, deadline=None)
 def test_what_every_layout_keeps(seed, plates, tier):
-    """Must cells once, may cells at most once, empty ones never; colours kept; parts exist; nothing overlaps."""
+    """Must cells once, optional cells at most once, empty ones never; colours kept; parts exist; nothing overlaps."""
     grid = random_grid(seed, plates)
     bricks = laid(grid, tier=tier)
     assert_covers(bricks, grid)
@@ -137,7 +137,7 @@ def test_a_model_above_the_ground():
 
 
 def test_nothing_to_build():
-    """A grid without must cells is refused."""
+    """A grid without required cells is refused."""
     with pytest.raises(BuildError, match="no cells"):
         laid(brick_grid(np.full((2, 3, 3), COLOUR_EMPTY)))
 

@@ -194,7 +194,7 @@ def test_the_ground_covers_an_open_bottom():
 
 @pytest.mark.parametrize(("ceilings", "role"), [("corbels", Role.INSIDE), ("pillars", Role.SUPPORT_INSIDE)])
 def test_what_carries_ceilings_has_its_role(ceilings, role):
-    """Carriers must be built, in any colour, with may cells around; nothing else changes."""
+    """Carriers must be built, in any colour, with optional cells around; nothing else changes."""
     colour = np.full((12, 3, 16, 16), 4)
     free = hollow(grid_of(colour), shell=1)
     carried = hollow(grid_of(colour), shell=1, ceilings=ceilings)

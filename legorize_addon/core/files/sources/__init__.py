@@ -1,11 +1,8 @@
-"""Files that people bring, looked at before Blender opens them.
+"""Checks of users' files before Blender opens them.
 
-Blender's importers trust what a file says of itself: a count that the data do
-not hold ends the whole program, a damaged structure a traceback. So the
-structure is checked first, as far as that is simple and sure: no file that an
-importer can read in full is refused. What will be missing is told in remarks.
-
-Nothing here needs Blender.
+Blender's importers trust what a file says about itself: a wrong count crashes the whole program, a damaged structure
+gives a traceback. So the structure is checked first, as far as that is simple and certain: no file that an importer can
+read in full is refused. Remarks say what will be missing. Nothing here needs Blender.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a support vector machine has learned from samples of layouts, and the files of these samples."""
+"""The support vector machine of the fast layout, and the files of its training samples."""
 
 from __future__ import annotations
 

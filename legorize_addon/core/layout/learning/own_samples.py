@@ -1,8 +1,8 @@
-"""Files of samples: the one that was chosen, and one more version learned from a user's own models.
+"""Files of samples: the chosen one, and a new version with samples of a user's own models.
 
 A file is never changed. Learning writes a new one, which has all samples of the
-one before and those of further models, and a version one higher; so whatever
-was laid with an earlier version can be laid again.
+one before and those of further models, and a version one higher; so every earlier
+layout can be repeated.
 """
 
 from __future__ import annotations
@@ -125,9 +125,8 @@ def learn_more(
     Returns
     -------
     str
-        The new file: the samples so far, in their order, then the new ones. C
-        and gamma stay; how many samples the machine judges rightly is
-        found by cross-validation over models.
+        The new file: the samples so far, in their order, then the new ones. C and gamma do not change; the share of
+        right predictions is found by cross-validation over models.
 
     Raises
     ------
@@ -146,7 +145,7 @@ def learn_more(
         np.concatenate([before.model, more.model + before.model.max() + 1]),
     )
     trained = train(samples, rng, costs=[parameter(facts, "C")], gammas=[parameter(facts, "gamma")])
-    # a name is one line's part here, whatever it is elsewhere
+    # a name must fit into one line here
     learned = ", ".join(map(one_line, names))
     kept = {name: facts[name] for name in ("what", "formulation") if name in facts}
     origin = f"those of version {version_of(text)} ({facts.get('models', 'unknown')}), then {learned}"

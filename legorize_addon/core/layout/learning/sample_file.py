@@ -1,8 +1,7 @@
 """The text of a file of samples: read from the disk within limits, and checked line by line.
 
-A user may choose any file: a picture, a device without an end, a table that a
-spreadsheet has changed. Everything that the machine relies on is checked here,
-so that a wrong file gives one sentence that names the line.
+A user may choose any file: a picture, a device without an end, a table that a spreadsheet has changed. Everything that
+the training relies on is checked here, so that a wrong file gives one sentence that names the line.
 """
 
 from __future__ import annotations
@@ -60,7 +59,7 @@ def file_text(path: Path) -> str:
     """
     if "\0" in str(path):
         raise SampleFileError("has a character in its name that file names cannot have")
-    # a pipe would wait for a writer while it is opened, so what it is comes first
+    # opening a pipe would wait for a writer, so the kind of file is checked first
     _check_kind(path.stat())
     with path.open("rb") as file:
         _check_kind(os.fstat(file.fileno()))
@@ -82,7 +81,7 @@ def _check_kind(found: os.stat_result) -> None:
         raise SampleFileError("is a folder")
     if not stat.S_ISREG(found.st_mode):
         raise SampleFileError("is a device or a pipe, not a file")
-    # what a system makes up while it is read has no size
+    # files that the system generates while they are read have no size
     if found.st_size == 0:
         raise SampleFileError("is empty")
 
@@ -170,7 +169,7 @@ def parameter(facts: Mapping[str, str], name: str) -> float:
         value = float(facts[name])
     except ValueError:
         value = math.nan
-    # the negated form also refuses what is no number
+    # the negated form also refuses not-a-number
     if not LEAST <= value <= GREATEST:
         raise SampleFileError(
             f"has {_shown(facts[name])} for {name}, where a number from {LEAST:g} to {GREATEST:g} is needed"
@@ -193,7 +192,7 @@ def whole(facts: Mapping[str, str], name: str, default: int) -> int:
 
 
 def check_both_kinds(columns: NDArray[np.int16], pays: NDArray[np.bool_]) -> None:
-    """Refuse samples that nothing can be learned from.
+    """Refuse samples from which nothing can be learned.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
 """What was learned from samples: which placements are worth an exchange.
 
 After the fast tier has laid a sheet, few of the placements left over would make
-it better: about two in a thousand. To reckon what all of them save takes ten
-times as long as the laying. A support vector machine sorts them out by what
-each would change locally in the paper's four energies.
+it better: about two in a thousand. Computing what all of them save takes ten
+times as long as the laying. A support vector machine selects them by what each
+would change locally in the paper's four energies.
 
 ============  =======================================================================
 change        what is counted
@@ -15,8 +15,8 @@ cuts          parts of bricks that it leaves behind (in place of symmetry, which
 area          bricks that it takes away, a part of one counting in proportion (efficiency)
 ============  =======================================================================
 
-All four are whole numbers of few values. So the machine is asked once for all
-of them, and then a look-up in a table is all that a placement costs.
+All four are whole numbers of few values. So the machine's answers to all of them are computed once, and a placement
+costs only a look-up in a table.
 
 References
 ----------
@@ -75,7 +75,7 @@ _PASSES: Final = 2
 """Rounds of exchanges; later ones find next to nothing."""
 
 _TOLERANCE: Final = 1e-6
-"""To which the machine is fitted: tight, so that no machine's rounding shows."""
+"""Tolerance of the training: tight, so that rounding of different computers does not show."""
 
 _MOST_STEPS: Final = 2_000_000
 """Steps of the fitting: the shipped samples take 570,000 at the hardest C and gamma of the search (512 and 8)."""
@@ -138,18 +138,18 @@ class Machine:
         Raises
         ------
         BuildError
-            The fitting comes to no end.
+            The training does not converge.
         """
         mean, deviation = (measure(samples.levels, axis=0, dtype=np.float64) for measure in (np.mean, np.std))
-        # takes longer to load than a small model to build, and the machine is asked in the quick layout alone
+        # loading it takes longer than building a small model, and only the fast layout needs it
         from sklearn.exceptions import ConvergenceWarning
         from sklearn.svm import SVC
 
         svc = SVC(C=c, gamma=gamma, kernel="rbf", tol=_TOLERANCE, max_iter=_MOST_STEPS)
-        # samples that are the same weigh as many as they are: the same machine, and faster
+        # equal samples get a weight: the same machine, and faster
         kind, weight = np.unique(np.column_stack([samples.levels, samples.pays]), axis=0, return_counts=True)
         with warnings.catch_warnings():
-            # that it came to no end is told below
+            # that it did not converge is reported below
             warnings.simplefilter("ignore", ConvergenceWarning)
             svc.fit(gauss_normalised(kind[:, :-1].astype(np.float64), mean, deviation), kind[:, -1] == 1, weight)
         if svc.fit_status_:
@@ -166,7 +166,7 @@ class Machine:
         return values
 
     def table(self) -> Mask:
-        """Ask about all changes that there are.
+        """Predict for all possible changes.
 
         Returns
         -------
@@ -213,7 +213,7 @@ def improved(problem: Problem, chosen: Index, rng: np.random.Generator, table: M
 
 
 def changes(problem: Problem, chosen: Index) -> Levels:
-    """Reckon what each placement would change, if it replaced what lies in its way.
+    """Compute what each placement would change if it replaced the bricks in its way.
 
     Parameters
     ----------

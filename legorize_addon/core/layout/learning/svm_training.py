@@ -1,9 +1,8 @@
 """Samples for the learned choice of exchanges, and the training.
 
 Samples are taken where they will be used: a model's sheets are laid by the fast
-tier, and for every placement left over it is reckoned exactly what laying it
-would save. So nobody has to label anything, and a user can train on models of
-their own.
+tier, and for every placement left over the exact saving is computed. So samples
+need no labelling by hand, and users can train on their own models.
 """
 
 from __future__ import annotations
@@ -99,8 +98,8 @@ def samples_of(
 ) -> Samples:
     """Take samples from models, as evenly as can be, half of them of placements that pay.
 
-    Half of the others are drawn from all, half from those that a machine
-    trained on the first half takes for paying: near the border it matters most.
+    Half of the others are drawn from all, half from those that a machine trained on the first half predicts to pay:
+    near the border it matters most.
 
     Parameters
     ----------
@@ -135,7 +134,7 @@ def samples_of(
 def _all_samples(
     grid: UnitGrid, bricks: Bricks, number: int, catalogue: Catalogue, rng: np.random.Generator
 ) -> Samples:
-    """Lay the sheets of a model anew and reckon what each placement left over saves."""
+    """Lay the sheets of a model anew and compute what each placement left over saves."""
     levels, pays = [], []
     for problem in tasks(grid, bricks, catalogue):
         chosen = fewer_small(problem, cover(problem, rng), rng)
@@ -180,13 +179,13 @@ def train(
     BuildError
         There are fewer models than folds.
     """
-    # it loads longer than a small model is built, which needs none of it
+    # loading it takes longer than building a small model, which does not need it
     from sklearn.metrics import confusion_matrix, f1_score
 
     fold = folds(samples.model, rng)
     answers = {(c, gamma): _answers(samples, fold, c, gamma) for c in costs for gamma in gammas}
     grid = {pair: float(np.mean(each == samples.pays)) for pair, each in answers.items()}
-    # of equals the first: the smoothest machine
+    # the first of equal ones: the smoothest machine
     c, gamma = max(grid, key=lambda pair: grid[pair])
     best = answers[c, gamma]
     return Trained(
@@ -234,7 +233,7 @@ def _answers(samples: Samples, fold: Index, c: float, gamma: float) -> Mask:
         inside = fold == number
         kinds = np.unique(samples.pays[~inside])
         if len(kinds) == 1:
-            # who has seen one kind alone takes everything for it
+            # a machine that was trained on one kind alone predicts only this kind
             said[inside] = kinds[0]
             continue
         machine = Machine.of(samples.take(~inside), c=c, gamma=gamma)

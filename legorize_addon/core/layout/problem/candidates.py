@@ -44,7 +44,7 @@ class Candidates:
         return segment_sums(amounts, np.cumsum(self.size))
 
     def winners(self, key: Amounts, n_cells: int) -> Mask:
-        """Tell which placements have the greatest key on each of their cells."""
+        """Return which placements have the greatest key on each of their cells."""
         keys = np.repeat(key, self.size)
         greatest = np.full(n_cells, np.iinfo(np.int64).min)
         np.maximum.at(greatest, self.cells, keys)

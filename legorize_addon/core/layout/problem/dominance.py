@@ -1,4 +1,4 @@
-"""Placements that no best layout needs.
+"""Placements that an optimal layout does not need.
 
 A placement is dominated by a smaller one inside it that covers the same must
 cells at no higher cost: wherever the larger one lies, the smaller one can.
@@ -14,7 +14,7 @@ from .shapes import Shapes
 
 
 def dominated(found: Placements, among: Shapes, required: Mask, cost: Floats) -> Mask:
-    """Tell which placements another one makes superfluous.
+    """Return which placements are dominated by another one.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def dominated(found: Placements, among: Shapes, required: Mask, cost: Floats) ->
     superfluous = np.zeros(len(found), dtype=bool)
     partial = np.flatnonzero(needed < found.size)
     for inner, x, y in among.within:
-        # the shape inside must have room for the must cells
+        # the shape inside must have room for the required cells
         room = np.where(inner >= 0, among.size[inner], -1)
         rows = partial[needed[partial] <= room[found.shape[partial]]]
         shape = found.shape[rows]

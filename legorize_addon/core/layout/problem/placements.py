@@ -1,4 +1,4 @@
-"""Which parts may lie where.
+"""The placements of parts on a sheet.
 
 A *placement* is a shape at a place of a sheet where it covers no forbidden cell,
 no two colours, at least one cell that must be covered, and is made in the
@@ -20,7 +20,7 @@ from .shapes import Index, Plane, Rows, Shapes, Whole
 from .sheets import Sheets
 
 _ENTRIES: Final = 1 << 16
-"""Entries of padded sheets that are looked at together: they stay near the processor."""
+"""Entries of padded sheets that are processed at once: they fit into the processor's cache."""
 
 _SHEET_BITS: Final = 40
 """Bits below the number of the sheet in the keys: 8 of the shape, 16 each of y and x."""

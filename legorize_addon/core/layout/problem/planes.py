@@ -25,7 +25,7 @@ _FREE: Final = np.iinfo(np.int16).max
 """Stands for a free colour where the smallest colour under a shape is looked for."""
 
 Merged = tuple[Plane, Plane, Mask]
-"""Least and greatest colour, and whether a must cell is there."""
+"""Least and greatest colour, and whether a required cell is there."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,7 +57,7 @@ class Planes:
 
     @classmethod
     def of(cls, sheets: Sheets, among: Shapes) -> Planes:
-        """Cut out what shapes on must cells reach, and pad it on the far sides."""
+        """Cut out what shapes on required cells reach, and pad it on the far sides."""
         reach = int(among.extent.max()) - 1
         box = tuple(spread(sheets.required.any(axis=axes), reach) for axes in ((0, 2), (0, 1)))
         cut, padding = (slice(None), *box), ((0, 0), (0, reach + 1), (0, reach))
@@ -90,7 +90,7 @@ class Planes:
         return found
 
     def _merged(self, row: int, merged: Sequence[Merged], among: Shapes) -> Merged:
-        """Return the least and the greatest colour under a shape at each place, and whether a must cell is there."""
+        """Return least and greatest colour under a shape at each place, and whether a required cell is there."""
         pieces, cells = among.pieces[row], among.cells[row]
         parts = [(merged[inner], x + y * self.stride) for inner, x, y in pieces] or [
             ((self.least, self.most, self.required), x + y * self.stride) for x, y in cells

@@ -1,4 +1,4 @@
-"""The task that every way of laying solves: sheets, what may lie on them, and what each placement costs."""
+"""The problem that every solver gets: sheets, their placements, and the cost of each placement."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ cell that need not be covered."""
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Problem:
-    """Cover the cells of sheets at least cost, every must cell once, every other one at most once.
+    """Cover the cells of sheets at least cost, every required cell once, every other one at most once.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Problem:
     cost : (n,) float64 array
         Cost of each placement, in bricks.
     price : (n_cells,) float64 array, optional
-        What each cell is worth, at a guess (see :mod:`.pricing`).
+        Estimated price of each cell (see :mod:`.pricing`).
     """
 
     sheets: Sheets
@@ -108,7 +108,7 @@ def owners(links: ContactGraph, shape: tuple[int, ...]) -> Rows:
 
 
 def standing(links: ContactGraph, required: Mask) -> Rows:
-    """Return the brick in each cell of a model, as :func:`owners`, and ``GROUND`` below the lowest must cell."""
+    """Return the brick in each cell of a model, as :func:`owners`, and ``GROUND`` below the lowest required cell."""
     owner = owners(links, required.shape)
     owner[: ground_of(required)] = GROUND
     return owner

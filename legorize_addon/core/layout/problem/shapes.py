@@ -64,7 +64,7 @@ class Shapes:
         Whether the part is made in each code; the last column, for bricks of
         any colour, tells whether it is made at all.
     hidden : (n_shapes,) int16 array
-        LDraw code that the part gets where nobody sees it.
+        LDraw code that the part gets where it is hidden.
     """
 
     part: NDArray[np.int16]
@@ -99,8 +99,8 @@ def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shap
     codes : int16 array
         LDraw codes that occur in the grid.
     filler : int
-        LDraw code for bricks that nobody sees; a part that is not made in it
-        gets the first colour of the catalogue in which it is made.
+        LDraw code for hidden bricks; a part that is not made in it gets the first colour of the catalogue in which it
+        is made.
 
     Returns
     -------
@@ -149,7 +149,7 @@ def _forms(catalogue: Catalogue, height: int) -> Shapes:
 
 
 def _inner_edges(covered: Rows) -> Mask:
-    """Tell for each cell of a shape whether its next cells along x and y belong to it, shape (2, k)."""
+    """Return for each cell of a shape whether its next cells along x and y belong to it, shape (2, k)."""
     filled = np.zeros(covered.max(axis=0) + 2, dtype=bool)
     x, y = covered.T
     filled[x, y] = True

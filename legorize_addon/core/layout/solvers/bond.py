@@ -16,7 +16,7 @@ _LONGEST: Final = 8
 """Studs across and along the longest part of a running bond."""
 
 _WORTH: Final = 2.0
-"""What a part of a running bond is worth, in bricks."""
+"""Reward for a part of a running bond, in bricks."""
 
 _DEPTH: Final = 2
 """Studs around the middle of a wide area that are not laid in running bond."""
@@ -57,7 +57,7 @@ def running_bond(problem: Problem) -> Index:
 
 
 def _deep(problem: Problem) -> Mask:
-    """Tell which cells have only must cells of their own colour around them, shape (n_cells,)."""
+    """Tell which cells have only required cells of their own colour around them, shape (n_cells,)."""
     sheets = problem.sheets
     colour = np.where(sheets.required, sheets.colour, np.int16(COLOUR_EMPTY))
     window = (1, 2 * _DEPTH + 1, 2 * _DEPTH + 1)

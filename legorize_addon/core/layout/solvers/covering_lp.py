@@ -1,7 +1,7 @@
 """Covering a sheet as a linear programme.
 
 One variable a placement, its share; one row a cell: shares sum to 1 on every
-must cell and to 1 at most on every other one. The cost of the best shares is
+required cell and to 1 at most on every other one. The cost of the best shares is
 never above the cost of the best layout, and mostly the shares are whole.
 
 References
@@ -22,10 +22,10 @@ from ...arrays import Floats, Mask
 from ..problem import Candidates, Index
 
 WHOLE: Final = 1e-6
-"""How far from a whole number a share may be for a whole one."""
+"""Tolerance within which a share counts as a whole number."""
 
 _BARE: Final = 100.0
-"""What a must cell without a brick costs, in bricks, where no brick of one cell is made."""
+"""What a required cell without a brick costs, in bricks, where no brick of one cell is made."""
 
 _GAP: Final = 1e-4
 """Share of the cost by which a whole solution may miss the best."""
@@ -80,7 +80,7 @@ def whole_shares(candidates: Candidates, required: Mask, cost: Floats, nodes: in
 
 
 def prices(candidates: Candidates, required: Mask, room: Floats) -> tuple[Index, Floats]:
-    """Find what each cell is worth at most, if no placement may be worth more than its room.
+    """Find the largest prices of the cells such that no placement is worth more than its room.
 
     This is the dual of the programme of :func:`shares`, with the rooms as costs.
 
@@ -133,7 +133,7 @@ def _milp(candidates: Candidates, required: Mask, cost: Floats, bounds: Bounds, 
 def _matrix(candidates: Candidates, required: Mask) -> tuple[Index, csc_array]:
     """Return the cells that placements cover, and which placement covers which.
 
-    The columns after those of the placements belong to must cells that might
+    The columns after those of the placements belong to required cells that might
     stay bare, because they have no brick of their own.
     """
     there, single = np.zeros_like(required), np.zeros_like(required)

@@ -25,7 +25,7 @@ left to :mod:`.linear`: they would take minutes."""
 
 
 def cover(problem: Problem, rng: np.random.Generator) -> Index:
-    """Cover sheets at the least cost, as far as can be found out in reasonable time.
+    """Cover sheets at the least cost that can be found in reasonable time.
 
     Parameters
     ----------

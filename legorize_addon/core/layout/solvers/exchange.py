@@ -1,7 +1,7 @@
 """Better bricks by exchange: lay one placement, let the bricks in its way give up cells.
 
 A move lays a placement and takes away every brick that it cuts. Where such a
-brick leaves must cells behind, one brick covers them again, or, if that is
+brick leaves required cells behind, one brick covers them again, or, if that is
 allowed, several; the move counts if the bricks laid cost less than those taken
 away. Moves that do not touch the same bricks or cells are made together.
 """
@@ -43,7 +43,7 @@ def fewer_small(problem: Problem, chosen: Index, rng: np.random.Generator) -> In
     Returns
     -------
     intp array
-        Rows of the placements that lie there now; they cover the same must cells.
+        Rows of the placements that lie there now; they cover the same required cells.
     """
     size = problem.placements.size
     for _ in range(_PASSES):
@@ -98,7 +98,7 @@ def exchange(
         return chosen
     made = _independent(moves, gain, len(chosen), rng)
     cut = made[moves.of_cut]
-    # made moves cut different bricks, so all of their rests can be laid
+    # moves that are made cut different bricks, so all of their rests can be laid
     staying = np.ones(len(chosen), dtype=bool)
     staying[moves.brick[cut]] = False
     laid = rests.row[cut]
@@ -107,7 +107,7 @@ def exchange(
 
 
 def gains(problem: Problem, chosen: Index, offered: Index) -> Floats:
-    """Reckon what moves would save, each by itself.
+    """Compute what each move would save by itself.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def _saved(problem: Problem, chosen: Index, offered: Index, moves: _Moves, rests
 
 
 def _patched(problem: Problem, cells: Index, rng: np.random.Generator) -> Index:
-    """Cover the must cells among those given, with bricks that lie on no others."""
+    """Cover the required cells among those given, with bricks that lie on no others."""
     inside = np.zeros(len(problem.required), dtype=bool)
     inside[cells] = True
     found = problem.placements
@@ -182,7 +182,7 @@ class _Rests:
     Attributes
     ----------
     row : (n_cuts,) intp array
-        The placement that covers it, ``_NOTHING`` where no must cell is left
+        The placement that covers it, ``_NOTHING`` where no required cell is left
         over, ``_SEVERAL`` where no single placement does.
     cost : (n_cuts,) float64 array
         Its cost, in bricks.
@@ -208,7 +208,7 @@ class _Rests:
         left = taken[np.minimum(np.searchsorted(taken, wanted), len(taken) - 1)] != wanted
         cell, of_cell = cell[left], of_cell[left]
         needed = problem.required[cell]
-        # first all that is left, then only what must be covered: may cells can be dropped
+        # first all that is left, then only what must be covered: optional cells can be dropped
         rows = np.stack(
             [
                 _fitting(problem, cell, of_cell, len(cut_rows)),

@@ -45,7 +45,7 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
     -------
     (n_bricks,) intp array
         Rows of the placements to lay. They share no cell, and no placement
-        could be added; must cells remain only where nothing fits at all.
+        could be added; required cells remain only where nothing fits at all.
 
     References
     ----------

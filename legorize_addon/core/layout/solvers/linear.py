@@ -48,7 +48,7 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
     Returns
     -------
     (n_bricks,) intp array
-        Rows of the placements to lay. They share no cell; must cells remain
+        Rows of the placements to lay. They share no cell; required cells remain
         only where no layout could cover them together.
     """
     found = problem.placements
@@ -65,7 +65,7 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
 
 
 def _bare(problem: Problem, chosen: Index) -> int:
-    """Count the must cells that are left over: between blocks some may, where no brick of one cell is made."""
+    """Count the required cells that are left over: between blocks some may, where no brick of one cell is made."""
     return int(np.count_nonzero(problem.required & (problem.owner(chosen) == NOBODY)))
 
 

@@ -1,11 +1,11 @@
-"""What each cell is worth, at a guess: it tells which placements a linear programme can do without.
+"""Estimated prices of the cells, which show which placements a linear programme can do without.
 
 The programme's dual is a price for each cell, and only placements that cost
 little more than the prices of their cells are in a good layout. Prices that are
-nearly right suffice to leave out about half of them. Shares that fall off
+nearly right suffice to leave out about half of them. Shares that decrease
 exponentially with the cost above the prices are scaled until they sum to one on
-every cell, while it grows colder; many sheets at once, before any of them is
-laid, as the seams to lie across hardly change the prices.
+every cell, while the temperature falls; many sheets at once, before any of them
+is laid, because seams hardly change the prices.
 
 References
 ----------
@@ -28,7 +28,7 @@ _HEAT: Final = (0.3, 0.05)
 
 _ROUNDS: Final = 14
 _PACE: Final = 1.7
-"""How much further prices go than the scaling of a single size would take them: they settle sooner so."""
+"""Over-relaxation of the scaling for a single size: prices settle sooner."""
 
 _GREATEST: Final = 8.0
 """Exponent above which shares grow no more."""
@@ -41,7 +41,7 @@ _MARGIN: Final = 0.5
 
 
 def guessed_prices(problem: Problem) -> Floats:
-    """Guess what each cell is worth.
+    """Estimate the price of each cell.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def guessed_prices(problem: Problem) -> Floats:
 
 
 def promising(problem: Problem, price: Floats) -> Mask:
-    """Tell which placements a good layout may need.
+    """Return which placements a good layout may need.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def promising(problem: Problem, price: Floats) -> Mask:
     """
     found = problem.placements
     reduced = problem.cost - np.add.reduceat(price[found.cells], found.start[:-1])
-    # must cells that no brick of one cell could cover in the end
+    # required cells that no brick of one cell could cover in the end
     alone = problem.required.copy()
     alone[found.cells[found.start[:-1]][found.size == 1]] = False
     needed: Mask = (reduced < _MARGIN) | (found.size == 1) | (found.totals(alone) > 0)

@@ -29,7 +29,7 @@ def held(bricks, grid, seed=0):
 
 
 def singles(grid):
-    """Return every must cell as a brick of its own, in red where the colour is free."""
+    """Return every required cell as a brick of its own, in red where the colour is free."""
     layer, y, x = np.nonzero(grid.cover[:, 0] == Fill.REQUIRED)
     n = len(x)
     colour = grid.colour[layer, 0, y, x]
@@ -93,7 +93,7 @@ def test_bricks_on_the_ground_are_joined_too():
 @given(st.integers(0, 2**32 - 1))
 @settings(max_examples=25)
 def test_repair_keeps_the_cover(seed):
-    """Whatever is joined, must cells stay covered once, and no more bricks float than before."""
+    """Whatever is joined, required cells stay covered once, and no more bricks float than before."""
     rng = np.random.default_rng(seed)
     colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, RED, WHITE], (4, 6, 6))
     cover = np.where(

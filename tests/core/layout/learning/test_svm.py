@@ -157,7 +157,7 @@ def test_parts_left_behind(seed):
 
 
 def test_learned_exchanges_pay(held_back, laid):
-    """On models never seen, one brick in 200 is saved at least, with no must cell lost and no layout dearer."""
+    """On models never seen, one brick in 200 is saved at least, with no required cell lost and no layout dearer."""
     before = after = 0
     for problem, chosen in zip(held_back, laid, strict=True):
         better = improved(problem, chosen, np.random.default_rng(0))

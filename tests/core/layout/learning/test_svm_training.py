@@ -57,7 +57,7 @@ def test_samples_are_balanced(samples):
 
 
 def test_tasks_are_the_whole_model(models):
-    """The sheets together have as many must cells as the model, bricks counting three plates."""
+    """The sheets together have as many required cells as the model, bricks counting three plates."""
     for grid, bricks in models:
         cells = sum(problem.sheets.height * int(problem.required.sum()) for problem in tasks(grid, bricks, CATALOGUE))
         assert cells == (grid.cover == 2).sum()

@@ -35,7 +35,7 @@ def test_spread(marked, reach, range_):
 
 
 def test_far_cells_are_left_out():
-    """Of a wide sheet with one must cell only what the longest shape reaches is looked at."""
+    """Of a wide sheet with one required cell only what the longest shape reaches is looked at."""
     colour = np.full((1, 40, 50), COLOUR_ANY)
     cover = np.full(colour.shape, Fill.OPTIONAL)
     cover[0, 20, 30] = Fill.REQUIRED

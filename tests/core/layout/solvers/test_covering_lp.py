@@ -23,7 +23,7 @@ def test_shares_may_be_halves():
 
 
 def test_optional_cells_are_covered_once_at_most():
-    """With one must cell one placement suffices, with two that share an optional cell as well."""
+    """With one required cell one placement suffices, with two that share an optional cell as well."""
     assert shares(TRIANGLE, np.array([True, False, False]), np.ones(6)).sum() == pytest.approx(1)
     chain = Candidates(np.arange(2), np.array([2, 2]), np.array([0, 1, 1, 2]))
     assert shares(chain, np.array([True, False, True]), np.ones(2)).sum() == pytest.approx(1)

@@ -73,7 +73,7 @@ def test_a_reward_pays_for_a_patch():
 @given(st.integers(0, 2**32 - 1))
 @settings(max_examples=40)
 def test_covers_stay_covers_and_get_cheaper(seed):
-    """After any exchange must cells are covered once, no cell twice, and the cost has not grown."""
+    """After any exchange required cells are covered once, no cell twice, and the cost has not grown."""
     rng = np.random.default_rng(seed)
     colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, COLOUR_ANY, RED, RED, WHITE], (8, 9))
     wanted = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, rng.choice([Fill.OPTIONAL, Fill.REQUIRED], (8, 9)))

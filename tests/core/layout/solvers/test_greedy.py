@@ -22,7 +22,7 @@ def laid(problem, seed=0):
 @given(st.integers(0, 2**32 - 1))
 @settings(max_examples=40)
 def test_must_cells_once_and_others_at_most_once(seed):
-    """No two bricks overlap, every must cell is covered, and nothing more could be laid."""
+    """No two bricks overlap, every required cell is covered, and nothing more could be laid."""
     problem = problem_of(*random_sheet(seed))
     rows, _ = laid(problem)
     assert_covered_once(problem, rows)

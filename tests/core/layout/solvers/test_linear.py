@@ -22,7 +22,7 @@ def laid(problem, seed=0):
 @given(st.integers(0, 2**32 - 1))
 @settings(max_examples=30, deadline=None)
 def test_must_cells_once_and_others_at_most_once(seed):
-    """No two bricks overlap and every must cell is covered."""
+    """No two bricks overlap and every required cell is covered."""
     problem = problem_of(*random_sheet(seed))
     assert_covered_once(problem, laid(problem))
 
