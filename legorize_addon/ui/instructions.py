@@ -110,9 +110,12 @@ class OnPaper(OnBuild, Working):
     ----------
     suffix : str
         Of the name that is proposed.
+    more : tuple of str
+        Its properties beside path and paper.
     """
 
     suffix = ""
+    more: tuple[str, ...] = ()
     _timer = None
     _browsed = False
 
@@ -130,7 +133,7 @@ class OnPaper(OnBuild, Working):
         """Work straight through; after the file browser, which ends this operator, in another one with progress."""
         if bpy.app.background or not self._browsed:
             return Working.execute(self, context)
-        options = {name: getattr(self, name) for name in ("filepath", "paper", *self.options)}
+        options = {name: getattr(self, name) for name in ("filepath", "paper", *self.more)}
         return self.again("INVOKE_DEFAULT", chosen=True, **options)
 
     def _show(self, context: bpy.types.Context, order: Any, paths: tuple[Path, ...]) -> set[str]:
@@ -149,7 +152,7 @@ class LEGORIZE_OT_booklet(OnPaper, bpy.types.Operator):
     )
     bl_options = {"REGISTER"}
     suffix = ".html"
-    options = ()
+    more = ()
 
     filepath: StringProperty(subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.html", options={"HIDDEN"})
@@ -174,7 +177,7 @@ class LEGORIZE_OT_layer_maps(OnPaper, bpy.types.Operator):
     bl_description = "Write a map of each layer into a folder: its bricks in colour, on what lies below"
     bl_options = {"REGISTER"}
     suffix = " layers"
-    options = ("actual_size",)
+    more = ("actual_size",)
 
     filepath: StringProperty(subtype="FILE_PATH")
     chosen: BoolProperty(options={"HIDDEN", "SKIP_SAVE"})

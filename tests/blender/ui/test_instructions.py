@@ -14,6 +14,7 @@ from legorize_addon.core.errors import Cancelled
 from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.collections import read_bricks, steps_of
 from legorize_addon.scene.state import BUILD_KEY
+from legorize_addon.ui import instructions
 from legorize_addon.ui.instructions import BookletRequest, MapsRequest
 from legorize_addon.ui.properties import current_build
 
@@ -123,3 +124,10 @@ def test_stopped_work_leaves_nothing(build, what, tmp_path):
         requests[what].work(stop)
     assert [path.name for path in tmp_path.iterdir()] == ["a.html"]
     assert old.read_text(encoding="utf-8") == "old"
+
+
+def test_no_name_is_one_of_blenders_own():
+    """A property of every operator, as its options, would be hidden by a name of ours, or hide it."""
+    own = {entry.identifier for entry in bpy.types.Operator.bl_rna.properties}
+    for operator in (*instructions.classes, instructions.OnPaper):
+        assert not {name for name in vars(operator) if not name.startswith("bl_")} & own
