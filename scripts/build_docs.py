@@ -1,10 +1,8 @@
 """Build the documentation as a site of static pages: ``python3 scripts/run.py docs``.
 
-The texts stand in ``docs``. They are copied to ``out/docs/source``, where what
-the code itself says is written beside them: the flags of the command line, the
-names that each package of the core offers. Sphinx makes ``out/docs/html`` of
-that. Warnings are errors, so that a name that went or a page that nothing links
-to is found here. Blender is not needed.
+The texts are in ``docs``. They are copied to ``out/docs/source``, and generated pages are written beside them: the
+flags of the command line, the names that each package of the core offers. Sphinx makes ``out/docs/html`` from that.
+Warnings are errors, so that a missing name or a page without links is found here. Blender is not needed.
 """
 
 from __future__ import annotations
@@ -31,7 +29,7 @@ SHARED: Final = ("pipeline", "build", "settings", "errors", "progress", "units",
 
 
 class Flag(NamedTuple):
-    """A flag of the command line that is no setting."""
+    """A flag of the command line that is not a setting."""
 
     name: str
     text: str
@@ -82,7 +80,7 @@ def plain(text: str) -> str:
 
 
 def flags_page() -> str:
-    """Return the list of the flags that are no settings, as ``scripts/legorize.py`` declares them."""
+    """Return the list of the flags that are not settings, as ``scripts/legorize.py`` declares them."""
     lines = [line for each in own_flags() for line in (f"`{each.name}`", f": {plain(each.text)}", "")]
     return "\n".join(lines)
 
@@ -193,7 +191,7 @@ def page(name: str, body: list[str]) -> str:
 
 
 def lay_out(source: Path) -> None:
-    """Copy the texts and write beside them what the code says."""
+    """Copy the texts and write the generated pages beside them."""
     shutil.rmtree(source, ignore_errors=True)
     shutil.copytree(ROOT / "docs", source, ignore=shutil.ignore_patterns("__pycache__"))
     for name in ("CONTRIBUTING.md", "CHANGELOG.md"):

@@ -3,12 +3,13 @@
 ::
 
     python3 scripts/draw_architecture.py            write docs/pictures/*.svg
-    python3 scripts/draw_architecture.py --check    end with 1 if a picture is not what the code says
+    python3 scripts/draw_architecture.py --check    end with 1 if a picture is out
+    of date
 
 ``packages.svg`` shows which package imports which: every package stands above
 all that it imports. ``data-flow.svg`` shows the stages of ``core/pipeline.py`` in
 their order, the packages that each of them calls, and the files that come out.
-Both are read off the syntax trees, so the code is not run and the standard
+Both are read from the syntax trees, so the code is not run and the standard
 library is enough; the same code gives the same bytes.
 """
 

@@ -5,10 +5,10 @@
     blender -b -P scripts/legorize.py -- IN --out DIR [--width STUDS | --height BRICKS | --scale K] [more]
     python scripts/legorize.py IN --out DIR ...        where Blender is installed as the module bpy
 
-IN is a .blend, .obj, .glb, .gltf, .ply, .stl or .fbx file. Taken is all that
-its renders would show: a .blend at the frame at which it was saved, any other
-file in its rest pose, without animation. Every setting is a flag; ``--help``
-lists them.
+IN is a .blend, .obj, .glb, .gltf, .ply, .stl or .fbx file. The script reads what
+a render would show: a .blend at the frame at which it was saved, any other file
+in its rest pose, without animation. Every setting is a flag; ``--help`` lists
+them.
 
 Exit status: 0 written; 2 written, but a check failed and ``report.json`` says
 which; 1 nothing written, the folder is as it was, one sentence says why (or a
@@ -84,7 +84,7 @@ SIZES: Final = ("size_by", "width", "height", "scale")
 """Settings that exclude each other; each of the last three also chooses itself in the first."""
 
 IN_PICTURE: Final = ("view", "section", "outlines", "heat_map", "explode", "show_supports")
-"""Flags that change the picture alone."""
+"""Flags that only change the picture."""
 
 LAST_FRAME: Final = 1_048_574
 """In Blender, and the first one below 0."""
@@ -315,7 +315,7 @@ def pictures(text: str) -> int:
 
 
 def settings_of(options: dict[str, Any]) -> Settings:
-    """Return the settings that the flags ask for; those of an earlier version are told."""
+    """Return the settings that the flags ask for; flags of an earlier version get a remark."""
     for entry in fields(Settings):
         if entry.metadata["was"] in options:
             options[entry.name] = options.pop(entry.metadata["was"])
@@ -402,7 +402,7 @@ class Line:
         self._meter, self._last, self._width = Meter(), ("", 0.0), 0
 
     def __call__(self, stage: str, share: float) -> None:
-        """Show how far the run is, unless that is shown already."""
+        """Show the progress, unless it is shown already."""
         self._meter(stage, share)
         if stage == self._last[0] and share < self._last[1] + (0.01 if self._changes else 0.1):
             return
@@ -425,7 +425,7 @@ class Line:
 
 
 def show(build: Build, folder: Path, wanted: Wanted, *, name: str, sources: Sequence[bpy.types.Object]) -> None:
-    """Put the bricks into the scene, and write what is wanted of it."""
+    """Put the bricks into the scene, and write the wanted pictures and files."""
     scene = bpy.context.scene
     shown = show_result(scene, build, Source(name, sources, notes=build.notes), mm_per_unit=mm_per_unit())
     if wanted.render:
@@ -459,7 +459,7 @@ def posed(shown: bpy.types.Collection, wanted: Wanted) -> Iterator[None]:
 
 
 def save(path: Path) -> None:
-    """Write the scene, with paths of images that hold wherever the file is moved to."""
+    """Write the scene, with image paths that stay valid if the file is moved."""
     named(str(path), "scene", BuildError)
     if bpy.data.filepath:
         bpy.ops.file.make_paths_absolute()

@@ -8,8 +8,8 @@ The tag must be the version in ``blender_manifest.toml``, stand on the commit
 that is checked out, and have a dated section of its own at the top of
 CHANGELOG.md; CITATION.cff must have the same version and date; nothing may be
 changed and not committed. Then ``scripts/build_extension.py`` builds and validates
-the zips. Nothing is pushed or published: what to do next is printed. Exit
-status: 0 built, 1 something does not fit, a line for each reason.
+the zips. Nothing is pushed or published: the next steps are printed. Exit status:
+0 built; 1 not ready, with a line for each reason.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
-"""Set up and run Legorize from a fresh copy of the repository, with a Python and nothing else.
+"""Set up and run Legorize from a fresh copy of the repository; only Python is needed.
 
 ::
 
     python3 scripts/run.py sample     legorize the bundled sample into out/sample
     python3 scripts/run.py test       run the tests (--quick: a choice of a minute; more arguments go to pytest)
-    python3 scripts/run.py check      look over the source with ruff and mypy
+    python3 scripts/run.py check      check the source with ruff and mypy
     python3 scripts/run.py docs       build the documentation into out/docs/html
     python3 scripts/run.py zip        build the extension into dist (more arguments: --platform)
     python3 scripts/run.py window     set up what the tests in a window need (root on Debian, once, 1.3 GB)
@@ -50,12 +50,12 @@ PYTEST = "import os, sys, pytest; status = pytest.main(sys.argv[1:]); sys.stdout
 
 
 COMMANDS = ("sample", "test", "check", "window", "docs", "zip", "release", "python", "setup")
-# what a change is tried with while it is made; tests/not_quick.txt names what of it takes too long
+# the tests of --quick; tests/not_quick.txt names those that take too long
 QUICK = ("-m", "not slow and not gui", "tests/core", "tests/scripts", "tests/test_architecture.py")
 
 
 class Missing(Exception):  # noqa: N818 - a state of the machine, told in one sentence
-    """Something that this machine has to have is not there."""
+    """Something that this machine needs is missing."""
 
     def __init__(self, sentence: str, status: int = 1) -> None:
         super().__init__(sentence)
@@ -139,7 +139,7 @@ def _find(blender: str | None) -> tuple[str, str]:
 
 
 def _pythons(version: str) -> Iterator[str]:
-    """Yield programs that may be the wanted Python, likely ones first."""
+    """Yield programs that may be the wanted Python, the most likely first."""
     yield sys.executable
     for name in (f"python{version}", "python3", "python"):
         found = shutil.which(name)
@@ -173,7 +173,7 @@ def _environment(blender: str, python: str) -> Path:
 
 
 def _make_tree() -> None:
-    """Lay the Debian with the real Blender in which the tests of the window run, if it is not there."""
+    """Set up the Debian tree with the real Blender in which the tests of the window run, if it is missing."""
     if platform.machine() != "x86_64" or os.geteuid() != 0 or not Path("/etc/debian_version").exists():
         raise Missing(
             "The tests in a window need a Debian tree with Blender, which only root on Debian (x86_64) can make.",
@@ -185,7 +185,7 @@ def _make_tree() -> None:
 
 
 def _installed(group: str, python: str) -> Path:
-    """Return the Python of an environment that has what a dependency group of the same name pins."""
+    """Return the Python of an environment with the packages that the dependency group of the same name pins."""
     pins, folder = _pins(group), ROOT / ".venv" / group
     own, installed = folder / "bin" / "python", folder / "pins.sha256"
     digest = hashlib.sha256("\n".join(pins).encode()).hexdigest()

@@ -4,9 +4,9 @@ To be imported first, as importing Blender's module takes seconds and a stop
 counts from the beginning. Only the standard library is used.
 
 A stop raises :class:`Stopped` in the main thread, so that temporary files are
-removed on the way out. Code in C hears of it only when it returns, and what
-lies between may swallow it: so a thread waits, and if the main thread does not
-come to its end in time, it removes the temporary folder and ends the process.
+removed on the way out. Code in C notices it only when it returns, and code in
+between may swallow it: so a thread waits, and if the main thread does not finish
+in time, it removes the temporary folder and ends the process.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from types import FrameType
 from typing import Final, TextIO
 
 GRACE: Final = 3.0
-"""Seconds that the main thread has to clear up by itself."""
+"""Seconds that the main thread has to clean up by itself."""
 
 ENDED: Final = 128
 """What shells add to the number of a signal for the exit status."""
@@ -65,16 +65,16 @@ class Stop:
         threading.Thread(target=self._watch, args=(reading,), name="stop", daemon=True).start()
 
     def loaded(self) -> None:
-        """Take note that all is imported: from here on there is something to clear up."""
+        """Note that everything is imported: from here on there is something to clean up."""
         self._loading = False
 
     def too_late(self) -> None:
-        """Ignore signals from here on, as what is left takes a moment and is not to be torn apart.
+        """Ignore signals from here on: the rest takes a moment and must not be interrupted.
 
         Raises
         ------
         Stopped
-            There was a signal before, and somebody swallowed it.
+            There was a signal before, and its exception was swallowed.
         """
         self._ignore()
         if self.status:

@@ -112,7 +112,7 @@ def _may_show(obj: bpy.types.Object) -> bool:
 
 
 def _fill_textures() -> None:
-    """Give textures that were lost a white image: what is multiplied with them stays, and they are told already."""
+    """Give lost textures a white image: what is multiplied with them stays, and there is a remark already."""
     trees = [material.node_tree for material in bpy.data.materials if material.node_tree]
     bare = [node for tree in trees for node in tree.nodes if node.type == "TEX_IMAGE" and node.image is None]
     if not bare:

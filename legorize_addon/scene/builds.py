@@ -87,7 +87,7 @@ def point_objects(build: bpy.types.Collection) -> list[bpy.types.Object]:
     layer = {thing: collection[LAYER_KEY] for collection in layers_of(build) for thing in collection.all_objects}
     root = state_of(build).root
     own = [thing for thing in build.all_objects if is_own(thing) and thing.type == "MESH" and thing.parent == root]
-    # a copy of an object says the same of itself, and its name comes after: names of copies grow
+    # a copy of an object has the same properties, and its name comes after: names of copies grow
     first: dict[tuple[int | None, int | None], bpy.types.Object] = {}
     for thing in sorted(own, key=lambda thing: thing.name):
         first.setdefault((layer.get(thing), thing.get(ROLE_KEY)), thing)

@@ -344,7 +344,7 @@ class LegorizeView(bpy.types.PropertyGroup):
     )
     highlight: BoolProperty(
         name="Highlight step",
-        description="Show what was there before the step in pale colours, and supports tinted",
+        description="Show the bricks placed before the step in pale colours, and supports tinted",
         default=True,
         update=_update_highlight,
     )

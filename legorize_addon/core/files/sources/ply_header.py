@@ -57,7 +57,7 @@ class Element:
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """What a file says of itself, and where its data begin.
+    """What a header says, and where its data begin.
 
     Attributes
     ----------
