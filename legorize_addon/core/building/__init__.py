@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .proof import Proof, prove_steps
     from .towers import STEADY, Tipping, no_prop, tipping
     from .units import presses
+    from .views import quarter_turns
 else:
     # a scene needs the moves alone, long before anything is ordered
     __getattr__ = on_demand(
@@ -29,6 +30,7 @@ else:
         proof=("Proof", "prove_steps"),
         towers=("STEADY", "Tipping", "no_prop", "tipping"),
         units=("presses",),
+        views=("quarter_turns",),
     )
 
 __all__ = [
@@ -50,6 +52,7 @@ __all__ = [
     "plan_steps",
     "presses",
     "prove_steps",
+    "quarter_turns",
     "steps_alone",
     "steps_of",
     "tangled",

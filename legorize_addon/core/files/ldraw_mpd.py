@@ -17,7 +17,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..building import MAIN, Action, Step, Steps, Submodel
+from ..building import MAIN, Action, Step, Steps, Submodel, quarter_turns
 from ..model import Assembly, Role
 from ..safe_text import one_line
 from ..units import PLATE_LDU, STUD_LDU
@@ -43,7 +43,8 @@ def write_mpd(assembly: Assembly, steps: Steps, *, name: str, title: str) -> str
     -------
     str
         The text with CRLF line ends. Each step ends in one ``0 STEP`` of the
-        model in which it is done, and begins with its number through all of
+        model in which it is done, or in ``0 ROTSTEP`` where what it puts on would
+        be hidden behind the rest and after that, and begins with its number through all of
         them; sub-models that are built together are one, called for each.
     """
     return LINE_END.join([*_Document(assembly, steps, one_line(name), title).lines(), ""])
@@ -63,6 +64,7 @@ class _Document:
         for step in steps:
             self.of_submodel.setdefault(step.submodel, []).append(step)
         self.hidden = self._hidden()
+        self.turns = quarter_turns(steps, assembly).tolist()
 
     def lines(self) -> Iterator[str]:
         """Yield all lines, the main model first."""
@@ -86,6 +88,7 @@ class _Document:
         yield f"0 FILE {name}"
         yield from header(name, self.title if main else f"{self.title}, {submodel.name}")
         kind: list[int] = []
+        turned = 0
         own = set(submodel.rows.tolist())
         steps = self.of_submodel.get(submodel.number, [])
         for step in steps:
@@ -101,7 +104,8 @@ class _Document:
             for number in step.joined:
                 if self.steps.submodels[number].parent == submodel.number:
                     yield self._call(number)
-            yield "0 STEP"
+            yield _end(self.turns[step.number], turned)
+            turned = self.turns[step.number]
         for step in steps:
             if step.action == Action.REMOVE:
                 yield f"0 GROUP {sum(row in own for row in step.bricks.tolist())} {_group(step.number)}"
@@ -124,6 +128,13 @@ class _Document:
     def _low(self, number: int) -> np.ndarray:
         low: np.ndarray = self.bricks.corner[self.steps.all_rows(number)].min(axis=0)
         return low
+
+
+def _end(turn: int, before: int) -> str:
+    """Return the end of a step that is seen after some quarter turns, as those before it were."""
+    if turn:
+        return f"0 ROTSTEP 0 {90 * turn} 0 REL"
+    return "0 ROTSTEP END" if before else "0 STEP"
 
 
 def _group(step: int) -> str:

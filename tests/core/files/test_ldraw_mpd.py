@@ -17,6 +17,7 @@ from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.supports.assembly_plan import plan_assembly
 from tests.core.any_bricks import CATALOGUE, any_bricks, multiset
+from tests.core.building.test_views import WALL, in_steps
 from tests.core.files.flattened import afloat, bricks_of, read
 from tests.core.standing import table
 
@@ -105,13 +106,22 @@ def test_steps_have_one_numbering():
     steps = steps_of(Assembly(bricks, CATALOGUE))
     text = document(bricks)
     lines = text.splitlines()
-    assert lines.count("0 STEP") == len(steps)
+    assert sum(line.split()[1] in ("STEP", "ROTSTEP") for line in lines) == len(steps)
     told = [int(line.split()[3].rstrip(":,")) for line in lines if line.startswith("0 // Step")]
     assert sorted(told) == list(range(1, len(steps) + 1))
     # in the main model they ascend
     main = text.split("0 NOFILE")[0].splitlines()
     numbers = [int(line.split()[3].rstrip(":,")) for line in main if line.startswith("0 // Step")]
     assert numbers == sorted(numbers)
+
+
+def test_view_is_turned_where_a_step_is_hidden():
+    """What comes behind a wall is seen from the back, in two steps, and then the front is seen again."""
+    bricks = table(*WALL, ("3005", 2, 2, 0), ("3005", 3, 2, 0), ("3005", 2, -2, 0))
+    text = write_mpd(Assembly(bricks, CATALOGUE), in_steps(bricks, [0] * 8 + [1, 2, 3]), name="m.ldr", title="m")
+    ends = [line for line in text.splitlines() if "STEP" in line.split()[1]]
+    assert ends == ["0 STEP", ends[1], ends[1], "0 ROTSTEP END"]
+    assert ends[1] in ("0 ROTSTEP 0 90 0 REL", "0 ROTSTEP 0 180 0 REL")
 
 
 @pytest.mark.parametrize("pieces", [None, [0, 0, 1, 1, 1]])
