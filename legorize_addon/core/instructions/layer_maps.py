@@ -23,7 +23,7 @@ from .legend import Legend, lettered
 from .lots import GREY, lots_of, rgb_of
 from .paper import MARGIN, Paper, foot
 from .plans import STUD, by_colour, hatched, plan_outlines, plan_studs
-from .shades import DARK, LIGHT_LINE, LINE, SUPPORT_TINT, brightness, mixed
+from .shades import DARK, LIGHT_LINE, LINE, brightness, mixed, tint_for
 from .svg import svg
 
 MAPS: Final = "Layer maps"
@@ -192,6 +192,8 @@ def layer_pages(
     Page
         One a layer.
     """
+    # the tint of the supports in the booklet, as the model is the same
+    tint = tint_for(rgb_of(bricks.take(~temporary), catalogue))
     layers = layers_of(bricks, catalogue)
     counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers]
     legends = [Legend.of(count, paper.height - 2 * MARGIN - TITLE) for count in counts]
@@ -204,7 +206,7 @@ def layer_pages(
         items = (
             *_heading(layer, f"{number + 1} of {len(layers)}", frame, actual_size=actual_size),
             *_labels(frame),
-            Group(tuple(_plan(bricks, catalogue, layer, temporary, frame)), frame.matrix),
+            Group(tuple(_plan(bricks, catalogue, layer, temporary, tint, frame)), frame.matrix),
             *_marks(new, lot, catalogue, frame),
             moved(tuple(legend.items(lots, catalogue)), frame.width - MARGIN - legend.width, MARGIN + TITLE),
         )
@@ -257,7 +259,9 @@ def _front(frame: Frame) -> Item:
     return Text("FRONT", x, y, 2.6, bold=True, anchor="middle", colour=GREY)
 
 
-def _plan(bricks: Bricks, catalogue: Catalogue, layer: Layer, temporary: Mask, frame: Frame) -> Iterator[Item]:
+def _plan(
+    bricks: Bricks, catalogue: Catalogue, layer: Layer, temporary: Mask, tint: Rgb, frame: Frame
+) -> Iterator[Item]:
     """Yield the map of a layer, in studs."""
     line = 0.3 / frame.stud
     yield _grid(frame)
@@ -269,7 +273,7 @@ def _plan(bricks: Bricks, catalogue: Catalogue, layer: Layer, temporary: Mask, f
         points, count = plan_outlines(below, catalogue)
         yield plan_studs(below, catalogue, Paint(stroke=_GHOST, width=STUD), Paint(stroke=WHITE, width=STUD - 2 * line))
         yield Path(points, count, True, (Paint(stroke=_GHOST, width=line, dash=(0.18, 0.12)),))
-    yield from _new(bricks.take(layer.new), catalogue, temporary[layer.new], line)
+    yield from _new(bricks.take(layer.new), catalogue, temporary[layer.new], tint, line)
 
 
 def _grid(frame: Frame) -> Item:
@@ -279,7 +283,7 @@ def _grid(frame: Frame) -> Item:
     return lines(np.array(upright + level, dtype=np.float64), Paint(stroke=_GRID, width=0.12 / frame.stud))
 
 
-def _new(bricks: Bricks, catalogue: Catalogue, temporary: Mask, line: float) -> Iterator[Item]:
+def _new(bricks: Bricks, catalogue: Catalogue, temporary: Mask, tint: Rgb, line: float) -> Iterator[Item]:
     """Yield the bricks that are laid: coloured, with studs, the supports hatched."""
     for rgb, rows in by_colour(rgb_of(bricks, catalogue)):
         some = bricks.take(rows)
@@ -289,7 +293,7 @@ def _new(bricks: Bricks, catalogue: Catalogue, temporary: Mask, line: float) -> 
         yield plan_studs(some, catalogue, Paint(stroke=edge, width=STUD), Paint(stroke=rgb, width=STUD - 1.6 * line))
     if temporary.any():
         points, count = plan_outlines(bricks.take(temporary), catalogue)
-        yield hatched(points, count, Paint(stroke=SUPPORT_TINT, width=1.2 * line))
+        yield hatched(points, count, Paint(stroke=tint, width=1.2 * line))
     points, count = plan_outlines(bricks, catalogue)
     dark = np.repeat([brightness(tuple(row)) < DARK for row in rgb_of(bricks, catalogue).tolist()], 1)
     yield Path(points, count, True, (Paint(stroke=LINE, width=1.4 * line),))

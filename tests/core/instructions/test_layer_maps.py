@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 
 from legorize_addon.core.instructions.canvas import Group, Path, Text
 from legorize_addon.core.instructions.layer_maps import MAPS, Frame, layer_files, layer_pages, layers_of, map_pages
+from legorize_addon.core.instructions.lots import rgb_of
 from legorize_addon.core.instructions.paper import PAPERS
-from legorize_addon.core.instructions.shades import SUPPORT_TINT
+from legorize_addon.core.instructions.shades import SUPPORT_TINT, tint_for
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.contacts import contact_graph
 from tests.core.any_bricks import CATALOGUE, any_bricks, table
@@ -89,6 +92,18 @@ def test_pages_name_lots_and_hatch_supports():
     assert {"1x", "Brick 2 x 4", "Red", "A", "1", "FRONT"} <= set(texts(pages[0].items))
     strokes = [{paint.stroke for path in paths(page.items) for paint in path.paints} for page in pages]
     assert [SUPPORT_TINT in each for each in strokes] == [True, False, False]
+
+
+def test_supports_have_the_tint_of_the_booklet():
+    """On an orange model the hatching is not orange."""
+    bricks = replace(tower(), colour=np.full(5, 25, dtype=np.int16))
+    temporary = bricks.role == Role.SUPPORT_OUTSIDE
+    page = next(layer_pages(bricks, CATALOGUE, temporary=temporary, paper=PAPERS["A4"]))
+    tint = tint_for(rgb_of(bricks, CATALOGUE))
+    assert tint != SUPPORT_TINT
+    strokes = {paint.stroke for path in paths(page.items) for paint in path.paints}
+    assert tint in strokes
+    assert SUPPORT_TINT not in strokes
 
 
 def test_actual_size_is_8_mm_a_stud():
