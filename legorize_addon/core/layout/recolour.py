@@ -21,9 +21,6 @@ _UPWARDS: Final = (1, 0, 0)
 _AROUND: Final = ((-1, 0, 0), (0, -1, 0), (0, 1, 0), (0, 0, -1), (0, 0, 1))
 """Steps (plate, y, x) to the cell that a brick holds, and to the others beside it."""
 
-_ABOVE: Final = 100
-"""How many faces beside one face above counts for."""
-
 
 def recolour_visible(bricks: Bricks, grid: UnitGrid, graph: ContactGraph, catalogue: Catalogue) -> Bricks:
     """Colour the bricks of free colour that the outer air touches.
@@ -63,12 +60,13 @@ def _coloured(
     bricks: Bricks, graph: ContactGraph, wanted: Mask, free: Mask, catalogue: Catalogue
 ) -> tuple[Bricks, Ints] | None:
     """Colour the wanted bricks that have a coloured one beside them; return which, or None if there are none."""
-    brick, colour, faces = _beside(bricks, graph, np.append(wanted, False), free)
+    brick, colour, above, beside = _beside(bricks, graph, np.append(wanted, False), free)
     made = catalogue.exists_in(bricks.part[brick], colour)
-    brick, colour, faces = brick[made], colour[made], faces[made]
+    brick, colour, above, beside = brick[made], colour[made], above[made], beside[made]
     if not len(brick):
         return None
-    order = np.lexsort((colour, -faces, brick))
+    # what it holds counts first, and what is beside it only between equals
+    order = np.lexsort((colour, -beside, -above, brick))
     first = order[np.unique(brick[order], return_index=True)[1]]
     coloured = bricks.colour.copy()
     coloured[brick[first]] = colour[first]
@@ -86,17 +84,18 @@ def _free(bricks: Bricks, grid: UnitGrid, graph: ContactGraph) -> Mask:
     return free
 
 
-def _beside(bricks: Bricks, graph: ContactGraph, wanted: Mask, free: Mask) -> tuple[Ints, Ints, Ints]:
+def _beside(bricks: Bricks, graph: ContactGraph, wanted: Mask, free: Mask) -> tuple[Ints, Ints, Ints, Ints]:
     """Count the faces that each wanted brick has in common with coloured ones: brick, colour and faces."""
     owner = np.pad(graph.owner, 1, constant_values=NOBODY)
     at = np.argwhere(wanted[owner])
     own = owner[tuple(at.T)]
-    found, weight = [], []
+    found, upwards = [], []
     for step in (_UPWARDS, *_AROUND):
         other = owner[tuple((at + step).T)]
         counts = (other != NOBODY) & ~np.append(free, True)[other]
         found.append(np.stack([own[counts], bricks.colour[other[counts]]], axis=1).astype(np.int64))
-        weight.append(np.full(np.count_nonzero(counts), _ABOVE if step == _UPWARDS else 1))
+        upwards.append(np.full(np.count_nonzero(counts), step == _UPWARDS))
     pairs, row = np.unique(np.concatenate(found).reshape(-1, 2), axis=0, return_inverse=True)
-    faces = np.bincount(row.reshape(-1), np.concatenate(weight), len(pairs)).astype(np.int64)
-    return pairs[:, 0], pairs[:, 1], faces
+    up = np.concatenate(upwards)
+    above, beside = (np.bincount(row.reshape(-1)[which], minlength=len(pairs)) for which in (up, ~up))
+    return pairs[:, 0], pairs[:, 1], above, beside

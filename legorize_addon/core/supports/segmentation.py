@@ -190,11 +190,16 @@ def _options(
         option = _Option(number, upper, parts, below, above)
         # what hangs from bricks above the cut is not in place yet when the upper part is joined
         firm = _joint(graph, upper, np.isin(np.arange(len(bricks)), np.flatnonzero(lower)[below.stands]))
-        if firm >= INTERFACE and option.price < price.bricks and option.price <= (1 - SAVING) * price.bricks:
+        if firm >= INTERFACE and _pays(price.bricks, option.price):
             yield option
         tried += 1
         if tried == TRIED:
             return
+
+
+def _pays(before: int, after: int) -> bool:
+    """Tell whether a cut saves enough of the support bricks that a piece takes."""
+    return after < before and after <= (1 - SAVING) * before
 
 
 def _promise(price: _Price, levels: Ints) -> Ints:

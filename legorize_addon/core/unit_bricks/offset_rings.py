@@ -35,9 +35,6 @@ Numbers = NDArray[np.uint16]
 _IN_LEVEL: Final = np.array([[[0, 0, 0]] * 3, [[0, 1, 0], [1, 1, 1], [0, 1, 0]], [[0, 0, 0]] * 3])
 """Neighbours in a level, edge to edge."""
 
-_TIES: Final = 8
-"""Equally near bricks among which the first one in the grid gives its colour."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Offsets:
@@ -252,11 +249,11 @@ def recolour_rings(colour: NDArray[np.int16], left_alone: Mask, source: Mask) ->
         return result
     # farther apart than the corners of a level
     between_levels = sum(colour.shape[1:])
-    place = np.argwhere(source) * (between_levels, 1, 1)
-    known = colour[source]
-    distance, near = cKDTree(place).query(np.argwhere(left_alone) * (between_levels, 1, 1), k=[*range(1, _TIES + 1)])
-    first = np.where(distance == distance[:, :1], near, len(place)).min(axis=1)
-    result[left_alone] = known[first]
+    place, wanted = (np.argwhere(each) * (between_levels, 1, 1) for each in (source, left_alone))
+    # squares of distances are whole numbers: less than one more for a later brick settles what is equally near
+    later = np.sqrt(np.arange(len(place)) / len(place))
+    _, nearest = cKDTree(np.column_stack([place, later])).query(np.pad(wanted, [(0, 0), (0, 1)]))
+    result[left_alone] = colour[source][nearest]
     return result
 
 

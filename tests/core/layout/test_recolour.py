@@ -49,6 +49,12 @@ def test_without_anything_above_the_sides_count():
     assert coloured([("3005", 1, 1, 0), ("3005", 2, 1, 0)], [RED, 0], [False, True]) == [RED, RED]
 
 
+def test_what_is_held_counts_before_all_beside():
+    """Under one red stud, between two long black beams, a free beam becomes red."""
+    rows = [("3005", 1, 2, 3), ("3008", 1, 2, 0), ("3008", 1, 1, 0), ("3008", 1, 3, 0)]
+    assert coloured(rows, [RED, 0, BLACK, BLACK], [False, True, False, False])[1] == RED
+
+
 def test_colour_is_handed_on():
     """Under a free plate that becomes red, another one becomes red as well."""
     rows = [("3001", 1, 1, 2), ("3020", 1, 1, 1), ("3023", 2, 1, 0)]

@@ -62,6 +62,20 @@ def test_nearest_pair_is_taken_and_stacking_preferred():
     assert (found.solid & ~grid.solid).sum() == 3 + 1
 
 
+@pytest.mark.parametrize(("top", "aside"), [(7, True), (6, False)])
+def test_a_step_aside_counts_half_as_much_again(top, aside):
+    """A slanting way aside wins against three plates straight up if it rises by two plates, not if by three."""
+    colour = np.full((12, 3, 10), COLOUR_EMPTY)
+    colour[:6] = RED
+    colour[: top + 1, :, 6:] = RED
+    colour[9:, :, :6] = BLUE
+    grid = grid_of(colour.reshape(4, 3, 3, 10))
+    found = join_near_bodies(grid, plates=True)
+    added = np.argwhere((found.solid & ~grid.solid).reshape(colour.shape))
+    assert (added[:, 2] == 6).any() == aside
+    assert free_bodies(found) == 1
+
+
 def test_one_body_is_left_alone():
     """A model in one piece comes back as it is."""
     grid = grid_of(np.full((2, 3, 3, 3), RED))

@@ -41,6 +41,13 @@ def test_trunk_under_one_contact(height):
     assert boxes[(boxes[:, 2] == 0) & (boxes[:, 5] == 3), 3:5].tolist() == [[2, 2]] * (height >= 3)
 
 
+@pytest.mark.parametrize(("height", "trunks"), [(10, 2), (11, 1)])
+def test_branches_join_where_enough_layers_are_left(height, trunks):
+    """Two tips four studs apart meet if there are ten layers below theirs, and have trunks of their own with nine."""
+    boxes = grown([(4, 5, 3 * height), (8, 5, 3 * height)], room_under(np.full((12, 14), 3 * height)))
+    assert len(layer_of(boxes, 0)) == trunks
+
+
 def test_node_lies_in_the_lower_layer():
     """In a Y the layer with two branches is above the one with one brick, and that brick joins them both."""
     cells = [(4, 5, 36), (8, 5, 36)]

@@ -224,6 +224,17 @@ def test_equally_near_colours_are_settled_by_the_grid():
     assert recolour_rings(colour, left_alone, colour == 7)[0, 1, 1] == 7
 
 
+def test_the_first_of_twelve_equally_near_colours():
+    """Twelve squares lie five studs from another one: the first of them in the grid gives its colour."""
+    y, x = np.indices((11, 11))
+    source = ((x - 5) ** 2 + (y - 5) ** 2 == 25)[None]
+    assert source.sum() == 12
+    left_alone = np.zeros_like(source)
+    left_alone[0, 5, 5] = True
+    colour = np.arange(121, dtype=np.int16).reshape(source.shape)
+    assert recolour_rings(colour, left_alone, source)[0, 5, 5] == colour[source][0]
+
+
 def test_recolouring_without_colours_changes_nothing():
     """Without a source, or without a brick to recolour, colours stay as they are."""
     colour = np.arange(6, dtype=np.int16).reshape(1, 2, 3)

@@ -139,6 +139,21 @@ def test_specks_are_left_out():
     np.testing.assert_array_equal(np.argwhere(thin_cells(in_cells([1, 1, 1], [12.0]), solid)), [[1, 1, 1]])
 
 
+def test_a_rim_needs_more_than_a_speck():
+    """Right beside a brick, surface below 18 mm^2 adds no other one, as that would only make the rim ragged."""
+    solid = np.zeros((3, 3, 3), bool)
+    solid[1, 1, 0] = True
+    # not within half a cell of the brick
+    assert not thin_cells(far_in_cell([1, 1, 1], 17.9), solid).any()
+    np.testing.assert_array_equal(np.argwhere(thin_cells(far_in_cell([1, 1, 1], 18.0), solid)), [[1, 1, 1]])
+
+
+def far_in_cell(cell, area) -> SurfaceSamples:
+    """Make one sample in the far half of a cell along x."""
+    samples = in_cells(cell, [area])
+    return replace(samples, place=samples.place + np.array([0, 0, 0.4]))
+
+
 def test_surface_in_bricks_is_not_lost():
     """No cell is added for surface inside bricks, and none that is a brick already."""
     solid = np.zeros((3, 3, 4), bool)
