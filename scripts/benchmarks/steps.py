@@ -37,7 +37,7 @@ WALL: Final = "wall"
 """The same picture, upright."""
 
 SINGLE: Final = 0.05
-"""Goal: share of the steps with one brick at most."""
+"""Goal: share of the steps in which one brick is put on, and nothing else, at most."""
 
 NEAR: Final = 0.95
 """Goal: share of the steps whose bricks lie within 16 studs at least."""
@@ -113,7 +113,7 @@ def figures(build: Build) -> Row:
         "sub_assemblies": sum(each.kind == Kind.SUBASSEMBLY for each in steps.submodels),
         "median": float(np.median(sizes)),
         "median_of_model": float(np.median([len(step.bricks) for step in placed if _large(build, step)] or [0])),
-        "single": float((sizes == 1).mean()),
+        "single": float(np.mean([len(step.bricks) + len(step.joined) == 1 for step in placed])),
         "most": int(max(_arriving(build, step) for step in placed)),
         "near": float(np.mean(near)),
         "lots": float(np.median(lots)),

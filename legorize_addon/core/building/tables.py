@@ -45,6 +45,7 @@ class Planner:
         self.bricks, self.catalogue, self.pairs, self.temporary = bricks, catalogue, pairs, temporary
         self.box, self.level = boxes(bricks, catalogue), bricks.corner[:, 2].tolist()
         self.below, _ = stacked(pairs, len(bricks))
+        self.rank = _off_middle(self.box)
         self.lot = _numbers(np.column_stack([bricks.part, bricks.colour]))
         stays = np.flatnonzero(~temporary)
         image = mirror_images(bricks.take(stays), catalogue)
@@ -149,7 +150,7 @@ class Planner:
         below = column_pairs(self.bricks.take(rows), self.catalogue)
         # a piece may stand beside the first one
         ground = level == level[own].min(initial=np.iinfo(np.int64).max)
-        return find_units(node, level, pairs, below, ground=ground)
+        return find_units(node, level, pairs, below, ground=ground, rank=self.rank[rows])
 
     def _submodels(self, number: int, rows: Ints, node: Ints, units: Units, pieces: dict[int, int]) -> dict[int, int]:
         """Return the submodel that each unit is, if it is one, and plan those that are new."""
@@ -255,6 +256,15 @@ def _some(items: Items, before: Rows, which: Ints, progress: Progress) -> list[l
     inside = inside[(inside != NOBODY).all(axis=1)].astype(np.int32)
     steps = group(Items(**fields, image=image), inside, progress=progress)
     return [which[step].tolist() for step in steps]
+
+
+def _off_middle(box: Ints) -> Ints:
+    """Return a number that grows with the way from the middle, in x and then in y; that of mirrored bricks is equal."""
+    if not len(box):
+        return np.zeros(0, dtype=np.int64)
+    x, y = (np.abs(box[:, k] + box[:, k + 1] - box[:, k].min() - box[:, k + 1].max()) for k in (0, 2))
+    rank: Ints = x * (y.max() + 1) + y
+    return rank
 
 
 def _due(level: Ints, temporary: Mask, before: Rows) -> Ints:

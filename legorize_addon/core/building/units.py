@@ -44,7 +44,7 @@ class Units:
     before: Rows
 
 
-def find_units(node: Ints, level: Ints, pairs: Rows, below: Rows, *, ground: Mask) -> Units:
+def find_units(node: Ints, level: Ints, pairs: Rows, below: Rows, *, ground: Mask, rank: Ints | None = None) -> Units:
     """Find what goes on together.
 
     Parameters
@@ -60,12 +60,16 @@ def find_units(node: Ints, level: Ints, pairs: Rows, below: Rows, *, ground: Mas
         Lower and upper brick of those in a stud column, see :func:`column_pairs`.
     ground : (n,) bool array
         Bricks that stand on the table.
+    rank : (n,) int64 array, optional
+        Which of the bricks of one level takes along first what hangs: the one of
+        the least rank. Equal ranks of mirrored bricks give mirrored units.
 
     Returns
     -------
     Units
     """
-    return _Hanging(node, level, pairs, below, ground).units()
+    rank = np.zeros(len(node), dtype=np.int64) if rank is None else rank
+    return _Hanging(node, level, pairs, below, ground, rank).units()
 
 
 def presses(assembly: Assembly, below: Rows, node: Ints) -> bool:
@@ -93,11 +97,13 @@ def presses(assembly: Assembly, below: Rows, node: Ints) -> bool:
 class _Hanging:
     """The search for units among nodes: single bricks, and pieces that are built already."""
 
-    def __init__(self, node: Ints, level: Ints, pairs: Rows, below: Rows, ground: Mask) -> None:
+    def __init__(self, node: Ints, level: Ints, pairs: Rows, below: Rows, ground: Mask, rank: Ints) -> None:
         self.node, self.n = node, int(node.max(initial=NOBODY)) + 1
         self.size = np.bincount(node, minlength=self.n)
         self.level = np.full(self.n, np.iinfo(np.int64).max)
         np.minimum.at(self.level, node, level)
+        self.rank = np.zeros(self.n, dtype=np.int64)
+        self.rank[node] = rank
         self.pairs, self.blocks = of_nodes(pairs, node, self.n), of_nodes(below, node, self.n)
         self.under, self.over = stacked(self.pairs, self.n)
         self.held = np.zeros(self.n, dtype=bool)
@@ -118,10 +124,10 @@ class _Hanging:
 
     def _gather(self, standing: list[int]) -> None:
         """Let held bricks take along what hangs under them, the lowest first."""
-        agenda: list[tuple[bool, int, int]] = []
+        agenda: list[tuple[bool, int, int, int]] = []
         self._hold(standing, agenda)
         while agenda:
-            _, _, head = heapq.heappop(agenda)
+            *_, head = heapq.heappop(agenda)
             hanging = self._below(head)
             if not hanging:
                 continue
@@ -133,14 +139,14 @@ class _Hanging:
             self.held[hanging] = True
             self._hold([one for each in hanging for one in self.over[each]], agenda)
 
-    def _hold(self, found: list[int], agenda: list[tuple[bool, int, int]]) -> None:
+    def _hold(self, found: list[int], agenda: list[tuple[bool, int, int, int]]) -> None:
         """Mark bricks as held, and all that rests on them."""
         while found:
             each = found.pop()
             if not self.held[each]:
                 self.held[each] = True
                 # a piece takes nothing along: it is asked when nobody else does
-                heapq.heappush(agenda, (bool(self.size[each] > 1), int(self.level[each]), each))
+                heapq.heappush(agenda, (bool(self.size[each] > 1), int(self.level[each]), int(self.rank[each]), each))
                 found += self.over[each]
 
     def _below(self, head: int) -> list[int]:

@@ -76,3 +76,14 @@ def test_pieces_under_which_something_hangs_press():
 def test_what_nothing_holds_is_loose():
     """A brick in the air is named."""
     assert units(("3003", 0, 0, 0), ("3003", 9, 0, 3)).loose.tolist() == [False, True]
+
+
+def test_rank_decides_who_takes_along_what_hangs():
+    """Of two beams of one level over a plate, the one of the lesser rank takes it along."""
+    bricks = table(("3003", 0, 0, 0), ("3003", 6, 0, 0), ("3010", 0, 0, 3), ("3010", 4, 0, 3), ("3023", 3, 0, 2))
+    level = bricks.corner[:, 2].astype(np.int64)
+    pairs, below = contact_graph(bricks, CATALOGUE).pairs, column_pairs(bricks, CATALOGUE)
+    for first, expected in ((2, [2, 4]), (3, [3, 4])):
+        rank = (np.arange(5) != first).astype(np.int64)
+        found = find_units(np.arange(5), level, pairs, below, ground=level == 0, rank=rank)
+        assert expected in groups(found)
