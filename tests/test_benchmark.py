@@ -177,7 +177,17 @@ def test_pipeline_command(box: Path, tmp_path: Path) -> None:
             row[name]
             for name in (
                 *("mesh", "colours", "slicing", "trajectories", "unit bricks"),
-                *("overhangs", "hollowing", "layout", "ties", "stability", "bracing", "pieces", "supports"),
+                *(
+                    "overhangs",
+                    "hollowing",
+                    "layout",
+                    "ties",
+                    "strengthening",
+                    "stability",
+                    "bracing",
+                    "pieces",
+                    "supports",
+                ),
             )
         ]
         assert sum(stages) == pytest.approx(row["total_s"])

@@ -270,6 +270,7 @@ _SECONDS: Final[Mapping[str, _Features]] = MappingProxyType({
     "hollowing": _Features(constant=0.005, faces=2.6e-6, cells=2.7e-7),
     "layout": _Features(constant=0.03, bricks=4.1e-4, crowd=3.4e-6),
     "ties": _Features(constant=0.0, bricks=2e-5),
+    "strengthening": _Features(constant=0.01, crowd=4.7e-6),
     "stability": _Features(constant=0.01, crowd=2.4e-6),
     "bracing": _Features(constant=0.0, crowd=2.3e-6),
     "pieces": _Features(constant=0.0, bricks=1.2e-5),

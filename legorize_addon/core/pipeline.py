@@ -8,10 +8,9 @@ from .build import Build
 from .building import Proof, prove_steps
 from .errors import enough_memory
 from .estimate import check_limits, estimate
-from .layout import recolour_visible
 from .layout.joining import add_ties
 from .mesh import TriangleMesh
-from .model import Assembly, contact_graph
+from .model import Assembly
 from .native import watched
 from .progress import Overall, Progress, silent
 from .report import remarks, remarks_on_building, remarks_on_proof, remarks_on_split
@@ -20,6 +19,7 @@ from .shell import make_cohesive
 from .slicing import fit_grid, link_loops
 from .stages import (
     Run,
+    brace,
     check_stability,
     cut_mesh,
     find_colours,
@@ -28,9 +28,10 @@ from .stages import (
     make_plan,
     make_unit_grid,
     prepare_mesh,
+    strengthen_joints,
 )
 from .statics import Stability, stability
-from .supports import AssemblyPlan, add_bracing, segment
+from .supports import AssemblyPlan, segment
 from .unit_bricks import add_offset_bricks, remarks_on_dithering
 
 
@@ -86,12 +87,12 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
         bricks = lay_bricks(run, shell)
     with run.stage("ties"):
         bricks, shell = add_ties(bricks, shell, run.catalogue, plates=plates)
-        bricks = recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue)
+    with run.stage("strengthening"):
+        bricks, shell, forces = strengthen_joints(run, bricks, shell)
     with run.stage("stability"):
-        assembly, found = check_stability(run, Assembly(bricks, run.catalogue))
+        assembly, found = check_stability(run, Assembly(bricks, run.catalogue), forces)
     with run.stage("bracing"):
-        if settings.supports != "none":
-            assembly, found = add_bracing(assembly, found, clutch=settings.clutch, progress=run.progress)
+        assembly, found = brace(run, assembly, found)
     with run.stage("pieces"):
         assembly, joints = segment(assembly, most=settings.split, deepest=settings.hanging)
     with run.stage("supports"):
@@ -117,7 +118,7 @@ def _notes(
 ) -> tuple[str, ...]:
     """Return what a user must know about bricks and building, one sentence each."""
     return (
-        *remarks(assembly, found),
+        *remarks(assembly, found, spare=settings.spare),
         *remarks_on_building(plan),
         *remarks_on_split(plan, most=settings.split),
         *remarks_on_proof(proof),

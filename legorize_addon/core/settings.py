@@ -150,8 +150,11 @@ class Settings:
         group="Supports", low=1, high=8)
 
     clutch: float = setting(
-        0.98, "Pull in N that the friction of one contact point of a stud can bear; 0.7 is cautious.",
+        0.7, "Pull in N that the friction of one contact point of a stud bears; new bricks bear 0.98, worn ones 0.7.",
         group="Check", low=0.05, high=5.0, was="hold")
+    spare: float = setting(
+        0.2, "Share of this pull to leave unused: plates are laid across joints that need more, and pillars kept where "
+        "plates do not help.", group="Check", low=0.0, high=0.9)
 
     prove_steps: bool = setting(
         False, "Test by forces whether the model stands after every building step, with its supports; this takes "

@@ -16,16 +16,16 @@ from .arrays import Floats, Mask
 from .build import Cut
 from .colours import SurfaceColours, chosen_palette, count_texels, surface_colours
 from .estimate import AGAIN
-from .layout import FILLER, lay
+from .layout import FILLER, lay, recolour_visible
 from .layout.learning import NO_EXCHANGES, learned_table, samples_text
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
-from .model import Assembly, Bricks, Catalogue, UnitGrid, load_catalogue
+from .model import Assembly, Bricks, Catalogue, UnitGrid, contact_graph, load_catalogue
 from .progress import Overall
 from .settings import Settings
 from .shell import hollow
 from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_layers, levels_of, slice_mesh
 from .statics import Stability, stability
-from .supports import AssemblyPlan, add_pillars, plan_assembly
+from .supports import AssemblyPlan, add_bracing, add_pillars, plan_assembly, strengthen
 from .texturing import reduce_images, remarks_on_unseen, seen_part
 from .unit_bricks import Detail, Raster, Rules, add_backing, dithering_of, facing_of, unit_bricks
 from .units import PLATES_PER_BRICK
@@ -208,11 +208,36 @@ def lay_bricks(run: Run, shell: UnitGrid) -> Bricks:
     )
 
 
-def check_stability(run: Run, assembly: Assembly) -> tuple[Assembly, Stability]:
-    """Test the bricks by forces, with pillars under floating bricks if supports are allowed."""
-    if run.settings.supports != "none":
-        assembly = add_pillars(assembly)
-    return assembly, stability(assembly, clutch=run.settings.clutch, progress=run.progress)
+def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid, Floats | None]:
+    """Tie what is weak, and colour what is seen; return the forces of the proof as well, if there is one."""
+    bricks, shell, forces = strengthen(
+        bricks,
+        shell,
+        run.catalogue,
+        clutch=(1 - run.settings.spare) * run.settings.clutch,
+        plates=run.settings.plates != "none",
+        progress=run.progress,
+    )
+    return recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue), shell, forces
+
+
+def check_stability(run: Run, assembly: Assembly, forces: Floats | None) -> tuple[Assembly, Stability]:
+    """Test the bricks by force, with pillars under what floats if there may be supports.
+
+    Where there may be more pillars, it is not asked yet whether neighbours hold what studs do not.
+    """
+    supported = run.settings.supports != "none"
+    whole = add_pillars(assembly) if supported else assembly
+    start = forces if whole is assembly else None
+    found = stability(whole, clutch=run.settings.clutch, start=start, neighbours=not supported, progress=run.progress)
+    return whole, found
+
+
+def brace(run: Run, assembly: Assembly, found: Stability) -> tuple[Assembly, Stability]:
+    """Put pillars under what studs do not bear, if there may be supports."""
+    if run.settings.supports == "none":
+        return assembly, found
+    return add_bracing(assembly, found, clutch=run.settings.clutch, spare=run.settings.spare, progress=run.progress)
 
 
 def make_plan(run: Run, assembly: Assembly) -> AssemblyPlan:

@@ -274,7 +274,7 @@ def _more(model: Model) -> Columns:
     more = {} if steps is None else assembly_columns(model.assembly, steps)
     if stability is not None:
         margin = np.full(len(bricks), NO_MARGIN)
-        margin[judged_rows(stability, bricks)] = stability.margin
+        margin[judged_rows(stability, bricks)] = stability.margin_by_studs
         more[MARGIN] = margin
     return more
 

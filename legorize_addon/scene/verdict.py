@@ -13,7 +13,7 @@ from ..core.model import Assembly, Bricks, Role, Verdict, load_catalogue
 if TYPE_CHECKING:
     from ..core.statics import Stability
 
-ICONS: Final = {"stable": "CHECKMARK", "collapses": "CANCEL", "undecided": "QUESTION"}
+ICONS: Final = {"stable": "CHECKMARK", "wedged": "ERROR", "collapses": "CANCEL", "undecided": "QUESTION"}
 UNCHECKED: Final = "Not checked: legorize the object again to check whether the model stands."
 
 
@@ -90,7 +90,9 @@ def _sentence(stability: Stability, bricks: Bricks, left: float) -> str:
     proof = f"proven, no brick needs more than {100 - 100 * left:.0f} % of its friction"
     if len(stability.unsupported):
         return f"Collapses: bricks hang in the air; the others stand: {proof}"
-    return f"Stands: {proof}"
+    if stability.standing is Verdict.WEDGED:
+        return f"Stands only while neighbours press on each other: {proof}"
+    return f"Stands by its studs alone: {proof}"
 
 
 def _how(stability: Stability, bricks: Bricks) -> str:

@@ -40,8 +40,8 @@ HEAT: Final = "heat"
 """Attribute that chooses the instanced object while the map is on."""
 
 LEGEND: Final = (
-    "Friction left: green much, yellow half, red none. Black: loaded beyond its friction. Magenta: hangs in the "
-    "air. Grey: a support, not checked"
+    "Friction left: green much, yellow half, red none, or held by its neighbours alone. Black: loaded beyond its "
+    "friction. Magenta: hangs in the air. Grey: a support, not checked"
 )
 
 HANGING: Final = (214, 20, 190)

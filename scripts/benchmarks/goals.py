@@ -187,7 +187,10 @@ def _results(build: Build, bricks: Bricks, links: ContactGraph, required: int, c
     singles, forced = single(bricks, catalogue).mean(), fewest_singles(bricks, build.hollow, catalogue) / len(bricks)
     left_out = forced_singles(bricks, build.hollow, catalogue)
     seen, lost = colours_lost(build.grid, bricks, links)
-    cautious = stability(Assembly(build.bricks, catalogue), clutch=CAUTIOUS_HOLD)
+    verdicts = {
+        f"at_{clutch}": stability(Assembly(build.bricks, catalogue), clutch=clutch).verdict.value
+        for clutch in (HOLD, CAUTIOUS_HOLD)
+    }
     return {
         "must": required,
         "bricks": len(bricks),
@@ -208,8 +211,7 @@ def _results(build: Build, bricks: Bricks, links: ContactGraph, required: int, c
         "not_made": int(not_made(count_parts(Assembly(bricks, catalogue)), catalogue).count.sum()),
         "colours_seen": seen,
         "colours_lost": lost,
-        f"at_{HOLD}": build.stability.verdict.value,
-        f"at_{CAUTIOUS_HOLD}": cautious.verdict.value,
+        **verdicts,
     }
 
 

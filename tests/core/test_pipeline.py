@@ -33,6 +33,7 @@ STAGES = [
     "hollowing",
     "layout",
     "ties",
+    "strengthening",
     "stability",
     "bracing",
     "pieces",

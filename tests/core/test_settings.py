@@ -9,16 +9,18 @@ import pytest
 
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.settings import Settings, choices, setting_type
-from legorize_addon.core.statics.forces import HOLD
+from legorize_addon.core.statics.equilibrium import SPARE
+from legorize_addon.core.statics.forces import CAUTIOUS_HOLD
 
 ENTRIES = {entry.name: entry for entry in fields(Settings)}
 NUMBERS = [name for name, entry in ENTRIES.items() if setting_type(entry) in (int, float)]
 WORDS = [name for name, entry in ENTRIES.items() if choices(entry)]
 
 
-def test_default_hold_is_that_of_the_force_test():
-    """Who tests bricks without settings tests them as the product does."""
-    assert Settings().clutch == HOLD
+def test_default_clutch_is_the_cautious_one():
+    """A model is built for bricks that bear as little as any that were measured, with a fifth to spare."""
+    assert Settings().clutch == CAUTIOUS_HOLD
+    assert Settings().spare == SPARE
 
 
 def refusal(name, value) -> str:

@@ -45,6 +45,6 @@ def test_what_is_done_again_counts_to_what_it_repeats():
 def test_floating_bricks_get_pillars_if_there_may_be_supports(supports: str, pillars: int):
     """A brick in the air is carried by a pillar, or left where it is and told."""
     floating = Assembly(table(("3003", 0, 0, 0), ("3003", 0, 0, 6)), CATALOGUE)
-    assembly, found = check_stability(run_of(supports=supports), floating)
+    assembly, found = check_stability(run_of(supports=supports), floating, None)
     assert (assembly.bricks.role == Role.SUPPORT_KEPT).sum() == pillars
     assert bool(len(found.unsupported)) != bool(pillars)

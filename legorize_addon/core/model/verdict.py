@@ -13,5 +13,13 @@ class Verdict(Enum):
     """The verdict on a model."""
 
     STABLE = "stable"
+    """It stands by its studs alone."""
+
+    WEDGED = "wedged"
+    """It stands, but only while bricks side by side press on each other."""
+
     COLLAPSES = "collapses"
+    """It falls, whether they do or not."""
+
     UNDECIDED = "undecided"
+    """There is a proof of neither."""

@@ -44,7 +44,9 @@ def paper_tables(build: Build, catalogue: Catalogue, *, name: str) -> dict[str, 
     """
     support = np.isin(build.bricks.role, SUPPORTS)
     supports = concatenate([build.bricks.take(support), build.supports.removed])
-    seconds = sum(build.timings.get(stage, 0.0) for stage in ("layout", "ties", "stability", "bracing"))
+    seconds = sum(
+        build.timings.get(stage, 0.0) for stage in ("layout", "ties", "strengthening", "stability", "bracing")
+    )
     ways = " ".join(dict.fromkeys(piece.plan.way for piece in build.supports.pieces))
     return {
         "table_1.csv": _volumes(build.bricks.take(~support), catalogue),

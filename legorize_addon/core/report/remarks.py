@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..statics import Stability
 
 
-def remarks(assembly: Assembly, found: Stability) -> tuple[str, ...]:
+def remarks(assembly: Assembly, found: Stability, *, spare: float = 0.0) -> tuple[str, ...]:
     """Name what does not hold or stand, with the reason.
 
     Parameters
@@ -27,17 +27,25 @@ def remarks(assembly: Assembly, found: Stability) -> tuple[str, ...]:
     found : Stability
         Whether they stand.
 
+    spare : float
+        Share of its friction that no brick shall need.
+
     Returns
     -------
     tuple of str
         A sentence each: bricks in the air, pieces that stand apart, what tips
-        over, what tears, what is not decided. Empty if the model stands in one
-        piece.
+        over, what tears, what only neighbours hold, what has too little to
+        spare, what is not decided. Empty if the model stands in one piece by its
+        studs alone, with so much to spare.
     """
     why = _why(assembly) if len(np.unique(found.component)) > 1 else ""
     sentences = [*_hanging(assembly.bricks, found, why), *_apart(found, why)]
     if found.standing is Verdict.COLLAPSES:
         sentences += _reasons(assembly, found)
+    if found.standing is Verdict.WEDGED:
+        sentences.append(_wedged(assembly, found))
+    if found.standing is Verdict.STABLE and len(assembly) and found.margin[found.statics.rows].min() < spare:
+        sentences.append(_too_little(assembly, found, spare))
     if found.standing is Verdict.UNDECIDED:
         sentences.append(_undecided(assembly, found))
     return tuple(sentences)
@@ -122,13 +130,44 @@ def _tipping(assembly: Assembly, found: Stability) -> Iterator[str]:
 
 def _torn(assembly: Assembly, torn: Ints) -> str:
     """Name the joint that opens widest, and count the others."""
+    return (
+        f"The model collapses under its own weight: {_tearing(assembly, torn)}; make the model thicker there, or "
+        "lighter above."
+    )
+
+
+def _tearing(assembly: Assembly, torn: Ints) -> str:
+    """Return which brick tears off which, and how many more do."""
     lower, upper = (int(row) for row in torn[0])
     below = "the ground" if lower == NOBODY else f"the {brick_name(assembly, lower)} below it"
     others = f", the first of {len(torn)} joints" if len(torn) > 1 else ""
+    return f"in layer {layer_of(assembly.bricks, upper)} the {brick_name(assembly, upper)} tears off {below}{others}"
+
+
+def _wedged(assembly: Assembly, found: Stability) -> str:
+    """Say that studs alone do not hold the model, and where."""
+    if len(found.torn):
+        where = f"its studs alone do not hold it, {_tearing(assembly, found.torn)}"
+    else:
+        moving = int(np.abs(found.yielding).max(axis=1).argmax())
+        where = (
+            "there is no proof that its studs alone hold it; in doubt is first the "
+            f"{brick_name(assembly, moving)} in layer {layer_of(assembly.bricks, moving)}"
+        )
     return (
-        f"The model collapses under its own weight: in layer {layer_of(assembly.bricks, upper)} the "
-        f"{brick_name(assembly, upper)} tears off {below}{others}; make the model thicker there, or lighter "
-        "above."
+        f"The model stands only while bricks side by side press on each other: {where}; press its bricks close "
+        "together, or make the model thicker there."
+    )
+
+
+def _too_little(assembly: Assembly, found: Stability, spare: float) -> str:
+    """Name the brick that has the least to spare."""
+    weakest = int(found.statics.rows[found.margin[found.statics.rows].argmin()])
+    name, layer = brick_name(assembly, weakest), layer_of(assembly.bricks, weakest)
+    return (
+        f"The model stands, but with less than {100 * spare:.0f} % of its friction to spare: "
+        f"the {name} in layer {layer} is known to have {100 * found.margin[weakest]:.0f} % left; "
+        "make the model thicker there, or handle it with care."
     )
 
 

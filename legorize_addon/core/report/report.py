@@ -250,8 +250,10 @@ def _stability(build: Build, catalogue: Catalogue) -> dict[str, Any]:
     enough = found.enough_clutch
     return {
         "verdict": found.verdict.value,
-        "stable": found.stable,
-        "reasons": list(remarks(Assembly(build.bricks, catalogue), found)),
+        "stable": found.stands,
+        "by_studs_alone": found.stable,
+        "spare_wanted": build.settings.spare,
+        "reasons": list(remarks(Assembly(build.bricks, catalogue), found, spare=build.settings.spare)),
         "components": build.graph.n_components,
         "worst_margin": round(float(found.margin.min(initial=1.0)), 4),
         "failing": int((found.margin < 0).sum()),

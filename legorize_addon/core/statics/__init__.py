@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from .equilibrium import AIMS, Aim
+from .equilibrium import AIMS, SPARE, Aim
 from .forces import GRAVITY, HOLD, Statics
+from .search import LOCAL
 from .stability import Stability, stability, torn_by
 
 __all__ = [
     "AIMS",
     "GRAVITY",
     "HOLD",
+    "LOCAL",
+    "SPARE",
     "Aim",
     "Stability",
     "Statics",

@@ -1,9 +1,8 @@
 """Proof that a model falls: a motion in which the weight wins more than every contact can take.
 
-A motion gives each brick a velocity along x, y, z and a turning about x, y. If
-no contact point is pressed in, nothing that pushes and pulls moves, and the
-loads do more work than friction can take at the contacts that open, then no
-forces can be in balance: the principle of virtual work, or Farkas' lemma on the
+A motion gives each brick a velocity along x, y, z and a turning about x, y, z. If
+no contact point is pressed in, and the loads do more work than friction can take
+at the contacts that open, then no forces can be in balance: the principle of virtual work, or Farkas' lemma on the
 equations of ``statics``. Such a motion is found by the search of
 ``equilibrium`` or by a linear programme, and confirmed here whoever found it.
 """
@@ -31,8 +30,8 @@ def is_collapse(statics: Statics, motion: Floats) -> bool:
     ----------
     statics : Statics
         The equations.
-    motion : (5 n,) float64 array
-        Velocity along x, y, z and turning about x, y of each body.
+    motion : (6 n,) float64 array
+        Velocity along x, y, z and turning about x, y, z of each body.
 
     Returns
     -------
@@ -55,7 +54,7 @@ class CollapseProgram:
     forces : (k,) float64 array
         Forces in N that leave the least out of balance; 0 where no body of the
         programme takes part.
-    motion : (5 n,) float64 array
+    motion : (6 n,) float64 array
         Dual of the balance of each body: a collapse where balance is impossible.
     """
 
@@ -118,11 +117,9 @@ def least_clutch(statics: Statics) -> float:
         N; infinity if no hold suffices, because the model tips over.
     """
     least = statics.contacts.least
-    gripping = np.isfinite(least) & (least < 0)
-    # every grip is a push less the hold, which is one more unknown
-    clutch = csc_array(-(statics.matrix @ gripping.astype(np.float64))[:, None])
+    # every grip is a push less its share of the clutch, which is one more unknown
+    clutch = csc_array((statics.matrix @ (least / statics.clutch))[:, None])
     bounds = np.full((len(least) + 1, 2), (0.0, np.inf))
-    bounds[:-1][np.isinf(least), 0] = -np.inf
     solved = linprog(
         np.repeat([0.0, 1.0], [len(least), 1]),
         A_eq=hstack([statics.matrix, clutch], format="csc"),

@@ -34,11 +34,8 @@ RELAXATION: Final = 1.8
 LEAST_PUSH: Final = 0.02
 """N; a like share of it is aimed at where a contact only pushes, so that the end is reached and not only neared."""
 
-WEIGHT_FREE: Final = 6.0
-"""How freely forces without a bound may grow, against 1 at a contact point; tried out on built models."""
-
 WEIGHT_SIDE: Final = 0.5
-"""The same of pushes between bricks side by side."""
+"""How freely pushes between bricks side by side may grow, against 1 at a contact point; tried out on built models."""
 
 WEIGHT_GROUND: Final = 0.25
 """The same of forces from the ground."""
@@ -78,8 +75,11 @@ class Aim(NamedTuple):
     turns: int
 
 
-AIMS: Final = (Aim(0.5, 0.3, 12), Aim(0.01, 0.0, 300))
-"""A margin that leaves room for the cautious hold too, and then any balance."""
+SPARE: Final = 0.2
+"""Share of the clutch that a model should leave unused."""
+
+AIMS: Final = (Aim(0.5, 0.3, 12), Aim(0.25, SPARE, 40), Aim(0.01, 0.0, 300))
+"""A margin that is easily reached, the one that a model should have, and then any balance."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -92,12 +92,14 @@ class Balance:
         Forces in balance in N; they keep every bound if ``found``.
     found : bool
         Whether they do, as the search sees it.
-    motion : (5 n,) float64 array
+    motion : (6 n,) float64 array
         Way of least resistance: zero if ``found``.
     collapse : bool
         Whether the motion proves that the model collapses.
     turns : int
         Projections on the plane.
+    upright : bool
+        Whether the forces are known to act along the vertical alone.
     """
 
     forces: Floats
@@ -105,6 +107,7 @@ class Balance:
     motion: Floats
     collapse: bool
     turns: int
+    upright: bool = False
 
 
 class Plane:
@@ -128,7 +131,7 @@ class Plane:
         self._factor = Cholesky(square, statics.middle, partial(progress, "stability"))
 
     def solve(self, sums: Floats) -> Floats:
-        """Return the motion of the bricks that would balance sums of forces, shape (5 n,)."""
+        """Return the motion of the bricks that would balance sums of forces, shape (6 n,)."""
         return self._factor.solve(sums)
 
     def project(self, forces: Floats) -> Floats:
@@ -144,7 +147,7 @@ class Plane:
 def _weights(statics: Statics) -> Floats:
     """Return a weight for each force: cheap ones carry more of the load."""
     least, by = statics.contacts.least, statics.contacts.by
-    weight = np.where(np.isinf(least), WEIGHT_FREE, np.where(least == 0, WEIGHT_SIDE, 1.0))
+    weight = np.where(least == 0, WEIGHT_SIDE, 1.0)
     weight[by == NOBODY] = WEIGHT_GROUND
     return weight
 
@@ -230,8 +233,8 @@ def residual(statics: Statics, forces: Floats) -> Floats:
 
     Returns
     -------
-    (n, 5) float64 array
-        Sums of forces along x, y, z in N and of torques about x, y in N times
+    (n, 6) float64 array
+        Sums of forces along x, y, z in N and of torques about x, y, z in N times
         8 mm; all zero in balance.
     """
     contacts, n = statics.contacts, len(statics.rows)
@@ -241,7 +244,7 @@ def residual(statics: Statics, forces: Floats) -> Floats:
         real = bodies != NOBODY
         at, force = bodies[real], sign * vectors[real].T
         x, y, z = (contacts.point[real] - statics.middle[at]).T
-        torques = (y * force[2] - z * force[1], z * force[0] - x * force[2])
+        torques = (y * force[2] - z * force[1], z * force[0] - x * force[2], x * force[1] - y * force[0])
         for column, values in enumerate((*force, *torques)):
             sums[:, column] += np.bincount(at, values, n)
     return sums

@@ -6,8 +6,14 @@ rigid body that must be in balance under its weight and the forces at its
 contacts. Their pair of forces at a contact point, a push and a friction that
 never act together, is one number here, push less friction, which is the same
 without products of unknowns. Their horizontal forces at the studs of one pair
-of bricks are added up, which is the same again, because the torque about the
-vertical is not in the model.
+of bricks, which have no bound there, are bounded here: a contact point bears no
+more along the wall that it touches and in pull together than its friction, and
+what presses it adds to that. That is Coulomb's cone in the plane of the wall,
+and its two edges are two forces that lean against each other at 45 degrees.
+The torque about the vertical is in the model too.
+
+Bricks side by side push each other only where that is asked for: what stands
+without needs no neighbour to stand close.
 """
 
 from __future__ import annotations
@@ -36,8 +42,8 @@ CAUTIOUS_HOLD: Final = 0.70
 TABLE_FRICTION: Final = 0.2
 """Horizontal over vertical force that a table bears before a brick slides: low for ABS on wood or plastic."""
 
-EQUATIONS: Final = 5
-"""Of each brick: the sums of forces along x, y, z and of torques about x, y."""
+EQUATIONS: Final = 6
+"""Of each brick: the sums of forces along x, y, z and of torques about x, y, z."""
 
 GRIPS_NARROW: Final = np.array([(0, -0.25), (-0.25, 0), (0, 0.25), (0.25, 0)])
 """Contact points (x, y) round a stud in a brick one stud wide, in studs from its middle; StableLego."""
@@ -60,6 +66,8 @@ class Ground(Enum):
 class ContactForces:
     """Forces that bodies exert on each other, one row each: a line of action and the least that it may be.
 
+    Forces at one contact point follow each other.
+
     Attributes
     ----------
     on, by : (k,) int64 array
@@ -71,7 +79,7 @@ class ContactForces:
         Force on ``on`` for a value of 1.
     least : (k,) float64 array
         Least value in N: 0 of what only pushes, less than 0 of what friction
-        holds as well, minus infinity of what pushes and pulls.
+        holds as well.
     """
 
     on: Ints
@@ -87,13 +95,13 @@ class Statics:
 
     Attributes
     ----------
-    matrix : (5 n, k) sparse float64 array
+    matrix : (6 n, k) sparse float64 array
         What each force adds to the sums of each brick: forces along x, y, z, and
-        torques about x, y through its middle, those in N at the lever of a stud
-        (8 mm).
-    loads : (5 n,) float64 array
+        torques about x, y, z through its middle, those in N at the lever of a
+        stud (8 mm).
+    loads : (6 n,) float64 array
         The same of weights and loads, in N and N times 8 mm.
-    contacts : NearContacts
+    contacts : ContactForces
         The forces; their bodies count the rows of ``rows``.
     rows : (n,) int64 array
         Row of each body in the table of bricks.
@@ -117,6 +125,7 @@ def statics(
     clutch: float = HOLD,
     ground: Ground = Ground.TABLE,
     loads: Floats | None = None,
+    neighbours: bool = False,
 ) -> Statics:
     """Set up the balance of all bricks that hang together with the ground.
 
@@ -132,6 +141,8 @@ def statics(
         What the lowest bricks stand on.
     loads : (n_bricks, 3) float64 array, optional
         More forces on the bricks, in N at their centres of mass, x, y and z up.
+    neighbours : bool
+        Whether bricks side by side may push each other.
 
     Returns
     -------
@@ -144,16 +155,16 @@ def statics(
     standing = squares[1][:, 2] == squares[1][:, 2].min(initial=np.iinfo(np.int32).max)
     feet = squares[0][standing], squares[1][standing]
     contacts = _joined(
-        *_studs(assembly.bricks, assembly.graph, *squares, narrow, clutch),
-        *_sides(assembly.graph),
-        *(_table(*feet) if ground is Ground.TABLE else _baseplate(*feet, narrow, clutch)),
+        _studs(assembly.graph, *squares, narrow, clutch),
+        *(_sides(assembly.graph) if neighbours else ()),
+        (_table(*feet) if ground is Ground.TABLE else _baseplate(*feet, narrow, clutch)),
     )
     contacts = _among(contacts, rows, len(assembly.bricks))
     weight = np.zeros((len(assembly.bricks), EQUATIONS))
     weight[:, 2] = -GRAVITY * assembly.catalogue.mass[assembly.bricks.part] / 1000
     if loads is not None:
         weight[:, :3] += loads
-    return Statics(_matrix(contacts, middle[rows]), weight[rows].reshape(-1), contacts, rows, middle[rows], clutch)
+    return Statics(matrix_of(contacts, middle[rows]), weight[rows].reshape(-1), contacts, rows, middle[rows], clutch)
 
 
 def _centres(bricks: Bricks, catalogue: Catalogue) -> Floats:
@@ -162,40 +173,37 @@ def _centres(bricks: Bricks, catalogue: Catalogue) -> Floats:
     return np.column_stack([middles(bricks, catalogue), (bricks.corner[:, 2] + height / 2) * (PLATE / STUD)])
 
 
-def _grips(columns: Rows, narrow: Mask) -> tuple[Ints, Floats]:
-    """List the contact points round studs under narrow and wide bricks: row in the columns, and place in studs."""
-    rows, points = [], []
-    for members, grips in ((narrow, GRIPS_NARROW), (~narrow, GRIPS_WIDE)):
-        of = np.flatnonzero(members)
-        rows.append(np.repeat(of, len(grips)))
-        places = (columns[of, None, :2] + 0.5 + grips).reshape(-1, 2)
-        points.append(np.column_stack([places, columns[rows[-1], 2] * (PLATE / STUD)]))
-    return np.concatenate(rows), np.concatenate(points)
-
-
-def _studs(
-    bricks: Bricks, graph: ContactGraph, brick: Rows, columns: Rows, narrow: Mask, clutch: float
-) -> tuple[ContactForces, ...]:
-    """Return the contact points round all studs, and the horizontal forces of each pair of bricks."""
+def _studs(graph: ContactGraph, brick: Rows, columns: Rows, narrow: Mask, clutch: float) -> ContactForces:
+    """Return the forces at the contact points round all studs."""
     x, y, z = (columns - graph.low).T
     # below the lowest plate the look-up would start again at the top
     lower = np.where(z > 0, graph.owner[z - 1, y, x], NOBODY)
     held = (lower != NOBODY) & (lower != brick)
-    brick, columns, lower = brick[held], columns[held], lower[held]
-    of, points = _grips(columns, narrow[brick])
-    below, above = graph.pairs.T
-    plane = np.zeros((len(below), 3))
-    plane[:, 2] = bricks.corner[above, 2] * (PLATE / STUD)
-    return (
-        _along((0, 0, 1), brick[of], lower[of], points, -clutch),
-        _along((1, 0, 0), above, below, plane, -np.inf),
-        _along((0, 1, 0), above, below, plane, -np.inf),
-    )
+    return _grips(brick[held], lower[held], columns[held], narrow, clutch)
+
+
+def _grips(brick: Rows, lower: Rows, columns: Rows, narrow: Mask, clutch: float) -> ContactForces:
+    """Return the forces at the contact points round studs under narrow and wide bricks."""
+    made = []
+    for which, grips in ((narrow[brick], GRIPS_NARROW), (~narrow[brick], GRIPS_WIDE)):
+        of = np.repeat(np.flatnonzero(which), len(grips))
+        places = (columns[which, None, :2] + 0.5 + grips).reshape(-1, 2)
+        points = np.column_stack([places, columns[of, 2] * (PLATE / STUD)])
+        # the wall at a contact point runs across the line to the middle of the stud
+        along = np.column_stack([-grips[:, 1], grips[:, 0]]) / np.hypot(*grips.T)[:, None]
+        leaning = np.ones((len(grips), 2, 3))
+        leaning[:, 0, :2], leaning[:, 1, :2] = along, -along
+        directions = np.tile(leaning, (len(places) // len(grips), 1, 1))
+        made.append(_forces(brick[of], lower[of], points, directions, -clutch / 2))
+    return _joined(*made)
 
 
 def _sides(graph: ContactGraph) -> tuple[ContactForces, ...]:
-    """Return a push for each pair of bricks side by side, at the bottom of where they touch as in StableLego."""
-    owner, (low_x, low_y, low_z) = graph.owner, graph.low
+    """Return two pushes for each pair of bricks side by side: where they touch, at the bottom as in StableLego.
+
+    One is at each end of the face, so that together they push anywhere along it.
+    """
+    owner = graph.owner
     made = []
     for axis, direction in ((2, (1, 0, 0)), (1, (0, 1, 0))):
         stride = owner.strides[axis] // owner.itemsize
@@ -206,16 +214,20 @@ def _sides(graph: ContactGraph) -> tuple[ContactForces, ...]:
         cells = np.ravel_multi_index((z, y, x), owner.shape)
         first, second = owner.reshape(-1)[cells], owner.reshape(-1)[cells + stride]
         touching = (second != NOBODY) & (first != second)
-        # cells run upwards, so the first of a pair is its lowest
         pairs = first[touching].astype(np.int64) * (owner.max(initial=0) + 1) + second[touching]
-        _, lowest = np.unique(pairs, return_index=True)
-        at = np.column_stack([x, y, z])[touching][lowest] + (low_x, low_y, low_z)
-        points = at * (1, 1, PLATE / STUD)
-        made.append(_along(direction, second[touching][lowest], first[touching][lowest], points, 0.0))
+        # cells run upwards, so the first of a pair is its lowest
+        _, lowest, pair = np.unique(pairs, return_index=True, return_inverse=True)
+        ends = np.repeat((np.column_stack([x, y, z])[touching][lowest] + graph.low)[:, None], 2, axis=1)
+        across, at = (y, 1) if axis == 2 else (x, 0)
+        np.minimum.at(ends[:, 0, at], pair, across[touching] + graph.low[at])
+        np.maximum.at(ends[:, 1, at], pair, across[touching] + graph.low[at] + 1)
+        on, by = (np.repeat(each[touching][lowest], 2) for each in (second, first))
+        directions = np.tile(np.array(direction, dtype=np.float64), (2 * len(lowest), 1, 1))
+        made.append(_forces(on, by, ends.reshape(-1, 3) * (1, 1, PLATE / STUD), directions, 0.0))
     return tuple(made)
 
 
-def _table(brick: Rows, columns: Rows) -> tuple[ContactForces, ...]:
+def _table(brick: Rows, columns: Rows) -> ContactForces:
     """Return the pushes at the corners of the lowest bricks, each leaning four ways as far as friction goes."""
     around = np.array([(0, 0), (0, 1), (1, 0), (1, 1)])
     corners = np.column_stack([np.repeat(brick, 4), (columns[:, None, :2] + around).reshape(-1, 2)])
@@ -223,36 +235,27 @@ def _table(brick: Rows, columns: Rows) -> tuple[ContactForces, ...]:
     # the outline turns outwards where a corner belongs to one cell alone; no force needs another corner
     corners = corners[cells == 1]
     points = np.column_stack([corners[:, 1:], np.full(len(corners), columns[:, 2].min(initial=0) * PLATE / STUD)])
-    leaning = ((TABLE_FRICTION, 0, 1), (-TABLE_FRICTION, 0, 1), (0, TABLE_FRICTION, 1), (0, -TABLE_FRICTION, 1))
-    nobody = np.full(len(corners), NOBODY)
-    return tuple(_along(way, corners[:, 0], nobody, points, 0.0) for way in leaning)
+    ways = ((TABLE_FRICTION, 0, 1), (-TABLE_FRICTION, 0, 1), (0, TABLE_FRICTION, 1), (0, -TABLE_FRICTION, 1))
+    directions = np.tile(np.array(ways, dtype=np.float64), (len(corners), 1, 1))
+    return _forces(corners[:, 0], np.full(len(corners), NOBODY), points, directions, 0.0)
 
 
-def _baseplate(brick: Rows, columns: Rows, narrow: Mask, clutch: float) -> tuple[ContactForces, ...]:
+def _baseplate(brick: Rows, columns: Rows, narrow: Mask, clutch: float) -> ContactForces:
     """Return the forces between the lowest bricks and the studs of a plate that never moves."""
-    of, points = _grips(columns, narrow[brick])
-    standing, first = np.unique(brick, return_index=True)
-    nobody, plane = np.full(len(brick), NOBODY), columns[first] * np.array([1, 1, PLATE / STUD])
-    return (
-        _along((0, 0, 1), brick[of], nobody[of], points, -clutch),
-        _along((1, 0, 0), standing, nobody[first], plane, -np.inf),
-        _along((0, 1, 0), standing, nobody[first], plane, -np.inf),
-    )
+    return _grips(brick, np.full(len(brick), NOBODY), columns, narrow, clutch)
 
 
-def _along(
-    direction: tuple[float, float, float],
-    on: NDArray[np.integer],
-    by: NDArray[np.integer],
-    point: Floats,
-    least: float,
+def _forces(
+    on: NDArray[np.integer], by: NDArray[np.integer], point: Floats, directions: Floats, least: float
 ) -> ContactForces:
+    """Return several forces at each of some points, given their directions, (n, n_forces, 3), one after the other."""
+    n, n_forces, _ = directions.shape
     return ContactForces(
-        on.astype(np.int64),
-        by.astype(np.int64),
-        point.astype(np.float64),
-        np.broadcast_to(np.array(direction, dtype=np.float64), (len(on), 3)),
-        np.full(len(on), least),
+        np.repeat(on, n_forces).astype(np.int64),
+        np.repeat(by, n_forces).astype(np.int64),
+        np.repeat(point, n_forces, axis=0).astype(np.float64),
+        directions.reshape(-1, 3),
+        np.full(n * n_forces, least),
     )
 
 
@@ -270,17 +273,19 @@ def _among(contacts: ContactForces, rows: Ints, n_bricks: int) -> ContactForces:
     return ContactForces(on[kept], by[kept], contacts.point[kept], contacts.direction[kept], contacts.least[kept])
 
 
-def _matrix(contacts: ContactForces, middle: Floats) -> csc_array:
-    """Return the equations: each force adds to one body and takes from another."""
-    n, shape = len(contacts.on), (EQUATIONS * len(middle), len(contacts.on))
+def matrix_of(contacts: ContactForces, middle: Floats) -> csc_array:
+    """Return the equations of bodies, given their middles, (n, 3): each force adds to one body and takes from another.
+
+    Returns
+    -------
+    (6 n, k) sparse float64 array
+        As ``Statics.matrix``.
+    """
+    shape = EQUATIONS * len(middle), len(contacts.on)
     bodies = np.stack([contacts.on, contacts.by], axis=1)
     levers = contacts.point[:, None] - middle[bodies]
-    x, y, z = np.moveaxis(levers, 2, 0)
-    force_x, force_y, force_z = contacts.direction.T[:, :, None]
-    values = np.empty((n, 2, EQUATIONS))
-    values[:, :, :3] = contacts.direction[:, None]
-    values[:, :, 3] = y * force_z - z * force_y
-    values[:, :, 4] = z * force_x - x * force_z
+    force = np.repeat(contacts.direction[:, None], 2, axis=1)
+    values = np.concatenate([force, np.cross(levers, force)], axis=2)
     values[:, 1] *= -1
     entries = (values != 0) & (bodies != NOBODY)[:, :, None]
     index = bodies[:, :, None] * EQUATIONS + np.arange(EQUATIONS)

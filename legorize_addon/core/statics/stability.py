@@ -1,36 +1,41 @@
 """Whether the model stands: a verdict that can be checked, how much each brick has left, what is weak.
 
-"Stable" comes with forces in balance that every contact bears, "collapses" with
-a motion that no forces can stop; both are confirmed by checks apart from the
-search. Whatever gets neither within bounded work is "undecided".
+"Stable" comes with forces in balance that every contact bears, and that act at
+studs and on the ground alone. "Wedged" comes with such forces too, but some of
+them are pushes between bricks side by side: a weaker proof, since it takes
+neighbours without a gap. "Collapses" comes with a motion that no forces can stop,
+pushes of neighbours included. All are confirmed by checks apart from the search;
+whatever gets none within bounded work is "undecided".
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..model import NOBODY, Assembly, ContactGraph
+from ..model import NOBODY, Assembly
 from ..model import UNSUPPORTED as UNSUPPORTED
 from ..model import Verdict as Verdict
 from ..native import one_thread
 from ..progress import Progress, silent
-from .collapse import is_collapse, least_imbalance
-from .equilibrium import AIMS, Aim, Balance, Plane, balance, is_equilibrium, residual
+from .collapse import is_collapse
+from .equilibrium import AIMS, Aim, Balance, is_equilibrium, residual
 from .forces import EQUATIONS, HOLD, Ground, Statics, statics
-from .tipping import tipping, toppling
+from .search import search
+from .tipping import tipping
 
-PROGRAMME: Final = 600
+PROGRAMME: Final = 300
 """Bricks that a linear programme takes in a second; where projections leave it open, it decides smaller models."""
-
-RESERVE: Final = 1e-6
-"""How far in N the linear programme stays away from the bounds, against its own tolerance of 1e-7."""
 
 TORN: Final = 0.01
 """Share of the widest gap of a collapse from which on a contact counts as torn."""
+
+MOVING: Final = 1e-3
+"""Share of the fastest motion from which on a brick counts as moving."""
 
 ROUNDING: Final = 1e-6
 """Gap that is none, when the fastest brick moves by 1."""
@@ -55,19 +60,23 @@ class Stability:
         Rows of the bricks that hang in the air, which fall in any case.
     forces : (k,) float64 array
         Forces of ``statics`` in N: in balance, and borne by every contact if the
-        model is stable.
-    yielding : (n, 5) float64 array
-        Velocity along x, y, z and turning about x, y of each brick in the motion
-        that the contacts stop least, the greatest being 1: the proof of a
-        collapse, or where the search left it undecided; 0 of what is stable.
+        model is stable or wedged.
+    yielding : (n, 6) float64 array
+        Velocity along x, y, z and turning about x, y, z of each brick in the
+        motion that the contacts stop least, the greatest being 1: the proof of a
+        collapse, or where the search left it undecided; of what is wedged the
+        motion that studs alone stop least; 0 of what is stable.
     torn : (m, 2) int64 array
-        Lower and upper brick of each contact that the collapse tears open, widest
-        first: where to strengthen. ``NOBODY`` is a baseplate. Empty if nothing
-        is proven to collapse, or if it only tips over.
+        Lower and upper brick of each contact that this motion tears open, widest
+        first: where to strengthen. ``NOBODY`` is a baseplate. Empty if it is no
+        proof that studs alone do not bear the model, or if it only tips over.
     residual : float
         Greatest sum of forces on a brick in N, or of torques in N times 8 mm.
     iterations : int
         Projections that the search took.
+    upright : bool
+        Whether the forces of the proof act along the vertical alone: in any
+        other model of the forces at studs they hold as well.
     tipping : (n_components,) float64 array
         Distance in mm from where the weight and the loads of each component meet
         the ground to the outline of its feet: less than 0 outside of it, and not
@@ -85,6 +94,7 @@ class Stability:
     torn: Ints
     residual: float
     iterations: int
+    upright: bool
     tipping: Floats
     statics: Statics
 
@@ -95,18 +105,31 @@ class Stability:
 
     @property
     def stable(self) -> bool:
-        """Whether the model is proven to stand."""
+        """Whether the model is proven to stand by its studs alone."""
         return self.verdict is Verdict.STABLE
 
     @property
+    def stands(self) -> bool:
+        """Whether the model is proven to stand, be it while neighbours press on each other."""
+        return self.verdict in (Verdict.STABLE, Verdict.WEDGED)
+
+    @property
+    def margin_by_studs(self) -> Floats:
+        """Margin of each brick, (n,), but 0 where nothing but its neighbours holds it."""
+        if self.standing is not Verdict.WEDGED:
+            return self.margin
+        held = (np.abs(self.yielding) > MOVING).any(axis=1)
+        return np.where(held, np.minimum(self.margin, 0.0), self.margin)
+
+    @property
     def motion(self) -> Floats:
-        """Motion of the bricks as the model collapses, (n, 5), as in ``yielding``; 0 unless that is proven."""
+        """Motion of the bricks as the model collapses, (n, 6), as in ``yielding``; 0 unless that is proven."""
         return self.yielding if self.standing is Verdict.COLLAPSES else np.zeros_like(self.yielding)
 
     @property
     def enough_clutch(self) -> float:
         """Hold in N with which the proof still stands, without end if there is none."""
-        if not self.stable:
+        if not self.stands:
             return float(np.inf)
         return (1.0 - float(self.margin.min(initial=1.0))) * self.statics.clutch
 
@@ -116,7 +139,7 @@ class Stability:
 
     def check(self) -> bool:
         """Confirm the verdict on the bricks that stand by its proof alone."""
-        if self.standing is Verdict.STABLE:
+        if self.standing in (Verdict.STABLE, Verdict.WEDGED):
             return is_equilibrium(self.statics, self.forces)
         if self.standing is Verdict.COLLAPSES:
             return is_collapse(self.statics, self.motion[self.statics.rows].reshape(-1))
@@ -133,9 +156,11 @@ def stability(
     aims: tuple[Aim, ...] = AIMS,
     start: Floats | None = None,
     programme: int = PROGRAMME,
+    neighbours: bool = True,
+    leaning: bool = True,
     progress: Progress = silent,
 ) -> Stability:
-    """Decide whether a model stands.
+    """Decide whether a model stands, first by its studs alone.
 
     Parameters
     ----------
@@ -152,11 +177,17 @@ def stability(
     aims : tuple of Aim
         What forces to search for, and for how long.
     start : (k,) float64 array, optional
-        Forces of ``statics`` in N to start the search from.
+        Forces in N at studs and on the ground to start the search from, in the
+        order of ``statics`` without pushes of neighbours.
     programme : int
         Bricks up to which a linear programme decides what projections do not.
         Of larger models it takes those that would move most, and can prove no
         more than their collapse.
+    neighbours : bool
+        Whether to see if pushes of neighbours help where studs do not bear the
+        model; else it collapses or is undecided without them.
+    leaning : bool
+        Whether studs alone may bear the model by forces that are not upright.
     progress : Progress
         Told how far the search is; may cancel it.
 
@@ -166,76 +197,60 @@ def stability(
         Verdict, proof and margins.
     """
     progress("stability", 0.0)
-    equations = statics(assembly, clutch=clutch, ground=ground, loads=loads)
-    found = balance(equations, aims=aims, start=start, progress=progress)
-    if not found.found and not found.collapse:
-        found = _toppled(equations, found, assembly.graph)
-    if programme and not found.found and not found.collapse:
-        progress("stability", 1.0)
-        found = _programmed(equations, found, programme)
-    yielding = np.zeros((len(assembly.bricks), EQUATIONS))
-    if found.motion.any():
-        yielding[equations.rows] = found.motion.reshape(-1, EQUATIONS) / np.abs(found.motion).max()
+    among = partial(statics, assembly, clutch=clutch, ground=ground, loads=loads)
+    look = partial(search, graph=assembly.graph, aims=aims, programme=programme, progress=progress)
+    equations = alone = among()
+    found = weak = look(equations, start=start, kind="both" if leaning else "upright")
+    verdict = _verdict(equations, found)
+    if neighbours and verdict is not Verdict.STABLE:
+        equations = among(neighbours=True)
+        found = look(equations, kind="all")
+        verdict = _verdict(equations, found, Verdict.WEDGED)
+    if verdict is not Verdict.WEDGED:
+        alone, weak = equations, found
+    yielding = _moving(alone, weak, len(assembly))
     return Stability(
         component=assembly.graph.component.astype(np.int64),
-        margin=_margins(equations, found.forces, len(assembly.bricks)),
-        standing=_verdict(equations, found),
+        margin=_margins(equations, found.forces, len(assembly)),
+        standing=verdict,
         unsupported=np.flatnonzero(~assembly.graph.grounded),
         forces=found.forces,
         yielding=yielding,
-        torn=torn_by(equations, yielding if found.collapse else np.zeros_like(yielding)),
+        torn=torn_by(alone, yielding if weak.collapse else np.zeros_like(yielding)),
         residual=float(np.abs(residual(equations, found.forces)).max(initial=0)),
         iterations=found.turns,
+        upright=found.found and found.upright,
         tipping=tipping(equations, assembly.graph),
         statics=equations,
     )
 
 
-def _verdict(equations: Statics, found: Balance) -> Verdict:
+def _verdict(equations: Statics, found: Balance, best: Verdict = Verdict.STABLE) -> Verdict:
     """Say no more than the checks confirm."""
     if found.found and is_equilibrium(equations, found.forces):
-        return Verdict.STABLE
+        return best
     if found.collapse and is_collapse(equations, found.motion):
         return Verdict.COLLAPSES
     return Verdict.UNDECIDED
 
 
-def _toppled(equations: Statics, found: Balance, graph: ContactGraph) -> Balance:
-    """See whether it tips over as a whole: the slowest motion to find by search, and the quickest to write down."""
-    motion = toppling(equations, graph)
-    if not is_collapse(equations, motion):
-        return found
-    return Balance(found.forces, False, motion, True, found.turns)
-
-
-def _programmed(equations: Statics, found: Balance, most: int) -> Balance:
-    """Ask a linear programme: of all bodies if they are few, else of those that would move most."""
-    n = len(equations.rows)
-    moved = np.abs(found.motion).reshape(n, EQUATIONS).max(axis=1)
-    bodies = np.sort(np.argsort(-moved, kind="stable")[:most])
-    solved = least_imbalance(equations, bodies, reserve=RESERVE)
-    if solved is None:
-        return found
-    if is_collapse(equations, solved.motion):
-        return Balance(found.forces, False, solved.motion, True, found.turns)
-    if n > most:
-        return found
-    plane = Plane(equations)
-    forces = plane.project(solved.forces / plane.weight) * plane.weight
-    if not is_equilibrium(equations, forces):
-        return found
-    return Balance(forces, True, np.zeros_like(found.motion), False, found.turns)
+def _moving(equations: Statics, found: Balance, n_bricks: int) -> Floats:
+    """Return the motion of each brick, the greatest being 1, (n, 6)."""
+    yielding = np.zeros((n_bricks, EQUATIONS))
+    if found.motion.any():
+        yielding[equations.rows] = found.motion.reshape(-1, EQUATIONS) / np.abs(found.motion).max()
+    return yielding
 
 
 def _margins(equations: Statics, forces: Floats, n_bricks: int) -> Floats:
     """Return what is left at the worst contact of each brick, as a share of the hold."""
     contacts = equations.contacts
-    bounded = np.isfinite(contacts.least)
+    grips = contacts.least < 0
     # a force that only pushes uses no friction, but is missing as soon as it would have to pull
-    left = np.minimum(forces, 0.0) / equations.clutch + (contacts.least < 0)
+    left = np.minimum(forces, 0.0) / np.where(grips, -contacts.least, equations.clutch) + grips
     margin = np.ones(len(equations.rows))
     for bodies in (contacts.on, contacts.by):
-        counted = bounded & (bodies != NOBODY) & ((contacts.least < 0) | (forces < 0))
+        counted = (bodies != NOBODY) & (grips | (forces < 0))
         np.minimum.at(margin, bodies[counted], left[counted])
     all_margins = np.full(n_bricks, UNSUPPORTED)
     all_margins[equations.rows] = margin
@@ -249,7 +264,7 @@ def torn_by(equations: Statics, motion: Floats) -> Ints:
     ----------
     equations : Statics
         The balance of the bricks that stand.
-    motion : (n, 5) float64 array
+    motion : (n, 6) float64 array
         Of all bricks.
 
     Returns
@@ -259,7 +274,7 @@ def torn_by(equations: Statics, motion: Floats) -> Ints:
     """
     contacts = equations.contacts
     opening = equations.matrix.T @ motion[equations.rows].reshape(-1)
-    opening[~np.isfinite(contacts.least) | (contacts.least == 0)] = 0
+    opening[contacts.least == 0] = 0
     torn = np.flatnonzero(opening > max(TORN * opening.max(initial=0), ROUNDING))
     torn = torn[np.argsort(-opening[torn], kind="stable")]
     pairs = np.column_stack([contacts.by[torn], contacts.on[torn]])

@@ -53,8 +53,8 @@ def toppling(equations: Statics, graph: ContactGraph) -> Floats:
 
     Returns
     -------
-    (5 n,) float64 array
-        Velocity along x, y, z and turning about x, y of each brick: each body
+    (6 n,) float64 array
+        Velocity along x, y, z and turning about x, y, z of each brick: each body
         turns about the edge of its outline that its weight is farthest beyond.
         0 for those that do not.
     """
@@ -94,9 +94,9 @@ def _resultant(equations: Statics, members: Ints, ground: float) -> Floats | Non
 
 
 def _turning(middle: Floats, edge: Floats, ground: float) -> Floats:
-    """Return the motion of bricks that turn outwards about an edge, given its outer normal and offset, (n, 5)."""
+    """Return the motion of bricks that turn outwards about an edge, given its outer normal and offset, (n, 6)."""
     x, y, offset = edge
     above = middle[:, 2] - ground
     out = middle[:, :2] @ edge[:2] + offset
     still = np.ones(len(middle))
-    return np.column_stack([x * above, y * above, -out, -y * still, x * still])
+    return np.column_stack([x * above, y * above, -out, -y * still, x * still, 0 * still])

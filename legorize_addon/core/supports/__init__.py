@@ -6,6 +6,7 @@ from .assembly_plan import AssemblyPlan, plan_assembly
 from .bracing import add_bracing
 from .pillars import add_pillars
 from .segmentation import SAVING, Joint, segment
+from .strengthening import strengthen
 
 __all__ = [
     "SAVING",
@@ -15,4 +16,5 @@ __all__ = [
     "add_pillars",
     "plan_assembly",
     "segment",
+    "strengthen",
 ]

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -22,12 +22,11 @@ from ..model import (
     Assembly,
     Bricks,
     ContactGraph,
-    Verdict,
     components,
     stud_columns,
 )
 from ..progress import Progress, silent
-from ..statics import AIMS, Aim, Stability, Statics, stability, torn_by
+from ..statics import AIMS, LOCAL, SPARE, Stability, Statics, stability, torn_by
 from .pillars import Places, kept_pillar, places_below
 
 ROUNDS: Final = 8
@@ -68,18 +67,21 @@ def add_bracing(
     found: Stability,
     *,
     clutch: float,
+    spare: float = SPARE,
     progress: Progress = silent,
 ) -> tuple[Assembly, Stability]:
-    """Put pillars under what falls, if it is proven to stand with them.
+    """Put pillars under what falls, or has nothing to spare, if it is proven to stand by its studs with them.
 
     Parameters
     ----------
     assembly : Assembly
         A model in which nothing floats.
     found : Stability
-        How they stand.
+        How it stands by its studs.
     clutch : float
         Pull in N that one contact point bears.
+    spare : float
+        Share of it that is to be left unused, if there are places for pillars enough.
     progress : Progress
         Told how far the search is.
 
@@ -87,24 +89,39 @@ def add_bracing(
     -------
     assembly : Assembly
         All that came in, in their order, and then the pillars, ``SUPPORT_KEPT``;
-        as they came where no pillars are found with which the model stands.
+        as they came where no pillars are found with which the model stands better.
     found : Stability
-        How they stand.
+        How they stand; of what does not by its studs, whether neighbours hold it.
     """
-    tested = partial(_tested, assembly, clutch=clutch, progress=progress)
+    if found.stable and found.margin.min(initial=1.0) >= spare:
+        return assembly, found
+    judged = partial(stability, clutch=clutch, progress=progress)
+    tested = partial(_tested, assembly, progress=progress)
     pillars: list[Bricks] = []
-    propped = assembly, found
-    for turn in range(min(ROUNDS, WORK // max(len(assembly), 1))):
-        if propped[1].standing is Verdict.STABLE:
+    aimed = (1 - spare) * clutch
+    propped = _with_more(partial(tested, clutch=aimed), pillars)
+    if not propped[1].stable:
+        if found.stable:
+            return assembly, found
+        aimed, propped = clutch, tested(pillars, clutch=clutch)
+        if not propped[1].stable:
+            return assembly, judged(assembly)
+    more, proof = _with_fewer(propped, pillars, partial(tested, clutch=aimed)) if pillars else propped
+    return more, judged(more, start=proof.forces)
+
+
+def _with_more(tested: Callable[..., Propped], pillars: list[Bricks]) -> Propped:
+    """Put pillars under what yields, round after round, until the model stands or there is no place for more."""
+    propped = tested(pillars)
+    for turn in range(min(ROUNDS, WORK // max(len(propped[0]), 1))):
+        if propped[1].stable:
             break
         places = _chosen(*propped, fast=FAST / SOONER**turn)
         if not len(places):
             break
         pillars += [kept_pillar(propped[0], places, number) for number in range(len(places))]
         propped = tested(pillars)
-    if not propped[1].stable:
-        return assembly, found
-    return _with_fewer(propped, pillars, tested)
+    return propped
 
 
 def _tested(
@@ -113,12 +130,20 @@ def _tested(
     *,
     clutch: float,
     progress: Progress,
-    aims: tuple[Aim, ...] = AIMS,
     start: Floats | None = None,
+    **effort: Any,
 ) -> Propped:
-    """Return bricks with pillars behind them, and how they stand."""
+    """Return bricks with pillars behind them, and how they stand by their studs alone."""
     more = assembly.with_more(pillars)
-    return more, stability(more, clutch=clutch, aims=aims, start=start, programme=0, progress=progress)
+    found = stability(
+        more,
+        clutch=clutch,
+        start=start,
+        neighbours=False,
+        progress=progress,
+        **{"programme": LOCAL, **effort},
+    )
+    return more, found
 
 
 def _with_fewer(propped: Propped, pillars: Sequence[Bricks], tested: Callable[..., Propped]) -> Propped:
@@ -137,7 +162,7 @@ def _with_fewer(propped: Propped, pillars: Sequence[Bricks], tested: Callable[..
         fewer = [each for each, stays in zip(pillars, left, strict=False) if stays]
         # with the pillars left out, the forces of the proof are nearly in balance
         near = propped[1].forces[left[pillar].all(axis=0)]
-        without = tested(fewer, aims=aims, start=near)
+        without = tested(fewer, aims=aims, start=near, programme=0, leaning=not propped[1].upright)
         if without[1].stable:
             propped, pillars, needed = without, fewer, needed[left[:-1]]
             share = min(share, len(fewer) // 2)
@@ -226,7 +251,7 @@ def _rising(equations: Statics, motion: Floats, graph: ContactGraph, brick: Ints
     middle = np.zeros((len(motion), 3))
     middle[equations.rows] = equations.middle
     x, y = under.x + graph.low[0] + 0.5, under.y + graph.low[1] + 0.5
-    _, _, upward, about_x, about_y = motion[brick].T
+    _, _, upward, about_x, about_y, _ = motion[brick].T
     rising: Floats = upward + about_x * (y - middle[brick, 1]) - about_y * (x - middle[brick, 0])
     return np.where(brick == NOBODY, 0.0, rising)
 

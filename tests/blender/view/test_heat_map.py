@@ -256,7 +256,7 @@ def test_panel_says_what_is_proven() -> None:
     """A tower stands; a long arm tips over; a brick in the air is counted; what is open is called so."""
     standing = lines(TOWER, proof(TOWER, np.array([1.0, 0.38, 0.9, 0.7])))
     assert standing == [
-        "Stands: proven, no brick needs more than 62 % of its friction",
+        "Stands by its studs alone: proven, no brick needs more than 62 % of its friction",
         "Weakest: Red Brick 1 x 1 in layer 2, at least 38 % of its friction left",
     ]
     arm = table([(ONE, 0, 0, 0, 0, 4), (BEAM, 0, 0, 3, 0, 4)])

@@ -10,7 +10,8 @@ import pytest
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.report.remarks import brick_name, layer_of, remarks
-from scripts.benchmarks.stablelego import arm
+from legorize_addon.core.statics.forces import Ground
+from scripts.benchmarks.stablelego import CASES, arm
 from tests.core.standing import CATALOGUE, downward, judged, table
 
 
@@ -95,6 +96,33 @@ def test_a_real_tear_is_told() -> None:
     assert found.standing is Verdict.COLLAPSES
     [sentence] = remarks(Assembly(bricks, CATALOGUE), found)
     assert "in layer 3 the Red Brick 1 x 8 tears off the Red Brick 1 x 1 below it; " in sentence
+
+
+def test_what_neighbours_hold_is_told_with_the_joint_that_studs_do_not() -> None:
+    """A model that is wedged says so, and which joint its studs alone would lose; without one, what is in doubt."""
+    bricks = CASES[6].bricks(CATALOGUE)
+    found = judged(bricks, ground=Ground.BASEPLATE)
+    [sentence] = remarks(Assembly(bricks, CATALOGUE), found)
+    assert sentence.startswith("The model stands only while bricks side by side press on each other: its studs alone ")
+    lower, upper = found.torn[0].tolist()
+    assert f"in layer {bricks.corner[upper, 2] // 3 + 1} the " in sentence
+    assert brick_name(Assembly(bricks, CATALOGUE), lower) in sentence
+    assert brick_name(Assembly(bricks, CATALOGUE), upper) in sentence
+    [doubt] = remarks(Assembly(bricks, CATALOGUE), replace(found, torn=found.torn[:0]))
+    first = int(np.abs(found.yielding).max(axis=1).argmax())
+    assert f"in doubt is first the {brick_name(Assembly(bricks, CATALOGUE), first)} in layer " in doubt
+
+
+def test_too_little_to_spare_is_told_of_the_weakest_brick() -> None:
+    """What stands with less to spare than is wished names the brick and what it has; with more it needs no words."""
+    model = Assembly(table(("3001", 0, 0, 0), ("3003", 0, 0, 3)), CATALOGUE)
+    found = replace(judged(model.bricks), margin=np.array([0.9, 0.15]))
+    assert remarks(model, found) == remarks(model, found, spare=0.15) == ()
+    [sentence] = remarks(model, found, spare=0.2)
+    assert sentence.startswith(
+        "The model stands, but with less than 20 % of its friction to spare: the Red Brick 2 x 2 in "
+    )
+    assert "layer 2 is known to have 15 % left" in sentence
 
 
 def test_collapse_without_a_place_is_told() -> None:

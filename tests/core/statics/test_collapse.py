@@ -36,8 +36,8 @@ def test_work_of_a_brick_that_is_lifted_off() -> None:
     for spare, falls in ((1e-6, True), (-1e-6, False)):
         load = np.array([[0, 0, 4 * HOLD + weight("3005") + spare]])
         found = equations(table(("3005", 0, 0, 0)), ground=Ground.BASEPLATE, loads=load)
-        assert is_collapse(found, np.array([0, 0, 1.0, 0, 0])) is falls
-        assert is_collapse(found, np.array([0, 0, -1.0, 0, 0])) is False
+        assert is_collapse(found, np.array([0, 0, 1.0, 0, 0, 0])) is falls
+        assert is_collapse(found, np.array([0, 0, -1.0, 0, 0, 0])) is False
 
 
 def test_a_motion_through_a_wall_is_none() -> None:

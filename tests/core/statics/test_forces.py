@@ -15,10 +15,10 @@ def test_weight_of_every_part() -> None:
     """Each part weighs its grams, in its own middle."""
     bricks = table(*((part.number, 0, 0, 9 * row) for row, part in enumerate(CATALOGUE.parts)))
     found = equations(bricks)
-    weights = found.loads.reshape(-1, 5)
+    weights = found.loads.reshape(-1, 6)
     # what is higher than the part above it floats
     np.testing.assert_allclose(weights[:, 2], -GRAVITY * CATALOGUE.mass[bricks.part[found.rows]] / 1000)
-    assert (weights[:, [0, 1, 3, 4]] == 0).all()
+    assert (weights[:, [0, 1, 3, 4, 5]] == 0).all()
 
 
 @pytest.mark.parametrize(("number", "grips"), [("3001", 3), ("3010", 4), ("2357", 3), ("3024", 4), ("30145", 3)])
@@ -26,13 +26,33 @@ def test_grips_of_a_stud(number: str, grips: int) -> None:
     """The upper part decides how many points of a stud it grips; a part one stud wide grips four."""
     bricks = table(("3001", 0, 0, 0), (number, 0, 0, 3))
     links, contacts = contact_graph(bricks, CATALOGUE), equations(bricks).contacts
-    vertical = (contacts.least == -HOLD) & (contacts.by != NOBODY)
-    assert vertical.sum() == grips * links.studs[0]
-    assert (contacts.on[vertical] == 1).all()
-    assert (contacts.by[vertical] == 0).all()
+    gripping = contacts.by != NOBODY
+    # two edges of a cone at each point
+    assert gripping.sum() == 2 * grips * links.studs[0]
+    assert (contacts.least[gripping] == -HOLD / 2).all()
+    assert (contacts.on[gripping] == 1).all()
+    assert (contacts.by[gripping] == 0).all()
     # a plate is 0.4 studs high
-    np.testing.assert_allclose(contacts.point[vertical, 2], 1.2)
-    assert np.isinf(contacts.least).sum() == 2
+    np.testing.assert_allclose(contacts.point[gripping, 2], 1.2)
+
+
+@pytest.mark.parametrize("number", ["3001", "3010"])
+def test_friction_is_shared_by_pull_and_push_along_the_wall(number: str) -> None:
+    """A point bears a force exactly if its pull and its push along the wall are no more than the clutch together."""
+    contacts = equations(table(("3001", 0, 0, 0), (number, 0, 0, 3))).contacts
+    first = np.flatnonzero(contacts.by != NOBODY)[0]
+    one, other = contacts.direction[first : first + 2]
+    np.testing.assert_array_equal(contacts.point[first], contacts.point[first + 1])
+    np.testing.assert_allclose(one + other, [0, 0, 2], atol=1e-15)
+    along = (one - other) / 2
+    assert np.linalg.norm(along) == pytest.approx(1)
+    # across the line from the point to the middle of the stud, which is in the middle of a square
+    middle = np.floor(contacts.point[first, :2]) + 0.5
+    assert along[:2] @ (contacts.point[first, :2] - middle) == pytest.approx(0)
+    for up, push in ((-HOLD, 0.0), (-HOLD / 2, HOLD / 2), (-0.1, 0.1 - HOLD), (0.0, HOLD), (1.0, 1.0 + HOLD)):
+        for spare, borne in ((0.001, True), (-0.001, False)):
+            shares = np.linalg.lstsq(np.column_stack([one, other]), (up + spare) * np.array([0, 0, 1]) + push * along)
+            assert (shares[0] >= contacts.least[first]).all() == borne
 
 
 def test_middle_of_a_corner_part() -> None:
@@ -60,20 +80,30 @@ def test_baseplate_grips_as_a_brick_would() -> None:
 
 
 def test_bricks_side_by_side_push() -> None:
-    """One push for each pair, at the bottom of what touches, away from each other."""
-    contacts = equations(table(("30145", 0, 0, 0), ("3001", 2, 0, 0), ("3001", 2, 0, 3), ("3001", 0, 2, 0))).contacts
+    """Two pushes for each pair, at the ends of what touches, at its bottom, away from each other; or none."""
+    bricks = table(("30145", 0, 0, 0), ("3001", 2, 0, 0), ("3001", 2, 0, 3), ("3001", 0, 2, 0))
+    contacts = equations(bricks, neighbours=True).contacts
     sides = (contacts.least == 0) & (contacts.by != NOBODY)
-    found = sorted(zip(contacts.by[sides], contacts.on[sides], contacts.point[sides, 2].round(9), strict=True))
+    found = [
+        (int(by), int(on), *point)
+        for by, on, point in zip(
+            contacts.by[sides], contacts.on[sides], contacts.point[sides].round(9).tolist(), strict=True
+        )
+    ]
     # the last one stands behind the first and, by half, behind the second
-    assert found == [(0, 1, 0), (0, 2, 1.2), (0, 3, 0), (1, 3, 0)]
+    assert [(by, on, z) for by, on, _, _, z in sorted(found)[::2]] == [(0, 1, 0), (0, 2, 1.2), (0, 3, 0), (1, 3, 0)]
+    assert [row[3] for row in found[:4]] == [0, 2, 0, 2]
+    assert sorted(row[2] for row in found[4:]) == [0, 2, 2, 4]
     np.testing.assert_array_equal(contacts.direction[sides].sum(axis=1), 1)
+    without = equations(bricks).contacts
+    assert ((without.least < 0) | (without.by == NOBODY)).all()
 
 
 def test_place_does_not_matter() -> None:
     """Moved to negative coordinates, a model has the same equations."""
     rows = [("3001", 0, 0, 0), ("3003", 4, 0, 0), ("3001", 2, 0, 3), ("3024", 2, 0, 6)]
-    here = equations(table(*rows))
-    there = equations(table(*((number, x - 9, y - 5, z - 6) for number, x, y, z in rows)))
+    here = equations(table(*rows), neighbours=True)
+    there = equations(table(*((number, x - 9, y - 5, z - 6) for number, x, y, z in rows)), neighbours=True)
     np.testing.assert_allclose(there.matrix.toarray(), here.matrix.toarray(), atol=1e-12)
     np.testing.assert_array_equal(there.contacts.by, here.contacts.by)
 
@@ -82,27 +112,29 @@ def test_what_floats_is_left_out() -> None:
     """Bricks in the air have no equations, and what they would push does not exist."""
     found = equations(table(("3001", 0, 0, 3), ("3001", 0, 0, 0), ("3001", 4, 0, 3), ("3001", 0, 0, 9)))
     assert found.rows.tolist() == [0, 1]
-    assert found.matrix.shape[0] == 10
+    assert found.matrix.shape[0] == 12
     assert ((found.contacts.least != 0) | (found.contacts.by == NOBODY)).all()
 
 
 def test_loads_are_added() -> None:
     """A load of a newton stands beside the weight, without a torque."""
     bricks = table(("3001", 0, 0, 0), ("3003", 0, 0, 3))
-    found = equations(bricks, loads=downward(bricks, 1, 1.0)).loads.reshape(-1, 5)
+    found = equations(bricks, loads=downward(bricks, 1, 1.0)).loads.reshape(-1, 6)
     np.testing.assert_allclose(found[:, 2], [-weight("3001"), -weight("3003") - 1])
 
 
 def test_inner_forces_cancel() -> None:
     """Action is reaction: about one common point, a force between bricks adds nothing up."""
     found = equations(
-        table(("3001", 0, 0, 0), ("3003", 4, 1, 0), ("3010", 2, 1, 3), ("3020", 0, 0, 6), ("3024", 3, 0, 3))
+        table(("3001", 0, 0, 0), ("3003", 4, 1, 0), ("3010", 2, 1, 3), ("3020", 0, 0, 6), ("3024", 3, 0, 3)),
+        neighbours=True,
     )
-    columns = found.matrix.toarray().reshape(len(found.rows), 5, -1)
+    columns = found.matrix.toarray().reshape(len(found.rows), 6, -1)
     x, y, z = found.middle.T[:, :, None]
     torque_x = (columns[:, 3] + y * columns[:, 2] - z * columns[:, 1]).sum(axis=0)
     torque_y = (columns[:, 4] + z * columns[:, 0] - x * columns[:, 2]).sum(axis=0)
+    torque_z = (columns[:, 5] + x * columns[:, 1] - y * columns[:, 0]).sum(axis=0)
     inner = found.contacts.by != NOBODY
     assert inner.sum() > 30
-    for sums in (*columns[:, :3].sum(axis=0), torque_x, torque_y):
+    for sums in (*columns[:, :3].sum(axis=0), torque_x, torque_y, torque_z):
         np.testing.assert_allclose(sums[inner], 0, atol=1e-12)

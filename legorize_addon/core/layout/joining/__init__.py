@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .across import tie_across
 from .repair import connect_loose
 from .ties import add_ties
 from .windows import join_by_windows
@@ -10,4 +11,5 @@ __all__ = [
     "add_ties",
     "connect_loose",
     "join_by_windows",
+    "tie_across",
 ]

@@ -80,7 +80,7 @@ class _Reach:
     on_top: bool = False
 
 
-def near_contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) -> NearContacts:
+def near_contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool, places: int = _PLACES) -> NearContacts:
     """Find where components could be joined, the cheapest places first.
 
     Parameters
@@ -93,6 +93,8 @@ def near_contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) 
         LDraw code, ``COLOUR_ANY`` or ``COLOUR_EMPTY``.
     plates : bool
         Whether plates may be added; else only what touches is found.
+    places : int
+        Most places for each two components.
 
     Returns
     -------
@@ -112,7 +114,7 @@ def near_contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool) 
         for other in reaches
     ]
     every = NearContacts(*(np.concatenate([getattr(each, name) for each in found]) for name in NearContacts.__slots__))
-    return _chosen(_seams(every, len(component)), component)
+    return _chosen(_seams(every, len(component)), component, places)
 
 
 def _reaches(owner: Rows) -> Iterator[_Reach]:
@@ -188,11 +190,11 @@ def _seams(found: NearContacts, n: int) -> NearContacts:
     return replace(kept, price=kept.price - _SEAM * length)
 
 
-def _chosen(found: NearContacts, component: Rows) -> NearContacts:
+def _chosen(found: NearContacts, component: Rows, places: int) -> NearContacts:
     """Keep the cheapest places for each two components, the cheapest first."""
     pair = np.sort(component[found.bricks], axis=1) @ np.array([len(component), 1])
     order = np.lexsort((found.price, pair))
     start = np.flatnonzero(np.diff(pair[order], prepend=-1))
     rank = np.arange(len(order)) - np.repeat(start, np.diff(start, append=len(order)))
-    order = np.sort(order[rank < _PLACES])
+    order = np.sort(order[rank < places])
     return found.take(order[np.argsort(found.price[order], kind="stable")])

@@ -83,12 +83,27 @@ def add_ties(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, *, plates: bo
         if _joined(bench, links.component, colour, plates=plates):
             bricks = bench.bricks()
             links = contact_graph(bricks, catalogue)
-            grid = _as_laid(grid, bricks, links)
+            grid = as_laid(grid, bricks, links)
     return bricks, grid
 
 
-def _as_laid(grid: UnitGrid, bricks: Bricks, links: ContactGraph) -> UnitGrid:
-    """Return the grid in the colours of the bricks that lie in cells of another colour or in none."""
+def as_laid(grid: UnitGrid, bricks: Bricks, links: ContactGraph) -> UnitGrid:
+    """Return the grid in the colours of the bricks that lie in cells of another colour or in none.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        Before ties were laid.
+    bricks : Bricks
+        Ties included.
+    links : ContactGraph
+        Of these bricks.
+
+    Returns
+    -------
+    UnitGrid
+        Cells that were added must be built and have the role of plates.
+    """
     owner = owners(links, with_margins(grid.colour, COLOUR_EMPTY).shape)[1:-1].reshape(grid.colour.shape)
     added = (owner != NOBODY) & ~grid.solid
     shown = (owner != NOBODY) & (grid.colour >= 0) | added
@@ -105,23 +120,23 @@ def _joined(bench: Bench, component: Rows, colour: Plane, *, plates: bool) -> in
     found = near_contacts(bench.owner, component, colour, plates=plates)
     height = 1 if plates else PLATES_PER_BRICK
     pairs = component[found.bricks]
-    seams = _seams(found)
+    seams = seams_of(found)
     home = np.arange(component.max() + 1)
     laid = []
     # no colour is changed where another place costs less
     for rows, most_wrong in ((found.price < RECOLOURED, 0), (found.price > -np.inf, _MOST_WRONG)):
         for row in np.flatnonzero(rows).tolist():
             one, other = pairs[row]
-            if home[one] != home[other] and _tie(bench, seams[row], colour, height, most_wrong):
+            if home[one] != home[other] and tie_seam(bench, seams[row], colour, height, most_wrong):
                 home[home == home[one]] = home[other]
                 laid.append(row)
     for row in _more(found, pairs, laid, _hanging(pairs[laid], np.bincount(component))):
-        _tie(bench, seams[row], colour, height, 0 if found.price[row] < RECOLOURED else _MOST_WRONG)
+        tie_seam(bench, seams[row], colour, height, 0 if found.price[row] < RECOLOURED else _MOST_WRONG)
     return len(laid)
 
 
-def _seams(found: NearContacts) -> list[Seam]:
-    """Return the seams of places."""
+def seams_of(found: NearContacts) -> list[Seam]:
+    """Return the seams of places, as many, in the same order."""
     plane, y, x = found.place.T
     ends = np.stack([x, y, x + (found.axis == 2), y + (found.axis == 1)], axis=1).tolist()
     return [
@@ -163,8 +178,25 @@ def _more(found: NearContacts, pairs: Rows, laid: list[int], hanging: list[int])
             )
 
 
-def _tie(bench: Bench, seam: Seam, colour: Plane, height: int, most_wrong: int) -> bool:
-    """Lay a tie across a seam; return whether there is one that holds and is in the wrong colour in few squares."""
+def tie_seam(bench: Bench, seam: Seam, colour: Plane, height: int, most_wrong: int) -> bool:
+    """Lay a tie across a seam; return whether there is one that holds and is in the wrong colour in few squares.
+
+    Parameters
+    ----------
+    bench : Bench
+        Changed if a tie is laid.
+    seam : Seam
+    colour : (n_plates + 2, n_y, n_x) int16 array
+        What has to be seen: LDraw code, ``COLOUR_ANY`` or ``COLOUR_EMPTY``.
+    height : int
+        Of the tie in plates.
+    most_wrong : int
+        Stud squares of it that may show another colour.
+
+    Returns
+    -------
+    bool
+    """
     ends = [bench.at(seam.level, end) for end in seam.ends]
     cut = sorted({number for number in ends if number != NOBODY})
     # a tie laid before may reach across this seam already

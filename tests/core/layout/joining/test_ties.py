@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from legorize_addon.core.layout.joining.cutting import Bench, Seam
-from legorize_addon.core.layout.joining.ties import _tie, add_ties
+from legorize_addon.core.layout.joining.ties import add_ties, tie_seam
 from legorize_addon.core.layout.lay import lay_unjoined
 from legorize_addon.core.layout.problem.problem import owners, with_margins
 from legorize_addon.core.model.bricks import NOBODY, Bricks, Role
@@ -102,10 +102,10 @@ def test_no_plate_is_added_that_joins_nothing():
     colour = with_margins(two_plates().colour, COLOUR_EMPTY)
     bench = Bench(bricks, owners(links, colour.shape), CATALOGUE)
     before = len(bench.laid)
-    assert not _tie(bench, Seam(3, ((4, 0), (5, 0))), colour, 1, 0)
-    assert not _tie(bench, Seam(3, ((3, 0), (4, 0))), colour, 1, 0)
+    assert not tie_seam(bench, Seam(3, ((4, 0), (5, 0))), colour, 1, 0)
+    assert not tie_seam(bench, Seam(3, ((3, 0), (4, 0))), colour, 1, 0)
     assert len(bench.laid) == before
-    assert _tie(bench, Seam(3, ((1, 0), (2, 0))), colour, 1, 0)
+    assert tie_seam(bench, Seam(3, ((1, 0), (2, 0))), colour, 1, 0)
 
 
 def test_cell_that_is_seen_least_changes():

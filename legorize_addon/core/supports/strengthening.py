@@ -1,0 +1,131 @@
+"""Plates across what the proof says is weak, until studs alone bear the model.
+
+What would come apart does so in a motion that no forces at the studs can stop,
+and this motion tells the parts that stay whole and the contacts that tear. So
+each round lays a tie between every two parts that tear off each other, where the
+motion would stretch it most, and looks for forces in balance again: the cutting
+plane method (Kelley 1960) with ties for cuts.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from ..arrays import Floats, Ints
+from ..layout.joining import tie_across
+from ..model import NOBODY, Assembly, Bricks, Catalogue, ContactGraph, UnitGrid, Verdict, components
+from ..progress import Progress, part, silent
+from ..statics import AIMS, LOCAL, Aim, Stability, stability
+from ..units import PLATE, STUD
+
+ROUNDS: Final = 12
+"""Times that ties are laid before the rest is left to pillars."""
+
+SOON: Final = (Aim(0.25, 0.0, 20), Aim(0.01, 0.0, 150))
+"""What is searched for once ties were laid: any balance, and soon what is weak instead."""
+
+WORK: Final = 60_000
+"""Bricks tested in all these rounds together: a large model takes fewer of them."""
+
+
+def strengthen(
+    bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, *, clutch: float, plates: bool, progress: Progress = silent
+) -> tuple[Bricks, UnitGrid, Floats | None]:
+    """Lay ties where studs alone would not bear the model.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        A layout without collisions. What floats is left as it is.
+    grid : UnitGrid
+        The cells that it covers.
+    catalogue : Catalogue
+    clutch : float
+        Pull in N that one contact point shall need at most.
+    plates : bool
+        Whether bricks may be cut into plates, and plates be added.
+    progress : Progress
+        Told before each round; may cancel.
+
+    Returns
+    -------
+    bricks : Bricks
+        With the ties; the same object if none was laid.
+    grid : UnitGrid
+        With the cells that were added.
+    forces : (k,) float64 array or None
+        Forces at studs and on the ground that prove that the bricks stand, if they do.
+    """
+    aims: tuple[Aim, ...] = AIMS
+    rounds = max(min(ROUNDS, WORK // max(len(bricks), 1)), 1)
+    for number in range(rounds + 1):
+        model = Assembly(bricks, catalogue)
+        watched = _as_strength(part(progress, number / (rounds + 1), (number + 1) / (rounds + 1)))
+        found = stability(
+            model,
+            clutch=clutch,
+            aims=aims,
+            programme=LOCAL,
+            neighbours=False,
+            progress=watched,
+        )
+        if found.standing is Verdict.STABLE:
+            return bricks, grid, found.forces
+        if number == rounds or not len(found.torn):
+            break
+        tied, grid = _tied(model, grid, found, plates=plates)
+        if tied is bricks:
+            break
+        bricks, aims = tied, SOON
+    return bricks, grid, None
+
+
+def _as_strength(progress: Progress) -> Progress:
+    return lambda _, share: progress("strengthening", share)
+
+
+def _tied(model: Assembly, grid: UnitGrid, found: Stability, *, plates: bool) -> tuple[Bricks, UnitGrid]:
+    """Lay a tie between every two parts that tear off each other."""
+    torn = found.torn[(found.torn != NOBODY).all(axis=1)]
+    whole = rigid_parts(model.graph, torn)
+    weak = whole[torn]
+
+    def worth(between: Ints, cells: Ints) -> Floats:
+        """Return how fast two bricks move apart at a place."""
+        points = ((cells[:, ::-1] + 0.5) * (1, 1, PLATE / STUD)).astype(np.float64)
+        speed = [velocity(found, between[:, side], points) for side in (0, 1)]
+        return np.linalg.norm(speed[0] - speed[1], axis=1)
+
+    return tie_across(model.bricks, grid, model.catalogue, whole, weak[weak[:, 0] != weak[:, 1]], worth, plates=plates)
+
+
+def rigid_parts(graph: ContactGraph, torn: Ints) -> Ints:
+    """Return what each brick stays together with as contacts tear: the components without them, (n,)."""
+    n = len(graph.component)
+    kept = ~np.isin(graph.pairs.astype(np.int64) @ (n, 1), torn @ (n, 1))
+    return components(graph.pairs[kept], n).astype(np.int64)
+
+
+def velocity(found: Stability, bricks: Ints, points: Floats) -> Floats:
+    """Return the velocity of bricks at points in the motion that their studs stop least.
+
+    Parameters
+    ----------
+    found : Stability
+    bricks : (k,) int64 array
+        Rows of the bricks.
+    points : (k, 3) float64 array
+        In studs.
+
+    Returns
+    -------
+    (k, 3) float64 array
+        0 of bricks that hang in the air.
+    """
+    middle = np.zeros((len(found.yielding), 3))
+    middle[found.statics.rows] = found.statics.middle
+    moving, turning = found.yielding[bricks, :3], found.yielding[bricks, 3:]
+    speed: Floats = moving + np.cross(turning, points - middle[bricks])
+    return speed
