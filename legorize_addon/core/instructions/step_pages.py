@@ -54,11 +54,12 @@ def step_pages(panels: Panels, paper: Paper, first: int, progress: Progress = si
     for number, shot in enumerate(panels.shots):
         looking("pictures", number / len(panels.shots))
         found += panels.of(shot)
-    layout = _Layout(panels, scales(panels, found, paper))
+    page = page_cell(paper)
+    layout = _Layout(panels, scales(panels, found, paper), page)
     start = 0
     while start < len(found):
         drawing("pictures", start / len(found))
-        cells = layout.filled(page_cell(paper), found[start:])
+        cells = layout.filled(page, found[start:])
         items = [item for panel, cell in zip(found[start:], cells, strict=False) for item in layout.items(panel, cell)]
         if len(cells) > 1:
             items.append(_middle(paper))
@@ -105,8 +106,8 @@ def _middle(paper: Paper) -> Item:
 
 
 class _Layout:
-    def __init__(self, panels: Panels, scale: Mapping[int, float]) -> None:
-        self._panels, self._scale = panels, scale
+    def __init__(self, panels: Panels, scale: Mapping[int, float], page: Cell) -> None:
+        self._panels, self._scale, self._page = panels, scale, page
         self._headers: dict[tuple[int, float], Callout] = {}
 
     def filled(self, cell: Cell, panels: Sequence[Panel]) -> list[Cell]:
@@ -133,7 +134,9 @@ class _Layout:
         if cell.y > MARGIN:
             yield rectangle(cell.x, cell.y - GAP / 2, cell.width, 0, line)
         wide, high = cell.width - 2 * _INSET, cell.height - 2 * _INSET
-        yield moved(panel_items(self._panels, panel, wide, high, self._scale[table]), cell.x + _INSET, cell.y + _INSET)
+        # a picture that has a page for itself, as of a large model, is as large as can be read
+        scale = max(self._scale[table], READABLE) if cell == self._page else self._scale[table]
+        yield moved(panel_items(self._panels, panel, wide, high, scale), cell.x + _INSET, cell.y + _INSET)
 
     def _fits(self, panel: Panel, cell: Cell) -> bool:
         wide, high = cell.width - 2 * _INSET, cell.height - 2 * _INSET

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from legorize_addon.core.instructions import step_pages as module
 from legorize_addon.core.instructions.canvas import Group, Text
-from legorize_addon.core.instructions.paper import PAPERS
+from legorize_addon.core.instructions.paper import PAPERS, Cell
+from legorize_addon.core.instructions.picture import MM
 from legorize_addon.core.instructions.step_pages import LARGEST, scales, step_pages
 from tests.core.instructions.built import arm, pair
 from tests.core.instructions.test_panels import panels_of
@@ -58,3 +60,15 @@ def test_progress_rises_to_the_end():
     assert told == sorted(told)
     assert told[0] == 0.0
     assert told[-1] > 0.4
+
+
+def test_pictures_of_large_models_fill_their_pages(monkeypatch):
+    """A picture that has a page for itself is larger than the scale of its table, if that is small."""
+    monkeypatch.setattr(module, "scales", lambda panels, *_: dict.fromkeys(range(len(panels.steps.submodels)), 0.05))
+    monkeypatch.setattr(module, "READABLE", 0.3)
+    monkeypatch.setattr(Cell, "halves", None)
+    pages = list(step_pages(panels_of(arm()), PAPERS["A4"], 1))
+    for page in pages:
+        [panel] = [item for item in page.items if isinstance(item, Group)]
+        *_, picture = panel.items
+        assert picture.matrix[0] == pytest.approx(0.3 * MM)
