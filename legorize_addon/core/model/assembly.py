@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,9 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Mask
 from .bricks import Bricks, concatenate
 from .catalogue import Catalogue
-from .contacts import ContactGraph, contact_graph, middles
+
+if TYPE_CHECKING:
+    from .contacts import ContactGraph
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +43,9 @@ class Assembly:
     @cached_property
     def graph(self) -> ContactGraph:
         """The cells of the bricks and the graph of their contacts."""
+        # loaded at the first use: the graphs of scipy
+        from .contacts import contact_graph
+
         return contact_graph(self.bricks, self.catalogue)
 
     @cached_property
@@ -56,6 +62,8 @@ class Assembly:
     @cached_property
     def middles(self) -> Floats:
         """Middle of the stud squares of each brick, x and y in studs, (n, 2) float64."""
+        from .contacts import middles
+
         return middles(self.bricks, self.catalogue)
 
     @cached_property
