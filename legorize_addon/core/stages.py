@@ -24,7 +24,7 @@ from .progress import Overall
 from .settings import Settings
 from .shell import hollow
 from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_layers, levels_of, slice_mesh
-from .statics import Stability, stability
+from .statics import Effort, Stability, stability
 from .supports import AssemblyPlan, add_bracing, add_pillars, plan_assembly, strengthen
 from .texturing import reduce_images, remarks_on_unseen, seen_part
 from .unit_bricks import Detail, Raster, Rules, add_backing, dithering_of, facing_of, unit_bricks
@@ -228,9 +228,8 @@ def check_stability(run: Run, assembly: Assembly, forces: Floats | None) -> tupl
     """
     supported = run.settings.supports != "none"
     whole = add_pillars(assembly) if supported else assembly
-    start = forces if whole is assembly else None
-    found = stability(whole, clutch=run.settings.clutch, start=start, neighbours=not supported, progress=run.progress)
-    return whole, found
+    effort = Effort(start=forces if whole is assembly else None, neighbours=not supported)
+    return whole, stability(whole, clutch=run.settings.clutch, effort=effort, progress=run.progress)
 
 
 def brace(run: Run, assembly: Assembly, found: Stability) -> tuple[Assembly, Stability]:

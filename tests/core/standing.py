@@ -7,7 +7,7 @@ import numpy as np
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.statics.forces import GRAVITY, statics
-from legorize_addon.core.statics.stability import stability
+from legorize_addon.core.statics.stability import Effort, stability
 from scripts.benchmarks.stablelego import placed
 
 CATALOGUE = load_catalogue()
@@ -25,7 +25,8 @@ def equations(bricks, **options):
 
 def judged(bricks, **options):
     """Return whether bricks stand."""
-    return stability(Assembly(bricks, CATALOGUE), **options)
+    effort = {name: options.pop(name) for name in Effort.__slots__ if name in options}
+    return stability(Assembly(bricks, CATALOGUE), effort=Effort(**effort), **options)
 
 
 def weight(*numbers):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .equilibrium import AIMS, SPARE, Aim
 from .forces import GRAVITY, HOLD, Statics
 from .search import LOCAL
-from .stability import Stability, stability, torn_by
+from .stability import Effort, Stability, stability, torn_by
 
 __all__ = [
     "AIMS",
@@ -14,6 +14,7 @@ __all__ = [
     "LOCAL",
     "SPARE",
     "Aim",
+    "Effort",
     "Stability",
     "Statics",
     "stability",

@@ -146,37 +146,15 @@ class Stability:
         return True
 
 
-@one_thread()
-def stability(
-    assembly: Assembly,
-    *,
-    clutch: float = HOLD,
-    ground: Ground = Ground.TABLE,
-    loads: Floats | None = None,
-    aims: tuple[Aim, ...] = AIMS,
-    start: Floats | None = None,
-    programme: int = PROGRAMME,
-    neighbours: bool = True,
-    leaning: bool = True,
-    progress: Progress = silent,
-) -> Stability:
-    """Decide whether a model stands, first by its studs alone.
+@dataclass(frozen=True, slots=True, eq=False)
+class Effort:
+    """How a proof is searched for.
 
-    Parameters
+    Attributes
     ----------
-    assembly : Assembly
-        The model.
-    graph : ContactGraph
-        Cells and components of the bricks.
-    clutch : float
-        Pull in N that the friction of one contact point bears, above 0.
-    ground : Ground
-        What the lowest bricks stand on.
-    loads : (n, 3) float64 array, optional
-        Forces on the bricks besides their weight, in N at their centres of mass.
     aims : tuple of Aim
         What forces to search for, and for how long.
-    start : (k,) float64 array, optional
+    start : (k,) float64 array or None
         Forces in N at studs and on the ground to start the search from, in the
         order of ``statics`` without pushes of neighbours.
     programme : int
@@ -188,6 +166,43 @@ def stability(
         model; else it collapses or is undecided without them.
     leaning : bool
         Whether studs alone may bear the model by forces that are not upright.
+    """
+
+    aims: tuple[Aim, ...] = AIMS
+    start: Floats | None = None
+    programme: int = PROGRAMME
+    neighbours: bool = True
+    leaning: bool = True
+
+
+FULL: Final = Effort()
+"""Whatever it takes to decide."""
+
+
+@one_thread()
+def stability(
+    assembly: Assembly,
+    *,
+    clutch: float = HOLD,
+    ground: Ground = Ground.TABLE,
+    loads: Floats | None = None,
+    effort: Effort = FULL,
+    progress: Progress = silent,
+) -> Stability:
+    """Decide whether a model stands, first by its studs alone.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        The model.
+    clutch : float
+        Pull in N that the friction of one contact point bears, above 0.
+    ground : Ground
+        What the lowest bricks stand on.
+    loads : (n, 3) float64 array, optional
+        Forces on the bricks besides their weight, in N at their centres of mass.
+    effort : Effort
+        How the proof is searched for.
     progress : Progress
         Told how far the search is; may cancel it.
 
@@ -198,11 +213,11 @@ def stability(
     """
     progress("stability", 0.0)
     among = partial(statics, assembly, clutch=clutch, ground=ground, loads=loads)
-    look = partial(search, graph=assembly.graph, aims=aims, programme=programme, progress=progress)
+    look = partial(search, graph=assembly.graph, aims=effort.aims, programme=effort.programme, progress=progress)
     equations = alone = among()
-    found = weak = look(equations, start=start, kind="both" if leaning else "upright")
+    found = weak = look(equations, start=effort.start, kind="both" if effort.leaning else "upright")
     verdict = _verdict(equations, found)
-    if neighbours and verdict is not Verdict.STABLE:
+    if effort.neighbours and verdict is not Verdict.STABLE:
         equations = among(neighbours=True)
         found = look(equations, kind="all")
         verdict = _verdict(equations, found, Verdict.WEDGED)

@@ -26,7 +26,7 @@ from ..model import (
     stud_columns,
 )
 from ..progress import Progress, silent
-from ..statics import AIMS, LOCAL, SPARE, Stability, Statics, stability, torn_by
+from ..statics import AIMS, LOCAL, SPARE, Effort, Stability, Statics, stability, torn_by
 from .pillars import Places, kept_pillar, places_below
 
 ROUNDS: Final = 8
@@ -107,7 +107,7 @@ def add_bracing(
         if not propped[1].stable:
             return assembly, judged(assembly)
     more, proof = _with_fewer(propped, pillars, partial(tested, clutch=aimed)) if pillars else propped
-    return more, judged(more, start=proof.forces)
+    return more, judged(more, effort=Effort(start=proof.forces))
 
 
 def _with_more(tested: Callable[..., Propped], pillars: list[Bricks]) -> Propped:
@@ -130,20 +130,12 @@ def _tested(
     *,
     clutch: float,
     progress: Progress,
-    start: Floats | None = None,
     **effort: Any,
 ) -> Propped:
     """Return bricks with pillars behind them, and how they stand by their studs alone."""
     more = assembly.with_more(pillars)
-    found = stability(
-        more,
-        clutch=clutch,
-        start=start,
-        neighbours=False,
-        progress=progress,
-        **{"programme": LOCAL, **effort},
-    )
-    return more, found
+    chosen = Effort(**{"programme": LOCAL, "neighbours": False, **effort})
+    return more, stability(more, clutch=clutch, effort=chosen, progress=progress)
 
 
 def _with_fewer(propped: Propped, pillars: Sequence[Bricks], tested: Callable[..., Propped]) -> Propped:

@@ -17,7 +17,7 @@ from ..building import STEADY, Tipping, no_prop, plan_steps, tipping
 from ..geometry import corners, inside
 from ..model import Assembly, Bricks, Catalogue, ContactGraph, Role, Rows, Verdict, concatenate, contact_graph
 from ..progress import Progress, part, silent
-from ..statics import stability
+from ..statics import Effort, stability
 from .beams import beams
 from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, merge_upwards
 from .columns import columns
@@ -250,7 +250,9 @@ def _giving(
     loads = np.zeros((len(crooked), 3))
     np.add.at(loads[:, 2], tops, -contacts.load[loaded])
     # a branch that is not soon proven to bear is straightened as well, which is cheaper than a linear programme
-    found = stability(Assembly(crooked, catalogue), clutch=clutch, loads=loads, programme=0, progress=progress)
+    found = stability(
+        Assembly(crooked, catalogue), clutch=clutch, loads=loads, effort=Effort(programme=0), progress=progress
+    )
     moving = (np.abs(found.motion) > MOVING).any(axis=1)
     if found.verdict is Verdict.UNDECIDED:
         moving |= found.margin < 0

@@ -17,7 +17,7 @@ from ..arrays import Floats, Ints
 from ..layout.joining import tie_across
 from ..model import NOBODY, Assembly, Bricks, Catalogue, ContactGraph, UnitGrid, Verdict, components
 from ..progress import Progress, part, silent
-from ..statics import AIMS, LOCAL, Aim, Stability, stability
+from ..statics import AIMS, LOCAL, Aim, Effort, Stability, stability
 from ..units import PLATE, STUD
 
 ROUNDS: Final = 12
@@ -63,14 +63,8 @@ def strengthen(
     for number in range(rounds + 1):
         model = Assembly(bricks, catalogue)
         watched = _as_strength(part(progress, number / (rounds + 1), (number + 1) / (rounds + 1)))
-        found = stability(
-            model,
-            clutch=clutch,
-            aims=aims,
-            programme=LOCAL,
-            neighbours=False,
-            progress=watched,
-        )
+        effort = Effort(aims=aims, programme=LOCAL, neighbours=False)
+        found = stability(model, clutch=clutch, effort=effort, progress=watched)
         if found.standing is Verdict.STABLE:
             return bricks, grid, found.forces
         if number == rounds or not len(found.torn):
