@@ -135,7 +135,9 @@ def _count(tally: Tally, place: Path, out: Path, found: str, *, at_once: bool) -
     after = state(out)
     whole = found in ("old", "new")
     tally.counts[found if whole else "repaired" if not at_once else "torn_or_mixed"] += 1
-    tally.counts["torn_after_next"] += after not in ("old", "new") or (whole and after != found)
+    # what the journal promises is carried out, even if nothing had been moved yet
+    begun = not at_once and (found, after) == ("old", "new")
+    tally.counts["torn_after_next"] += after not in ("old", "new") or (whole and after != found and not begun)
     tally.counts["leftovers"] += len(leftovers(place))
     tally.counts["user_files"] += not _has_mine(out)
 
@@ -212,8 +214,11 @@ def _whole_runs(place: Path, model: Path, runs: int) -> Tally:
 
 
 def _fits(status: int, number: int, *, changed: bool) -> bool:
-    """Tell whether a status is that of the signal, or of a run that had come too far to be stopped."""
-    return status in ((0, 2) if changed else (-number, 128 + number))
+    """Tell whether a status is that of the signal, or of a run that had come too far to be stopped.
+
+    SIGKILL ends a process even then, with its results complete.
+    """
+    return status in ((0, 2) if changed else (-number, 128 + number)) or status == -number == -signal.SIGKILL
 
 
 def _run(model: Path, out: Path, width: int) -> subprocess.Popen[bytes]:
