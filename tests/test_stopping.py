@@ -57,7 +57,7 @@ def test_stopped_run_leaves_nothing(place: str, number: int, tmp_path: Path) -> 
     """While it imports, computes, reads a file, or where the stop is swallowed: the old folder and nothing else."""
     out = tmp_path / "out"
     out.mkdir()
-    (out / "model.ldr").write_text("earlier")
+    (out / "mine.ldr").write_text("earlier")
     run = started(place, out)
     assert place in ("imports", "importer") or len(list(tmp_path.glob(".legorize-*"))) == 1
     run.send_signal(number)
@@ -65,7 +65,7 @@ def test_stopped_run_leaves_nothing(place: str, number: int, tmp_path: Path) -> 
     assert run.returncode == STATUS[number]
     assert "Traceback" not in said or place == "importer"
     assert "cannot be read" not in said
-    assert [path.relative_to(tmp_path).as_posix() for path in sorted(tmp_path.rglob("*"))] == ["out", "out/model.ldr"]
+    assert [path.relative_to(tmp_path).as_posix() for path in sorted(tmp_path.rglob("*"))] == ["out", "out/mine.ldr"]
 
 
 def test_second_signal_does_not_disturb(tmp_path: Path) -> None:

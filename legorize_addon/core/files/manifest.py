@@ -71,12 +71,23 @@ def refuse_strangers(folder: Path, names: Iterable[str]) -> None:
     BuildError
         A file or link in the folder has one of the names, and its report does not list it.
     """
+    if _of_first_version(folder):
+        return
     files = listed(folder)
     known = {*files, REPORT} if files else set()
     for name in names:
         if name not in known and os.path.lexists(folder / name):
             what = "a folder" if (folder / name).is_dir() else "a file that no earlier run wrote"
             raise BuildError(f"{folder / name} is {what}: move it away, or choose another folder for the results.")
+
+
+def _of_first_version(folder: Path) -> bool:
+    """Return whether the results in a folder are those of version 0.1.0, whose report had no list of files."""
+    try:
+        facts = json.loads((folder / REPORT).read_text(encoding="utf-8"))
+        return FILES not in facts and facts["schema"] == 1 and isinstance(facts["version"], str)
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return False
 
 
 def changed(folder: Path) -> list[str]:

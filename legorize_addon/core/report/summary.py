@@ -10,6 +10,7 @@ from .remarks import count_of
 
 _VERDICTS: Final = {
     "stable": "the model is proven to stand",
+    "wedged": "the model is proven to stand only while neighbouring bricks press on each other",
     "collapses": "the model is proven to collapse",
     "undecided": "the model is not proven to stand",
 }

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from legorize_addon.core.files.manifest import changed, checksum, listed, names_in, ours, seal
+from legorize_addon.core.errors import BuildError
+from legorize_addon.core.files.manifest import changed, checksum, listed, names_in, ours, refuse_strangers, seal
 
 
 @pytest.fixture
@@ -31,6 +32,17 @@ def test_report_lists_what_was_written(folder: Path) -> None:
     assert names_in(folder) == ["mine.txt", "model.ldr", "tables/table_1.csv", "report.json"]
     # SHA-256 of "bricks"
     assert checksum(folder / "model.ldr") == "bad48609bec87ad5fac3cfecdd146c4d37893a0f1d4f8ab44dce94f5c127a85d"
+
+
+def test_results_of_the_first_version_are_replaced(tmp_path: Path) -> None:
+    """Its report listed no files: a folder with one holds results; with any other report it holds a user's files."""
+    (tmp_path / "model.ldr").write_text("bricks")
+    (tmp_path / "report.json").write_text('{"schema": 1, "version": "0.1.0"}')
+    refuse_strangers(tmp_path, ["model.ldr"])
+    for other in ('{"schema": 2, "version": "0.2.0"}', '{"version": "0.1.0"}', "[]", "mine"):
+        (tmp_path / "report.json").write_text(other)
+        with pytest.raises(BuildError, match="no earlier run wrote"):
+            refuse_strangers(tmp_path, ["model.ldr"])
 
 
 def test_what_was_changed_is_the_users(folder: Path) -> None:
