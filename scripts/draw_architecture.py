@@ -177,10 +177,14 @@ def packages_svg() -> str:
     top, width = max(level.values()), 980
     boxes = {}
     for number, names in rows.items():
-        for column, name in enumerate(names):
-            aside = 40 * (number % 4) - 60  # boxes of neighbouring rows are not to stand in one line
-            x, y = width * (column + 1) / (len(names) + 1) + aside, 40 + 70 * (top - number)
-            boxes[name] = Box(name, x, y, 24 + 7.2 * len(shown(name)), "core" if name.startswith("core") else "blender")
+        wide = [24 + 7.2 * len(shown(name)) for name in names]
+        gap = (width - sum(wide)) / (len(names) + 1)
+        # boxes of neighbouring rows are not to stand in one line, nor any beyond the picture
+        left = gap + min(max(40 * (number % 4) - 60, -0.6 * gap), 0.6 * gap)
+        for name, size in zip(names, wide, strict=True):
+            kind = "core" if name.startswith("core") else "blender"
+            boxes[name] = Box(name, left + size / 2, 40 + 70 * (top - number), size, kind)
+            left += size + gap
     lines = [
         line(boxes[package], boxes[used]) for package, those in sorted(reduced(graph).items()) for used in sorted(those)
     ]

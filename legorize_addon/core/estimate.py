@@ -277,7 +277,8 @@ _SECONDS: Final[Mapping[str, _Features]] = MappingProxyType({
     "supports": _Features(constant=0.079, bricks=2.9e-4, cells=2.6e-7),
     f"stability{AGAIN}": _Features(constant=0.0, crowd=1e-6),
 })  # fmt: skip
-"""CPU seconds of the stages."""
+"""CPU seconds of the stages. Those of strengthening and bracing are rough: models of one size differ a hundredfold, by
+how weak they are."""
 
 _TIERS: Final = MappingProxyType({"fast": 0.3, "standard": 1.0, "exact": 6.0})
 """Time of each tier of the layout, as a multiple of the standard one."""

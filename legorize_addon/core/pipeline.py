@@ -8,9 +8,10 @@ from .build import Build
 from .building import Proof, prove_steps
 from .errors import enough_memory
 from .estimate import check_limits, estimate
+from .layout import recolour_visible
 from .layout.joining import add_ties
 from .mesh import TriangleMesh
-from .model import Assembly
+from .model import Assembly, contact_graph
 from .native import watched
 from .progress import Overall, Progress, silent
 from .report import remarks, remarks_on_building, remarks_on_proof, remarks_on_split
@@ -20,7 +21,9 @@ from .slicing import fit_grid, link_loops
 from .stages import (
     Run,
     brace,
+    carry,
     check_stability,
+    close_overhangs,
     cut_mesh,
     find_colours,
     hollow_out,
@@ -32,7 +35,7 @@ from .stages import (
 )
 from .statics import Stability, stability
 from .supports import AssemblyPlan, segment
-from .unit_bricks import add_offset_bricks, remarks_on_dithering
+from .unit_bricks import remarks_on_dithering
 
 
 @enough_memory()
@@ -79,8 +82,7 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     with run.stage("unit bricks"):
         grid = make_unit_grid(run, mesh, repairs, trajectories, surface, frame, cut)
     with run.stage("overhangs"):
-        literal = settings.cell_colour == "longest"
-        grid, offsets = add_offset_bricks(grid, plates=plates, critical_angle=settings.critical_angle, literal=literal)
+        grid, offsets = close_overhangs(run, grid)
     with run.stage("hollowing"):
         shell = make_cohesive(hollow_out(run, grid), plates=plates)
     with run.stage("layout"):
@@ -89,8 +91,10 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
         bricks, shell = add_ties(bricks, shell, run.catalogue, plates=plates)
     with run.stage("strengthening"):
         bricks, shell, forces = strengthen_joints(run, bricks, shell)
+        bricks = recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue)
     with run.stage("stability"):
-        assembly, found = check_stability(run, Assembly(bricks, run.catalogue), forces)
+        assembly = carry(run, Assembly(bricks, run.catalogue))
+        found = check_stability(run, assembly, forces if len(assembly) == len(bricks) else None)
     with run.stage("bracing"):
         assembly, found = brace(run, assembly, found)
     with run.stage("pieces"):
@@ -108,9 +112,8 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     run.progress.finish()
 
     made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, assembly, found, plan, joints)
-    unseen = (*unseen, *remarks_on_dithering(mesh, settings.dithering))
-    notes = (*repairs.sentences(), *unseen, *_notes(settings, assembly, found, plan, proof))
-    return Build(settings, *made, proof, notes, run.timings)
+    notes = (*repairs.sentences(), *unseen, *remarks_on_dithering(mesh, settings.dithering))
+    return Build(settings, *made, proof, (*notes, *_notes(settings, assembly, found, plan, proof)), run.timings)
 
 
 def _notes(

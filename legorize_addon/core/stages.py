@@ -16,10 +16,10 @@ from .arrays import Floats, Mask
 from .build import Cut
 from .colours import SurfaceColours, chosen_palette, count_texels, surface_colours
 from .estimate import AGAIN
-from .layout import FILLER, lay, recolour_visible
+from .layout import FILLER, lay
 from .layout.learning import NO_EXCHANGES, learned_table, samples_text
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
-from .model import Assembly, Bricks, Catalogue, UnitGrid, contact_graph, load_catalogue
+from .model import Assembly, Bricks, Catalogue, UnitGrid, load_catalogue
 from .progress import Overall
 from .settings import Settings
 from .shell import hollow
@@ -27,7 +27,17 @@ from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_laye
 from .statics import Effort, Stability, stability
 from .supports import AssemblyPlan, add_bracing, add_pillars, plan_assembly, strengthen
 from .texturing import reduce_images, remarks_on_unseen, seen_part
-from .unit_bricks import Detail, Raster, Rules, add_backing, dithering_of, facing_of, unit_bricks
+from .unit_bricks import (
+    Detail,
+    Offsets,
+    Raster,
+    Rules,
+    add_backing,
+    add_offset_bricks,
+    dithering_of,
+    facing_of,
+    unit_bricks,
+)
 from .units import PLATES_PER_BRICK
 
 
@@ -180,6 +190,16 @@ def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail
     return Detail(marked, settings.plate_gain, settings.fewer_parts)
 
 
+def close_overhangs(run: Run, grid: UnitGrid) -> tuple[UnitGrid, Offsets]:
+    """Return the cells with the colours of offset bricks, and those."""
+    return add_offset_bricks(
+        grid,
+        plates=_in_plates(run.settings),
+        critical_angle=run.settings.critical_angle,
+        literal=run.settings.cell_colour == "longest",
+    )
+
+
 def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
     """Return the required and the optional cells."""
     settings = run.settings
@@ -209,8 +229,8 @@ def lay_bricks(run: Run, shell: UnitGrid) -> Bricks:
 
 
 def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid, Floats | None]:
-    """Tie what is weak, and colour what is seen; return the forces of the proof as well, if there is one."""
-    bricks, shell, forces = strengthen(
+    """Tie what is weak; return the forces of the proof as well, if there is one."""
+    return strengthen(
         bricks,
         shell,
         run.catalogue,
@@ -218,18 +238,20 @@ def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks
         plates=run.settings.plates != "none",
         progress=run.progress,
     )
-    return recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue), shell, forces
 
 
-def check_stability(run: Run, assembly: Assembly, forces: Floats | None) -> tuple[Assembly, Stability]:
-    """Test the bricks by force, with pillars under what floats if there may be supports.
+def carry(run: Run, assembly: Assembly) -> Assembly:
+    """Put pillars under what floats, if there may be supports."""
+    return assembly if run.settings.supports == "none" else add_pillars(assembly)
 
-    Where there may be more pillars, it is not asked yet whether neighbours hold what studs do not.
+
+def check_stability(run: Run, assembly: Assembly, forces: Floats | None) -> Stability:
+    """Test the bricks by force, from forces that may be a proof already.
+
+    Where there may be pillars, it is not asked yet whether neighbours hold what studs do not.
     """
-    supported = run.settings.supports != "none"
-    whole = add_pillars(assembly) if supported else assembly
-    effort = Effort(start=forces if whole is assembly else None, neighbours=not supported)
-    return whole, stability(whole, clutch=run.settings.clutch, effort=effort, progress=run.progress)
+    effort = Effort(start=forces, neighbours=run.settings.supports == "none")
+    return stability(assembly, clutch=run.settings.clutch, effort=effort, progress=run.progress)
 
 
 def brace(run: Run, assembly: Assembly, found: Stability) -> tuple[Assembly, Stability]:

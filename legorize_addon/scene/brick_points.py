@@ -88,7 +88,7 @@ def middles(bricks: Bricks, catalogue: Catalogue) -> Floats:
 
 def heights(bricks: Bricks, catalogue: Catalogue) -> NDArray[np.int32]:
     """Return the heights of the bricks in plates, shape (n,) int32."""
-    return np.array([part.height for part in catalogue.parts], dtype=np.int32)[bricks.part]
+    return catalogue.height[bricks.part].astype(np.int32)
 
 
 def box_corners(bricks: Bricks, catalogue: Catalogue) -> Floats:

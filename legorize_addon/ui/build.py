@@ -15,8 +15,9 @@ from ..view import show_result
 from . import job
 from .build_larger import ask
 from .progress_text import STOPPED, progress_text
-from .properties import current_build, settings_of, take_renamed
+from .properties import current_build
 from .requests import BuildRequest, build_request, by_uid, chosen_sources
+from .settings_properties import settings_of, take_renamed
 
 if TYPE_CHECKING:
     from ..core.build import Build

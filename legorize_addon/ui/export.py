@@ -14,7 +14,8 @@ from ..core.model import Assembly, Role, load_catalogue
 from ..render import AZIMUTH, render_still
 from ..scene import n_deleted, read_bricks
 from .build import OnBuild
-from .properties import current_build, label
+from .properties import current_build
+from .settings_properties import label
 
 VIEWS: Final = [*((view, label(view), "") for view in AZIMUTH), ("section", "Section", "Onto the cut")]
 

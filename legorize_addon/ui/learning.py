@@ -15,8 +15,8 @@ from ..core.settings import Settings
 from ..scene import builds_of, is_own, sources_of, state_of
 from .build import Reporting, Working
 from .learned_files import new_file, own_versions, resolved
-from .properties import settings_of
 from .requests import build_request, chosen_sources
+from .settings_properties import settings_of
 
 if TYPE_CHECKING:
     from ..core.mesh import TriangleMesh

@@ -1,21 +1,14 @@
-"""What the .blend keeps of the user's choices: the settings, and what is shown of a build.
-
-The settings' properties are generated from
-:class:`~legorize_addon.core.settings.Settings`, which alone knows their
-defaults, limits and texts.
-"""
+"""What the .blend keeps of the user's choices: the settings, and what is shown of a build."""
 
 from __future__ import annotations
 
-from dataclasses import Field, fields, replace
+from dataclasses import replace
 from typing import Any, Final
 
 import bpy
-import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from ..core.model import Role, load_catalogue
-from ..core.settings import Settings, choices, renamed, setting_type
 from ..scene import AXES, Section, builds, damage, own_parts, point_objects, set_detail, show_sources, state_of
 from ..view import (
     cut_away,
@@ -33,6 +26,7 @@ from ..view import (
     show_steps,
     steps_done,
 )
+from .settings_properties import LegorizeSettings, label
 
 CUTS: Final = ("none", *AXES)
 CUT_ITEMS: Final = [("none", "Off", ""), *((axis, axis.upper(), "") for axis in AXES)]
@@ -45,81 +39,6 @@ ROLE_TEXTS: Final = {
     Role.SUPPORT_INSIDE: "the supports that stay inside",
     Role.SUPPORT_KEPT: "the supports outside that stay, because a part of the model would fall without them",
 }
-
-
-def label(name: str) -> str:
-    """Return a setting's name as the panel shows it."""
-    return name.replace("_", " ").capitalize()
-
-
-def _property(entry: Field[Any]) -> Any:
-    """Return the Blender property of a setting."""
-    # Blender ends every tooltip with a full stop of its own
-    common = {
-        "name": label(entry.name),
-        "description": entry.metadata["text"].removesuffix("."),
-        "default": entry.default,
-    }
-    words = choices(entry)
-    if words:
-        return EnumProperty(items=[(word, label(word), common["description"]) for word in words], **common)
-    kind = setting_type(entry)
-    if kind is bool:
-        return BoolProperty(**common)
-    if kind is str:
-        return StringProperty(**common)
-    limits = {"min": entry.metadata["low"], "max": entry.metadata["high"]}
-    return IntProperty(**common, **limits) if kind is int else FloatProperty(**common, **limits)
-
-
-def _earlier_property(entry: Field[Any]) -> Any:
-    """Return the property under which files of an earlier version have a setting."""
-    kind, keywords = _property(entry).function, _property(entry).keywords
-    return kind(**{**keywords, "options": {"HIDDEN"}})
-
-
-RENAMED: Final = [entry for entry in fields(Settings) if entry.metadata["was"]]
-"""Settings that had another name in an earlier version."""
-
-LegorizeSettings = type(
-    "LegorizeSettings",
-    (bpy.types.PropertyGroup,),
-    {
-        "__doc__": "The settings of the next build.",
-        "__annotations__": {entry.name: _property(entry) for entry in fields(Settings)}
-        | {entry.metadata["was"]: _earlier_property(entry) for entry in RENAMED},
-    },
-)
-
-
-def take_renamed(group: bpy.types.PropertyGroup) -> tuple[str, ...]:
-    """Move what a file of an earlier version says to today's names; return what to tell of it."""
-    found = [entry for entry in RENAMED if group.is_property_set(entry.metadata["was"])]
-    for entry in found:
-        setattr(group, entry.name, getattr(group, entry.metadata["was"]))
-        group.property_unset(entry.metadata["was"])
-    return tuple(renamed(entry) for entry in found)
-
-
-def settings_of(group: bpy.types.PropertyGroup) -> Settings:
-    """Return what the user chose.
-
-    Parameters
-    ----------
-    group : LegorizeSettings
-        The scene's settings.
-
-    Returns
-    -------
-    Settings
-        The same as the command line makes of the same numbers.
-    """
-    return Settings(**{entry.name: _value(getattr(group, entry.name)) for entry in fields(Settings)})
-
-
-def _value(value: Any) -> Any:
-    # Blender keeps 32 bits of a float: 3.2 comes back as 3.2000000477
-    return float(str(np.float32(value))) if isinstance(value, float) else value
 
 
 def current_build(scene: bpy.types.Scene) -> bpy.types.Collection | None:

@@ -130,3 +130,13 @@ def texel_centres(texels: np.ndarray = TEXELS) -> np.ndarray:
     height, width = texels.shape[:2]
     x, y = np.meshgrid((np.arange(width) + 0.5) / width, (np.arange(height) + 0.5) / height)
     return np.column_stack([x.ravel(), y.ravel()])
+
+
+def add_table_on_one_leg() -> bpy.types.Object:
+    """Add a selected table whose top hangs over on all sides: supports have to carry its ends."""
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 3), scale=(4, 4, 6))
+    leg = bpy.context.object
+    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 7), scale=(12, 8, 2))
+    leg.select_set(True)
+    bpy.ops.object.join()
+    return bpy.context.object

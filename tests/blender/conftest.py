@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import pytest
 
 bpy = pytest.importorskip("bpy", reason="needs Blender as a Python module")
@@ -11,3 +13,13 @@ bpy = pytest.importorskip("bpy", reason="needs Blender as a Python module")
 def empty_file() -> None:
     """Open an empty file; unlike read_factory_settings this keeps add-ons enabled."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+
+
+@pytest.fixture(scope="module")
+def addon() -> Iterator[None]:
+    """Register the add-on for the tests of a file."""
+    import legorize_addon
+
+    legorize_addon.register()
+    yield
+    legorize_addon.unregister()

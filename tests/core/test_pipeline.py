@@ -455,7 +455,7 @@ def test_progress_is_told_while_a_stage_is_silent(monkeypatch):
         if heard[-3:] == [heard[-1]] * 3 and stage == "overhangs":
             enough.set()
 
-    silent = pipeline.add_offset_bricks
-    monkeypatch.setattr(pipeline, "add_offset_bricks", lambda *args, **kw: enough.wait(60) and silent(*args, **kw))
+    silent = pipeline.close_overhangs
+    monkeypatch.setattr(pipeline, "close_overhangs", lambda *args, **kw: enough.wait(60) and silent(*args, **kw))
     assert len(legorize(box((0, 0, 0), (40, 40, 40)), SMALL, hear).bricks)
     assert [share for _, share in heard] == sorted(share for _, share in heard)

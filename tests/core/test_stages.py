@@ -9,7 +9,7 @@ from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.progress import Overall, silent
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.stages import Run, check_stability
+from legorize_addon.core.stages import Run, carry, check_stability
 from tests.core.standing import CATALOGUE, table
 
 
@@ -45,6 +45,8 @@ def test_what_is_done_again_counts_to_what_it_repeats():
 def test_floating_bricks_get_pillars_if_there_may_be_supports(supports: str, pillars: int):
     """A brick in the air is carried by a pillar, or left where it is and told."""
     floating = Assembly(table(("3003", 0, 0, 0), ("3003", 0, 0, 6)), CATALOGUE)
-    assembly, found = check_stability(run_of(supports=supports), floating, None)
+    run = run_of(supports=supports)
+    assembly = carry(run, floating)
+    found = check_stability(run, assembly, None)
     assert (assembly.bricks.role == Role.SUPPORT_KEPT).sum() == pillars
     assert bool(len(found.unsupported)) != bool(pillars)

@@ -33,7 +33,7 @@ class Skyline:
         flat = (squares[:, 0] - low[0]) + wide * (squares[:, 1] - low[1])
         self._squares = np.split(flat.astype(np.int64), np.searchsorted(brick, np.arange(1, len(bricks))))
         self._bottom = bricks.corner[:, 2].tolist()
-        height = np.array([part.height for part in catalogue.parts])[bricks.part]
+        height = catalogue.height[bricks.part]
         self._top = (bricks.corner[:, 2] + height).tolist()
         self._tops: list[np.ndarray | None] = [None] * n_tables
 

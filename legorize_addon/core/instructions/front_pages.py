@@ -61,7 +61,7 @@ def cover(panels: Panels, title: str, paper: Paper) -> Page:
 def _facts(panels: Panels, model: Bricks) -> list[tuple[str, str]]:
     """Return what the cover says of a model: figures, and what they are."""
     points, _ = plan_outlines(model, panels.catalogue)
-    height = np.array([part.height for part in panels.catalogue.parts])[model.part]
+    height = panels.catalogue.height[model.part]
     across, deep = (np.ptp(points, axis=0) * STUD / _MM_PER_CM).tolist()
     high = float((model.corner[:, 2] + height).max() - model.corner[:, 2].min()) * PLATE / _MM_PER_CM
     supports = int(panels.temporary.sum())

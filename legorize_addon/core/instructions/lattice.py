@@ -87,7 +87,7 @@ class Cells:
     def of(cls, bricks: Bricks, catalogue: Catalogue, view: View) -> Cells:
         """Return the cells of all bricks as they are seen from a place."""
         brick, columns = stud_columns(bricks, catalogue)
-        height = np.array([part.height for part in catalogue.parts])[bricks.part[brick]]
+        height = catalogue.height[bricks.part[brick]]
         place = np.repeat(columns.astype(np.int64), height, axis=0)
         place[:, 2] += np.arange(len(place)) - np.repeat(np.cumsum(height) - height, height)
         return cls(turned(place, view), np.repeat(brick.astype(np.int64), height))

@@ -1,26 +1,21 @@
-"""Layer maps: for each layer, what is laid on what, as seen from above.
-
-Layers are laid one on the other from the table up. Where plates lie between
-bricks, the bricks that begin one or two plates above a layer have a map of their own.
-"""
+"""Layer maps: for each layer, what is laid on what, as seen from above."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
-from typing import Final, NamedTuple
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Final
 
 import numpy as np
 
 from ..arrays import Ints, Mask
 from ..model import Bricks, Catalogue, stud_columns
 from ..progress import Progress, silent
-from ..units import PLATES_PER_BRICK
-from ..units import STUD as STUD_MM
 from .canvas import WHITE, Group, Item, Page, Paint, Path, Rgb, Text, lines, moved
 from .fonts import width
+from .layers import Layer, layers_of
 from .legend import Legend, lettered
 from .lots import GREY, lots_of, rgb_of
+from .map_frame import LABELS, TITLE, Frame
 from .paper import MARGIN, Paper, foot
 from .plans import STUD, by_colour, hatched, plan_outlines, plan_studs
 from .shades import DARK, LIGHT_LINE, LINE, brightness, mixed, tint_for
@@ -29,131 +24,12 @@ from .svg import svg
 MAPS: Final = "Layer maps"
 """Title of the first of their pages."""
 
-TITLE: Final = 14.0
-"""mm for the title of a map."""
-
-LABELS: Final = 6.0
-"""mm for the numbers of rows and columns on each side."""
-
-FRONT: Final = 5.0
-"""mm for the word that says where the front is."""
-
-LARGEST: Final = 12.0
-"""mm to which a stud is enlarged at most."""
-
 SMALLEST: Final = 1.1
 """mm of the smallest letters on bricks; smaller ones are left out."""
 
 _GHOST: Final[Rgb] = (208, 210, 214)
 _THROUGH: Final[Rgb] = (232, 233, 236)
 _GRID: Final[Rgb] = (224, 226, 230)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Layer:
-    """What one map shows.
-
-    Attributes
-    ----------
-    title : str
-    new, below, through : (k,) int64 array
-        Rows of the bricks that are laid, of those on which they lie, and of taller ones between them.
-    """
-
-    title: str
-    new: Ints
-    below: Ints
-    through: Ints
-
-
-def layers_of(bricks: Bricks, catalogue: Catalogue) -> list[Layer]:
-    """Return the layers of a model with its supports, piece by piece from below.
-
-    Parameters
-    ----------
-    bricks : Bricks
-        Model and supports. Pieces are built each by itself.
-    catalogue : Catalogue
-
-    Returns
-    -------
-    list of Layer
-    """
-    height = np.array([part.height for part in catalogue.parts])[bricks.part]
-    low = bricks.corner[:, 2]
-    high = low + height
-    pieces = np.unique(bricks.piece).tolist()
-    found = []
-    for number, piece in enumerate(pieces):
-        mine = bricks.piece == piece
-        ground = int(low[mine].min())
-        name = f"Piece {number + 1}, " if len(pieces) > 1 else ""
-        for level in np.unique(low[mine]).tolist():
-            rows = (mine & (low == level), mine & (high == level), mine & (low < level) & (high > level))
-            found.append(Layer(name + _level(level - ground), *(np.flatnonzero(each) for each in rows)))
-    return found
-
-
-def _level(plates: int) -> str:
-    layer, above = divmod(plates, PLATES_PER_BRICK)
-    return f"Layer {layer + 1}" + (f", {above} plate{'s' * (above > 1)} up" if above else "")
-
-
-class Frame(NamedTuple):
-    """Where the maps of a model lie on their pages, the same for all layers, so that they lie one over the other.
-
-    Attributes
-    ----------
-    low, high : (2,) int64 array
-        Studs from which and to which the maps go.
-    turned : bool
-        Whether y goes to the left and x upwards, for models that are deeper than wide.
-    stud : float
-        mm of a stud on paper.
-    left, top : float
-        Upper left corner of the maps in mm.
-    width, height : float
-        Size of the pages in mm.
-    """
-
-    low: Ints
-    high: Ints
-    turned: bool
-    stud: float
-    left: float
-    top: float
-    width: float
-    height: float
-
-    @classmethod
-    def of(cls, bricks: Bricks, catalogue: Catalogue, legend: float, paper: Paper, *, actual_size: bool) -> Frame:
-        """Return the frame for a model and the width of its widest legend."""
-        points, _ = plan_outlines(bricks, catalogue)
-        low, high = points.min(axis=0).astype(np.int64), points.max(axis=0).astype(np.int64)
-        turned = bool((high - low)[1] > (high - low)[0]) and not actual_size
-        across, up = (high - low)[:: -1 if turned else 1].tolist()
-        # what is beside and above the maps
-        beside, above = 2 * MARGIN + 2 * LABELS + FRONT + legend, 2 * MARGIN + 2 * LABELS + FRONT + TITLE
-        stud = min((paper.width - beside) / across, (paper.height - above) / up, LARGEST)
-        if actual_size:
-            stud = STUD_MM
-        width, height = max(paper.width, across * stud + beside), max(paper.height, up * stud + above)
-        left = MARGIN + LABELS + (width - beside - across * stud) / 2
-        top = MARGIN + TITLE + LABELS + (height - above - up * stud) / 2
-        return cls(low, high, turned, stud, left, top, width, height)
-
-    @property
-    def matrix(self) -> tuple[float, float, float, float, float, float]:
-        """From studs, y upwards, to mm on the page."""
-        (x_low, _), (x_high, y_high) = self.low.tolist(), self.high.tolist()
-        if self.turned:
-            return (0.0, -self.stud, -self.stud, 0.0, self.left + y_high * self.stud, self.top + x_high * self.stud)
-        return (self.stud, 0.0, 0.0, -self.stud, self.left - x_low * self.stud, self.top + y_high * self.stud)
-
-    def at(self, x: float, y: float) -> tuple[float, float]:
-        """Return where a place in studs lies on the page."""
-        a, b, c, d, e, f = self.matrix
-        return a * x + c * y + e, b * x + d * y + f
 
 
 def layer_files(pages: Iterable[Page]) -> Iterator[tuple[str, str]]:
@@ -196,9 +72,8 @@ def layer_pages(
     tint = tint_for(rgb_of(bricks.take(~temporary), catalogue))
     layers = layers_of(bricks, catalogue)
     counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers]
-    legends = [Legend.of(count, paper.height - 2 * MARGIN - TITLE) for count in counts]
-    widest = max(legend.width for legend in legends)
-    frame = Frame.of(bricks, catalogue, widest, paper, actual_size=actual_size)
+    legends = _legends(counts, paper)
+    frame = Frame.of(bricks, catalogue, _widest(legends), paper, actual_size=actual_size)
     for number, (layer, legend) in enumerate(zip(layers, legends, strict=True)):
         progress("layer maps", number / len(layers))
         new = bricks.take(layer.new)
@@ -211,6 +86,15 @@ def layer_pages(
             moved(tuple(legend.items(lots, catalogue)), frame.width - MARGIN - legend.width, MARGIN + TITLE),
         )
         yield Page(frame.width, frame.height, items, layer.title)
+
+
+def _legends(counts: Sequence[int], paper: Paper) -> list[Legend]:
+    """Return the legends of maps with so many lots."""
+    return [Legend.of(count, paper.height - 2 * MARGIN - TITLE) for count in counts]
+
+
+def _widest(legends: Iterable[Legend]) -> float:
+    return max(legend.width for legend in legends)
 
 
 def _heading(layer: Layer, number: str, frame: Frame, *, actual_size: bool) -> Iterator[Item]:
@@ -295,7 +179,7 @@ def _new(bricks: Bricks, catalogue: Catalogue, temporary: Mask, tint: Rgb, line:
         points, count = plan_outlines(bricks.take(temporary), catalogue)
         yield hatched(points, count, Paint(stroke=tint, width=1.2 * line))
     points, count = plan_outlines(bricks, catalogue)
-    dark = np.repeat([brightness(tuple(row)) < DARK for row in rgb_of(bricks, catalogue).tolist()], 1)
+    dark = np.array([brightness(tuple(row)) < DARK for row in rgb_of(bricks, catalogue).tolist()], dtype=bool)
     yield Path(points, count, True, (Paint(stroke=LINE, width=1.4 * line),))
     if dark.any():
         # a light line within the dark one parts bricks of dark colours
@@ -328,8 +212,14 @@ def map_pages(
     first : int
         Number of the first page.
     """
-    rows = next((rows for rows in (3, 2) if _readable(bricks, catalogue, paper, rows)), 1)
-    strip = Paper(paper.width, (paper.height - MARGIN / 2) / rows)
+    counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers_of(bricks, catalogue)]
+
+    def stud(strip: Paper) -> float:
+        """Return the mm of a stud on maps of a size."""
+        return Frame.of(bricks, catalogue, _widest(_legends(counts, strip)), strip, actual_size=False).stud
+
+    rows = next((rows for rows in (3, 2) if stud(_strip(paper, rows)) >= _READABLE), 1)
+    strip = _strip(paper, rows)
     maps = list(layer_pages(bricks, catalogue, temporary=temporary, paper=strip, progress=progress))
     for start in range(0, len(maps), rows):
         some = maps[start : start + rows]
@@ -343,9 +233,6 @@ _READABLE: Final = 3.2
 """mm of a stud at least where several maps are on a page."""
 
 
-def _readable(bricks: Bricks, catalogue: Catalogue, paper: Paper, rows: int) -> bool:
-    """Tell whether maps in so many rows on a page can be read."""
-    strip = Paper(paper.width, (paper.height - MARGIN / 2) / rows)
-    counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers_of(bricks, catalogue)]
-    widest = max(Legend.of(count, strip.height - 2 * MARGIN - TITLE).width for count in counts)
-    return Frame.of(bricks, catalogue, widest, strip, actual_size=False).stud >= _READABLE
+def _strip(paper: Paper, rows: int) -> Paper:
+    """Return the part of a page for a map if there are so many below each other."""
+    return Paper(paper.width, (paper.height - MARGIN / 2) / rows)

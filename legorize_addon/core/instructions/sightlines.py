@@ -177,8 +177,3 @@ _MOST: Final = 0.6
 def _seen(scene: Scene) -> float:
     """Return how much is seen of all that is new, in pieces of the plane."""
     return float(scene.shares @ scene.sight.free[scene.new])
-
-
-def hidden_outline(stage: Stage, scene: Scene) -> Sight | None:
-    """Return what is left out of a scene as it would be seen alone, for its outline."""
-    return stage.sight(scene.left_out, scene.view) if len(scene.left_out) else None

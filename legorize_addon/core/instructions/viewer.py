@@ -60,7 +60,7 @@ def viewer_data(
     """
     boxes, box_brick = _boxes(bricks, catalogue)
     stud_brick, columns = stud_columns(bricks, catalogue)
-    height = np.array([part.height for part in catalogue.parts])[bricks.part]
+    height = catalogue.height[bricks.part]
     studs = columns.astype(np.int64)
     studs[:, 2] += height[stud_brick]
     colour = shown_rgb(bricks, catalogue, temporary, tint)

@@ -57,7 +57,7 @@ class Assembly:
     @cached_property
     def height(self) -> NDArray[np.int32]:
         """Height of each brick in plates, (n,) int32."""
-        return np.array([part.height for part in self.catalogue.parts], dtype=np.int32)[self.bricks.part]
+        return self.catalogue.height[self.bricks.part].astype(np.int32)
 
     @cached_property
     def middles(self) -> Floats:

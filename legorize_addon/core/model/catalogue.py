@@ -18,7 +18,7 @@ from typing import Final, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arrays import Floats, Mask
+from ..arrays import Floats, Ints, Mask
 from ..errors import BuildError
 from .unit_grid import COLOUR_ANY
 
@@ -131,6 +131,11 @@ class Catalogue:
     def mass(self) -> Floats:
         """Mass of each part in grams, shape (n_parts,)."""
         return np.array([part.mass for part in self.parts])
+
+    @property
+    def height(self) -> Ints:
+        """Height of each part in plates, shape (n_parts,)."""
+        return np.array([part.height for part in self.parts])
 
     def part_row(self, number: str) -> int:
         """Return the row of the part with an LDraw number or alias.

@@ -82,7 +82,7 @@ def contact_graph(bricks: Bricks, catalogue: Catalogue) -> ContactGraph:
         Cells, contacts and components.
     """
     brick, columns = stud_columns(bricks, catalogue)
-    heights = np.array([part.height for part in catalogue.parts], dtype=np.int32)[bricks.part]
+    heights = catalogue.height[bricks.part].astype(np.int32)
     low = columns.min(axis=0, initial=0).astype(np.int32)
     owner, collisions = _owners(brick, columns - low, heights[brick])
     tops = columns - low

@@ -169,7 +169,7 @@ def statics(
 
 def _centres(bricks: Bricks, catalogue: Catalogue) -> Floats:
     """Return the centre of mass of each brick in studs."""
-    height = np.array([part.height for part in catalogue.parts])[bricks.part]
+    height = catalogue.height[bricks.part]
     return np.column_stack([middles(bricks, catalogue), (bricks.corner[:, 2] + height / 2) * (PLATE / STUD)])
 
 

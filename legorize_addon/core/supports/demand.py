@@ -90,7 +90,7 @@ def support_demand(assembly: Assembly, *, deepest: int, room: Clearance | None =
     -------
     Demand
     """
-    height = np.array([part.height for part in assembly.catalogue.parts])[assembly.bricks.part]
+    height = assembly.catalogue.height[assembly.bricks.part]
     carrying = Hanging(assembly.graph, height, deepest=deepest)
     level = assembly.bricks.corner[:, 2]
     carrying.clutch(np.flatnonzero(level == level.min()).tolist())

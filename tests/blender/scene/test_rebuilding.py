@@ -17,6 +17,7 @@ from legorize_addon.ui.properties import current_build
 from legorize_addon.view.heat_map import heat_map_shown
 from legorize_addon.view.visibility import section_of
 from tests.blender.bricks import content, instances
+from tests.blender.builders import add_table_on_one_leg
 
 
 @pytest.fixture(autouse=True)
@@ -30,11 +31,7 @@ def addon() -> Iterator[None]:
 @pytest.fixture
 def table() -> bpy.types.Object:
     """Return a selected table on one leg, to be built 12 studs long: supports have to carry its ends."""
-    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 3), scale=(4, 4, 6))
-    post = bpy.context.object
-    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 7), scale=(12, 8, 2))
-    post.select_set(True)
-    bpy.ops.object.join()
+    add_table_on_one_leg()
     bpy.context.scene.legorize.settings.width = 12
     return bpy.context.object
 

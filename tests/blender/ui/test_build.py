@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from types import SimpleNamespace
 
 import bpy
@@ -25,26 +24,17 @@ from legorize_addon.ui import build as operators
 from legorize_addon.ui import job, panels
 from legorize_addon.ui.properties import current_build
 from tests.blender.bricks import assert_same, content, instances
+from tests.blender.builders import add_table_on_one_leg
+
+pytestmark = pytest.mark.usefixtures("addon")
 
 WHITE = 15
-
-
-@pytest.fixture(scope="module", autouse=True)
-def addon() -> Iterator[None]:
-    """Register the add-on for the tests of this file."""
-    legorize_addon.register()
-    yield
-    legorize_addon.unregister()
 
 
 @pytest.fixture
 def table() -> bpy.types.Object:
     """Return a selected table on one leg, to be built 12 studs long: supports have to carry its ends."""
-    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 3), scale=(4, 4, 6))
-    post = bpy.context.object
-    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 7), scale=(12, 8, 2))
-    post.select_set(True)
-    bpy.ops.object.join()
+    add_table_on_one_leg()
     bpy.context.scene.legorize.settings.width = 12
     return bpy.context.object
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
 
-import legorize_addon
 from legorize_addon.core.layout.learning.svm import read
 from legorize_addon.core.model.catalogue import ASSETS
 from legorize_addon.scene.collections import read_bricks
@@ -19,17 +17,12 @@ from legorize_addon.ui import learned_files
 from legorize_addon.ui import learning as learning_operators
 from legorize_addon.ui.learned_files import own_folder, own_versions, resolved
 from legorize_addon.ui.panels import classes
-from legorize_addon.ui.properties import current_build, settings_of
+from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.settings_properties import settings_of
+
+pytestmark = pytest.mark.usefixtures("addon")
 
 SHIPPED = (ASSETS / "layout_svm.csv").read_text(encoding="utf-8")
-
-
-@pytest.fixture(scope="module", autouse=True)
-def addon() -> Iterator[None]:
-    """Register the add-on for the tests of this file."""
-    legorize_addon.register()
-    yield
-    legorize_addon.unregister()
 
 
 @pytest.fixture

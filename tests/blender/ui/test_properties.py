@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import fields
 from types import SimpleNamespace
 
@@ -17,18 +16,13 @@ from legorize_addon.scene.builds import layers_of
 from legorize_addon.scene.collections import clear_build
 from legorize_addon.scene.state import BUILD_KEY
 from legorize_addon.ui import panels
-from legorize_addon.ui.properties import current_build, settings_of, take_renamed
+from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.settings_properties import settings_of, take_renamed
 from tests.blender.bricks import content, instances, show, table
 
+pytestmark = pytest.mark.usefixtures("addon")
+
 BY_NAME = {entry.name: entry for entry in fields(Settings)}
-
-
-@pytest.fixture(scope="module", autouse=True)
-def addon() -> Iterator[None]:
-    """Register the add-on for the tests of this file."""
-    legorize_addon.register()
-    yield
-    legorize_addon.unregister()
 
 
 @pytest.fixture

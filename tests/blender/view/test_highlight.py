@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import bpy
 import numpy as np
 import pytest
 
-import legorize_addon
 from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.collections import read_bricks
 from legorize_addon.scene.instancing import STEPS, bricks_modifier, get_input
@@ -17,24 +14,15 @@ from legorize_addon.view.heat_map import show_heat_map
 from legorize_addon.view.highlight import highlight_step, highlighted
 from legorize_addon.view.steps import n_steps
 from tests.blender.bricks import content, instances
+from tests.blender.builders import add_table_on_one_leg
 
-
-@pytest.fixture(scope="module", autouse=True)
-def addon() -> Iterator[None]:
-    """Register the add-on for the tests of this file."""
-    legorize_addon.register()
-    yield
-    legorize_addon.unregister()
+pytestmark = pytest.mark.usefixtures("addon")
 
 
 @pytest.fixture
 def build() -> bpy.types.Collection:
     """Return the model of a table on one leg: supports have to carry its ends."""
-    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 3), scale=(4, 4, 6))
-    post = bpy.context.object
-    bpy.ops.mesh.primitive_cube_add(size=1, location=(0, 0, 7), scale=(12, 8, 2))
-    post.select_set(True)
-    bpy.ops.object.join()
+    add_table_on_one_leg()
     bpy.context.scene.legorize.settings.width = 12
     assert bpy.ops.legorize.build() == {"FINISHED"}
     return current_build(bpy.context.scene)

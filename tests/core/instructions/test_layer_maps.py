@@ -6,16 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 
 from legorize_addon.core.instructions.canvas import Group, Path, Text
-from legorize_addon.core.instructions.layer_maps import MAPS, Frame, layer_files, layer_pages, layers_of, map_pages
+from legorize_addon.core.instructions.layer_maps import MAPS, layer_files, layer_pages, map_pages
 from legorize_addon.core.instructions.lots import rgb_of
 from legorize_addon.core.instructions.paper import PAPERS
 from legorize_addon.core.instructions.shades import SUPPORT_TINT, tint_for
 from legorize_addon.core.model.bricks import Role
-from legorize_addon.core.model.contacts import contact_graph
-from tests.core.any_bricks import CATALOGUE, any_bricks, table
+from tests.core.any_bricks import CATALOGUE, table
 
 PART = {part.number: row for row, part in enumerate(CATALOGUE.parts)}
 BRICK, PLATE, TALL = PART["3001"], PART["3020"], PART["30144"]
@@ -52,36 +50,6 @@ def paths(items):
             yield item
 
 
-@settings(deadline=None, max_examples=50)
-@given(any_bricks())
-def test_every_brick_is_new_once(bricks):
-    """Each brick is laid on exactly one map, on bricks whose tops are where it begins."""
-    layers = layers_of(bricks, CATALOGUE)
-    assert sorted(row for layer in layers for row in layer.new.tolist()) == list(range(len(bricks)))
-    height = np.array([part.height for part in CATALOGUE.parts])[bricks.part]
-    for layer in layers:
-        [level] = set(bricks.corner[layer.new, 2].tolist())
-        [piece] = set(bricks.piece[layer.new].tolist())
-        assert (bricks.corner[layer.below, 2] + height[layer.below] == level).all()
-        assert (bricks.piece[np.concatenate([layer.below, layer.through])] == piece).all()
-
-
-def test_what_a_brick_lies_on_is_below_it():
-    """The contacts of a model are those between what is new and what is below."""
-    bricks = tower()
-    pairs = {tuple(pair) for pair in contact_graph(bricks, CATALOGUE).pairs.tolist()}
-    for lower, upper in pairs:
-        layer = next(each for each in layers_of(bricks, CATALOGUE) if upper in each.new)
-        assert lower in layer.below
-
-
-def test_titles_tell_layers_and_plates():
-    """Layers are counted from 1, what begins above them by plates."""
-    assert [layer.title for layer in layers_of(tower(), CATALOGUE)] == ["Layer 1", "Layer 2", "Layer 2, 1 plate up"]
-    pieces = table([(BRICK, 0, 0, 0, 0, 4, 0, 0, 0), (BRICK, 0, 0, 30, 0, 4, 0, 3, 0)])
-    assert [layer.title for layer in layers_of(pieces, CATALOGUE)] == ["Piece 1, Layer 1", "Piece 2, Layer 1"]
-
-
 def test_pages_name_lots_and_hatch_supports():
     """A page lists part, colour and count, and hatches supports alone."""
     bricks = tower()
@@ -113,19 +81,6 @@ def test_actual_size_is_8_mm_a_stud():
     assert page.width > 96 * 8
     [plan] = [item for item in page.items if isinstance(item, Group) and abs(item.matrix[0]) == 8]
     assert plan.matrix[3] == -8
-
-
-@pytest.mark.parametrize("paper", PAPERS.values())
-@pytest.mark.parametrize("turn", [0, 1])
-def test_maps_lie_on_the_paper(paper, turn):
-    """The corners of a map are within the page, whichever side is longer."""
-    row = table([(BRICK, *((0, 4 * n) if turn else (4 * n, 0)), 0, turn, 4, 0, 0, 0) for n in range(12)])
-    frame = Frame.of(row, CATALOGUE, 66.0, paper, actual_size=False)
-    for x in (frame.low[0], frame.high[0]):
-        for y in (frame.low[1], frame.high[1]):
-            across, down = frame.at(x, y)
-            assert 0 < across < paper.width - 66
-            assert 0 < down < paper.height
 
 
 def test_progress_rises():

@@ -13,6 +13,7 @@ from legorize_addon.core.model.verdict import UNSUPPORTED, Verdict
 from legorize_addon.core.statics.collapse import least_clutch
 from legorize_addon.core.statics.equilibrium import is_equilibrium
 from legorize_addon.core.statics.forces import CAUTIOUS_HOLD, GRAVITY, HOLD, TABLE_FRICTION, Ground, Statics
+from legorize_addon.core.statics.stability import _margins
 from scripts.benchmarks.stablelego import CASES, NARROW, Case, arm, stair
 from tests.core.standing import CATALOGUE, downward, equations, judged, table, weight
 
@@ -308,3 +309,12 @@ def test_verdicts_agree_with_a_linear_programme(bricks, clutch, ground) -> None:
     else:
         assert feasible == (found.standing is STABLE)
     assert set(found.unsupported) == set(np.flatnonzero(~contact_graph(bricks, CATALOGUE).grounded))
+
+
+def test_a_pull_that_nothing_gives_counts_as_missing():
+    """A contact that can only push has no friction to use, but a pull at it is short by its share of the clutch."""
+    alone = equations(table(("3005", 0, 0, 0)), clutch=0.5)
+    assert (alone.contacts.least == 0).all()
+    pulled = np.full(len(alone.contacts.least), -0.1)
+    assert _margins(alone, pulled, 1).tolist() == pytest.approx([-0.2])
+    assert _margins(alone, -pulled, 1).tolist() == [1]

@@ -64,12 +64,12 @@ class ReachedError(Exception):
 def built(mesh, dithering, **options) -> UnitGrid:
     """Run the stages up to the unit bricks."""
 
-    def stop(grid, **options):
+    def stop(_, grid):
         raise ReachedError(grid)
 
     settings = Settings(dithering=dithering, **{"width": WIDE} | options)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("legorize_addon.core.pipeline.add_offset_bricks", stop)
+        patch.setattr("legorize_addon.core.pipeline.close_overhangs", stop)
         with pytest.raises(ReachedError) as reached:
             legorize(mesh, settings)
     return reached.value.grid

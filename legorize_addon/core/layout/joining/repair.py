@@ -152,7 +152,7 @@ class _Cells:
         """Label the bricks of a model, given those that are loose."""
         owner = standing(links, required)
         label = np.append(np.where(loose, links.component + 1, 0), [-1, -1]).astype(np.int32)
-        height = np.array([part.height for part in catalogue.parts])[bricks.part[loose]]
+        height = catalogue.height[bricks.part[loose]]
         lowest = bricks.corner[loose, 2] + 1
         ends = (np.bincount(plane, minlength=len(owner)) for plane in (lowest, lowest + height))
         return cls(owner, required, label, np.cumsum(np.subtract(*ends)) > 0, int(np.count_nonzero(loose)))

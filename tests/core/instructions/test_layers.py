@@ -1,0 +1,57 @@
+"""Layers: every brick is laid in one of them, on what it lies."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+
+from legorize_addon.core.instructions.layers import layers_of
+from legorize_addon.core.model.bricks import Role
+from legorize_addon.core.model.contacts import contact_graph
+from tests.core.any_bricks import CATALOGUE, any_bricks, table
+
+PART = {part.number: row for row, part in enumerate(CATALOGUE.parts)}
+BRICK, PLATE, TALL = PART["3001"], PART["3020"], PART["30144"]
+
+
+def tower():
+    """Return two bricks with plates and a support between them, and a tall one beside."""
+    return table(
+        [
+            (BRICK, 0, 0, 0, 0, 4, 0, 0, 0),
+            (PLATE, 0, 0, 3, 0, 1, 0, 0, 1),
+            (BRICK, 0, 0, 4, 0, 4, 0, 0, 2),
+            (TALL, 4, 0, 0, 0, 15, 0, 0, 0),
+            (BRICK, 8, 0, 0, 0, 15, int(Role.SUPPORT_OUTSIDE), 0, 0),
+        ]
+    )
+
+
+@settings(deadline=None, max_examples=50)
+@given(any_bricks())
+def test_every_brick_is_new_once(bricks):
+    """Each brick is laid on exactly one map, on bricks whose tops are where it begins."""
+    layers = layers_of(bricks, CATALOGUE)
+    assert sorted(row for layer in layers for row in layer.new.tolist()) == list(range(len(bricks)))
+    height = np.array([part.height for part in CATALOGUE.parts])[bricks.part]
+    for layer in layers:
+        [level] = set(bricks.corner[layer.new, 2].tolist())
+        [piece] = set(bricks.piece[layer.new].tolist())
+        assert (bricks.corner[layer.below, 2] + height[layer.below] == level).all()
+        assert (bricks.piece[np.concatenate([layer.below, layer.through])] == piece).all()
+
+
+def test_what_a_brick_lies_on_is_below_it():
+    """The contacts of a model are those between what is new and what is below."""
+    bricks = tower()
+    pairs = {tuple(pair) for pair in contact_graph(bricks, CATALOGUE).pairs.tolist()}
+    for lower, upper in pairs:
+        layer = next(each for each in layers_of(bricks, CATALOGUE) if upper in each.new)
+        assert lower in layer.below
+
+
+def test_titles_tell_layers_and_plates():
+    """Layers are counted from 1, what begins above them by plates."""
+    assert [layer.title for layer in layers_of(tower(), CATALOGUE)] == ["Layer 1", "Layer 2", "Layer 2, 1 plate up"]
+    pieces = table([(BRICK, 0, 0, 0, 0, 4, 0, 0, 0), (BRICK, 0, 0, 30, 0, 4, 0, 3, 0)])
+    assert [layer.title for layer in layers_of(pieces, CATALOGUE)] == ["Piece 1, Layer 1", "Piece 2, Layer 1"]
