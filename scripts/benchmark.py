@@ -18,7 +18,7 @@
     python scripts/benchmark.py kills    [MESH] [--runs N] [--out DIR] killed runs: old or new results, nothing left
     python scripts/benchmark.py fuzz     [--cases N] [--seed S]    random bodies with random settings, within limits
     python scripts/benchmark.py sliders  [--bricks N] [--out DIR] what Blender takes to show layers and sections
-    python scripts/benchmark.py mutation [MODULE ...] [--logic N]  changes of the core that no test notices
+    python scripts/benchmark.py mutation [MODULE ...] [--seed S]   changes of the core that no test notices
 
 Without a mesh the bundled sample is measured; ``--models DIR`` takes all model
 files of a folder. The packages of the dependency group ``checks`` are needed,
@@ -199,7 +199,8 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
             "changes of the core that no test notices", mutation.measure,
             (
                 ("modules", {"metavar": "MODULE", "nargs": "*", "help": "beginning of a path below the core"}),
-                number("--logic", 100, "comparisons and signs to change, at most"), SEED,
+                number("--constants", 200, "constants to move, at most"),
+                number("--logic", 100, "comparisons and signs to turn, at most"), SEED,
             ),
         ),
     }

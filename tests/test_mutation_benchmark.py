@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from scripts.benchmarks import mutation
-from scripts.benchmarks.mutation import CORE, ROOT, Mutant, constants, turned
+from scripts.benchmarks.mutation import CORE, ROOT, Mutant, Trial, moved, turned
 
 MODULE = CORE / "units.py"
 PATHS = [path.relative_to(ROOT) for path in sorted((ROOT / CORE).rglob("*.py"))]
@@ -20,7 +20,7 @@ def changed(mutant: Mutant) -> list[tuple[str, str]]:
     return [(old, new) for old, new in zip(text.split("\n"), mutant.apply(text).split("\n"), strict=True) if old != new]
 
 
-@pytest.mark.parametrize("kind", [constants, turned])
+@pytest.mark.parametrize("kind", [moved, turned])
 def test_a_mutant_changes_one_line(kind) -> None:
     """What comes out is Python still, one line is another one, and it is the line that is named."""
     mutants = [each for path in PATHS for each in kind(path)]
@@ -32,19 +32,24 @@ def test_a_mutant_changes_one_line(kind) -> None:
         assert mutant.new in new
 
 
-def test_whole_numbers_grow_by_one() -> None:
-    """Of a constant the number alone is changed."""
-    [mutant] = [each for each in constants(MODULE) if each.name == "PLATES_PER_BRICK"]
-    assert changed(mutant)[0][1].endswith("= 4")
+@pytest.mark.parametrize(("number", "other"), [("3", 4), ("40", 60), ("0.2", 0.3), ("0.0", 1.0)])
+def test_numbers_are_moved_by_what_can_be_noticed(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, number, other
+) -> None:
+    """Of a constant the number alone is changed: small whole ones by one, others by half."""
+    monkeypatch.setattr(mutation, "ROOT", tmp_path)
+    (tmp_path / "some.py").write_text(f"SOME = {number}\n", encoding="utf-8")
+    [mutant] = moved(Path("some.py"))
+    assert float(mutant.new) == pytest.approx(other)
 
 
 def test_shares_are_of_what_was_tried(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each mutant is tried once; those that live are listed, and counted by kind."""
-    monkeypatch.setattr(mutation, "survives", lambda mutant, copy: mutant.name == "PLATES_PER_BRICK")
-    survived, shares = mutation.measure(["units.py"], logic=5, seed=0)
+    monkeypatch.setattr(Trial, "survives", lambda _, mutant: mutant.name == "PLATES_PER_BRICK")
+    survived, shares = mutation.measure(["units.py"], constants=99, logic=5, seed=0)
     assert [row["name"] for row in survived.rows] == ["PLATES_PER_BRICK"]
     [row] = [row for row in shares.rows if row["kind"] == "constant"]
-    assert (row["tried"], row["survived"]) == (len(list(constants(MODULE))), 1)
+    assert (row["tried"], row["survived"]) == (len(list(moved(MODULE))), 1)
 
 
 def test_a_moved_constant_is_noticed(tmp_path: Path) -> None:
@@ -53,6 +58,8 @@ def test_a_moved_constant_is_noticed(tmp_path: Path) -> None:
         (tmp_path / name).symlink_to(ROOT / name)
     (tmp_path / "legorize_addon").unlink()
     mutation.shutil.copytree(ROOT / "legorize_addon", tmp_path / "legorize_addon")
-    [mutant] = [each for each in constants(CORE / "colours" / "difference.py") if each.new][:1]
-    assert not mutation.survives(mutant, tmp_path)
+    mutant = next(each for each in moved(CORE / "model" / "catalogue.py") if each.name == "ASSETS")
+    with Trial(tmp_path) as trial:
+        assert not trial.survives(mutant)
+        assert trial.survives(Mutant(mutant.path, "constant", mutant.line, mutant.end, mutant.end, "", "unchanged"))
     assert (tmp_path / mutant.path).read_text(encoding="utf-8") == (ROOT / mutant.path).read_text(encoding="utf-8")

@@ -34,7 +34,9 @@ LIMIT: Final = 300
 """Seconds for the tests of a mutant; an endless one is noticed."""
 
 MOVED: Final = 1.5
-"""Factor of a constant that is no whole number; whole ones become one more."""
+"""Factor of a constant; whole numbers below ``SMALL`` become one more."""
+
+SMALL: Final = 10
 
 COMPARISONS: Final = {ast.Lt: "<=", ast.LtE: "<", ast.Gt: ">=", ast.GtE: ">", ast.Eq: "!=", ast.NotEq: "=="}
 SIGNS: Final = {ast.Add: "-", ast.Sub: "+"}
@@ -76,7 +78,7 @@ class Mutant:
         return "\n".join(lines)
 
 
-def constants(path: Path) -> Iterator[Mutant]:
+def moved(path: Path) -> Iterator[Mutant]:
     """Yield a mutant for each number at the top of a module that has a name of its own."""
     for node in ast.parse((ROOT / path).read_text(encoding="utf-8")).body:
         target = node.target if isinstance(node, ast.AnnAssign) else node.targets[0] if _assigns(node) else None
@@ -84,9 +86,15 @@ def constants(path: Path) -> Iterator[Mutant]:
             continue
         for number in ast.walk(node.value):
             if _is_number(number):
-                value = number.value * MOVED if isinstance(number.value, float) and number.value else number.value + 1
+                value = _move(number.value)
                 place = (number.lineno, number.col_offset, number.end_col_offset)
                 yield Mutant(path, "constant", *place, repr(value), target.id)
+
+
+def _move(value: float) -> float:
+    if isinstance(value, int):
+        return value + 1 if value < SMALL else int(value * MOVED)
+    return value * MOVED or 1.0
 
 
 def _assigns(node: ast.stmt) -> bool:
@@ -116,15 +124,15 @@ def turned(path: Path) -> Iterator[Mutant]:
             yield Mutant(path, "logic", right.lineno, start, start + len(sign), kinds[kind], sign)
 
 
-def measure(modules: Sequence[str], *, logic: int, seed: int) -> list[Table]:
+def measure(modules: Sequence[str], *, constants: int, logic: int, seed: int) -> list[Table]:
     """Try mutants.
 
     Parameters
     ----------
     modules : sequence of str
         Beginnings of the paths of modules below the core; all if there are none.
-    logic : int
-        Mutants of logic that are tried, chosen at random.
+    constants, logic : int
+        Mutants of each kind that are tried, chosen at random.
     seed : int
         Of that choice.
 
@@ -135,20 +143,14 @@ def measure(modules: Sequence[str], *, logic: int, seed: int) -> list[Table]:
     """
     paths = [path.relative_to(ROOT) for path in sorted((ROOT / CORE).rglob("*.py")) if path.name != "__init__.py"]
     paths = [path for path in paths if not modules or str(path.relative_to(CORE)).startswith(tuple(modules))]
-    tried = [mutant for path in paths for mutant in constants(path)]
+    chosen = random.Random(seed)
+    numbers = [mutant for path in paths for mutant in moved(path)]
     others = [each for path in paths if path.relative_to(CORE).parts[0] in LOGIC_PACKAGES for each in turned(path)]
-    tried += random.Random(seed).sample(others, min(logic, len(others)))
-    survived: list[Mutant] = []
+    tried = [each for kind, most in ((numbers, constants), (others, logic)) for each in _some(kind, most, chosen)]
     with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder)
         for name in COPIED:
-            (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, copy / name)
-        for number, mutant in enumerate(tried):
-            lives = survives(mutant, copy)
-            survived += [mutant] if lives else []
-            said = "survives" if lives else "noticed"
-            where = f"{mutant.path}:{mutant.line} {mutant.name}"
-            print(f"{number + 1}/{len(tried)} {where} -> {mutant.new}: {said}", file=sys.stderr, flush=True)
+            (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, Path(folder) / name)
+        survived = _try(tried, Path(folder))
     rows: list[Row] = [
         {"module": str(each.path.relative_to(CORE)), "line": each.line, "name": each.name, "new": each.new}
         for each in survived
@@ -159,31 +161,71 @@ def measure(modules: Sequence[str], *, logic: int, seed: int) -> list[Table]:
     ]
 
 
+def _some(mutants: Sequence[Mutant], most: int, chosen: random.Random) -> list[Mutant]:
+    """Return mutants chosen at random, in the order of the modules."""
+    return [mutants[each] for each in sorted(chosen.sample(range(len(mutants)), min(most, len(mutants))))]
+
+
+def _try(mutants: Sequence[Mutant], copy: Path) -> list[Mutant]:
+    """Return the mutants that survive, and say each one's fate as it is known."""
+    survived: list[Mutant] = []
+    with Trial(copy) as trial:
+        for number, mutant in enumerate(mutants, 1):
+            lives = trial.survives(mutant)
+            survived += [mutant] if lives else []
+            said = "survives" if lives else "noticed"
+            where = f"{mutant.path}:{mutant.line} {mutant.name}"
+            print(f"{number}/{len(mutants)} {where} -> {mutant.new}: {said}", file=sys.stderr, flush=True)
+    return survived
+
+
 def _shares(tried: Sequence[Mutant], survived: Sequence[Mutant]) -> Iterator[Row]:
     for kind in ("constant", "logic"):
         all_of, left = (sum(each.kind == kind for each in those) for those in (tried, survived))
         yield {"kind": kind, "tried": all_of, "survived": left, "share": left / all_of if all_of else None}
 
 
-def survives(mutant: Mutant, copy: Path) -> bool:
-    """Return whether the tests of its module and of its folder let a mutant in a copy of the repository pass."""
-    text = (ROOT / mutant.path).read_text(encoding="utf-8")
-    inside = mutant.path.relative_to(CORE)
-    tests = Path("tests/core") / inside.parent
-    own = tests / f"test_{inside.name}"
-    (copy / mutant.path).write_text(mutant.apply(text), encoding="utf-8")
-    try:
-        return all(_passes(copy, each) for each in (own, tests) if (copy / each).exists())
-    finally:
-        (copy / mutant.path).write_text(text, encoding="utf-8")
+class Trial:
+    """Tests of a copy of the repository, run in forks of a process that has the libraries loaded.
 
+    Parameters
+    ----------
+    copy : Path
+        Folder of the copy.
+    """
 
-def _passes(copy: Path, tests: Path) -> bool:
-    """Run tests in a copy of the repository until one fails."""
-    kept = ("-p", "no:cacheprovider", "-p", "no:randomly")
-    command = [sys.executable, "-m", "pytest", "-x", "-q", *kept, "-m", "not slow and not gui", str(tests)]
-    try:
-        done = subprocess.run(command, cwd=copy, capture_output=True, timeout=LIMIT, check=False)
-    except subprocess.TimeoutExpired:
-        return False
-    return done.returncode == 0
+    def __init__(self, copy: Path) -> None:
+        self.copy = copy
+        command = [sys.executable, str(Path(__file__).with_name("forked_tests.py")), str(LIMIT)]
+        self._server = subprocess.Popen(
+            command, cwd=copy, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1
+        )
+
+    def __enter__(self) -> Trial:
+        """Return this trial."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End the process."""
+        self._server.communicate()
+
+    def survives(self, mutant: Mutant) -> bool:
+        """Return whether the tests of its module and of its folder let a mutant pass; the copy stays as it was."""
+        text = (ROOT / mutant.path).read_text(encoding="utf-8")
+        inside = mutant.path.relative_to(CORE)
+        tests = sorted((self.copy / "tests/core" / inside.parent).glob("test_*.py"))
+        own = [each for each in tests if each.name == f"test_{inside.name}"]
+        (self.copy / mutant.path).write_text(mutant.apply(text), encoding="utf-8")
+        try:
+            return self._pass(own) and self._pass([each for each in tests if each not in own])
+        finally:
+            (self.copy / mutant.path).write_text(text, encoding="utf-8")
+
+    def _pass(self, tests: Sequence[Path]) -> bool:
+        server = self._server
+        if not tests:
+            return True
+        if server.stdin is None or server.stdout is None:
+            raise BrokenPipeError("the process that runs the tests has no pipes")
+        print(*tests, sep="\t", file=server.stdin)
+        return server.stdout.readline().strip() == "0"
