@@ -40,6 +40,7 @@ ORDER: Final = (
     "core.building",
     "core.supports",
     "core.measures",
+    "core.shopping",
     "core.instructions",
     "core.files.sources",
     "core.files",

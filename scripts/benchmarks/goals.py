@@ -13,7 +13,6 @@ from typing import Final
 import numpy as np
 
 from legorize_addon.core.build import Build
-from legorize_addon.core.files.shopping import count_parts, not_made
 from legorize_addon.core.layout.lay import lay_unjoined
 from legorize_addon.core.measures.lower_bound import lower_bound
 from legorize_addon.core.model.assembly import Assembly
@@ -25,6 +24,7 @@ from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.report.remarks import remarks
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shell.near_bodies import free_bodies
+from legorize_addon.core.shopping import count_lots, not_made
 from legorize_addon.core.statics.forces import CAUTIOUS_HOLD, HOLD
 from legorize_addon.core.statics.stability import stability
 from scripts.benchmarks.layout_figures import (
@@ -208,7 +208,7 @@ def _results(build: Build, bricks: Bricks, links: ContactGraph, required: int, c
         "bodies": free_bodies(build.hollow),
         "components": links.n_components,
         "floating": links.n_floating,
-        "not_made": int(not_made(count_parts(Assembly(bricks, catalogue)), catalogue).count.sum()),
+        "not_made": sum(lot.count for lot in not_made(count_lots(Assembly(bricks, catalogue)))),
         "colours_seen": seen,
         "colours_lost": lost,
         **verdicts,

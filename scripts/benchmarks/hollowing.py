@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from legorize_addon.core.build import Build
-from legorize_addon.core.files.shopping import count_parts, masses
 from legorize_addon.core.geometry.neighbourhoods import outer_air
 from legorize_addon.core.layout.lay import FILLER, lay
 from legorize_addon.core.model.assembly import Assembly
@@ -25,6 +24,7 @@ from legorize_addon.core.report.report import report
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shell.cohesion import make_cohesive
 from legorize_addon.core.shell.hollowing import hollow
+from legorize_addon.core.shopping import count_lots, mass_of
 from scripts.benchmarks.meshes import read_mesh
 from scripts.benchmarks.tables import Row, Table
 
@@ -104,7 +104,7 @@ def _cells(build: Build) -> Row:
 
 def _saved(build: Build, fixed: Bricks, catalogue: Catalogue) -> Row:
     facts = report(build, catalogue, version="", mm_per_unit=1.0)
-    mass = float(masses(count_parts(Assembly(fixed, catalogue)), catalogue).sum())
+    mass = mass_of(count_lots(Assembly(fixed, catalogue)))
     fewer, lighter = 1 - len(build.bricks) / len(fixed), 1 - facts["mass_g"] / mass
     return {
         "hollow_ratio": facts["hollow_ratio"],

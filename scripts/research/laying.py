@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from legorize_addon.core.files.shopping import count_parts, not_made
 from legorize_addon.core.layout.problem.problem import owners, with_margins
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import Catalogue
 from legorize_addon.core.model.contacts import ContactGraph, contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, Fill, UnitGrid
+from legorize_addon.core.shopping import count_lots, not_made
 from scripts.benchmarks.clock import least_seconds
 from scripts.benchmarks.layout_figures import articulations, coinciding_seams, colours_lost, single
 from scripts.benchmarks.tables import Row
@@ -92,7 +92,7 @@ def faults(shell: UnitGrid, bricks: Bricks, links: ContactGraph, catalogue: Cata
     built = owners(links, solid.shape) != NOBODY
     required = with_margins(shell.cover == Fill.REQUIRED, False)
     _, wrong = colours_lost(with_colour_where_built(shell), bricks, links)
-    pairs = int(not_made(count_parts(Assembly(bricks, catalogue)), catalogue).count.sum())
+    pairs = sum(lot.count for lot in not_made(count_lots(Assembly(bricks, catalogue))))
     return links.collisions + int((required & ~built).sum()) + int((built & ~solid).sum()) + wrong + pairs
 
 

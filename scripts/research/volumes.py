@@ -7,10 +7,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from legorize_addon.core.files.shopping import count_parts
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import Catalogue, footprint
+from legorize_addon.core.shopping import count_lots
 from legorize_addon.core.units import PLATES_PER_BRICK
 from scripts.benchmarks.tables import Row
 
@@ -58,9 +58,9 @@ def volume_rows(start: Row, bricks: Bricks, catalogue: Catalogue) -> list[Row]:
 
 def _counts(bricks: Bricks, catalogue: Catalogue) -> NDArray[np.int64]:
     """Return the number of bricks by colour row and part row."""
-    parts = count_parts(Assembly(bricks, catalogue))
     counts = np.zeros((len(catalogue.colours), len(catalogue.parts)), dtype=np.int64)
-    counts[parts.colour, parts.part] = parts.count
+    for lot in count_lots(Assembly(bricks, catalogue)):
+        counts[catalogue.colour_row(lot.colour.code), catalogue.part_row(lot.part.number)] = lot.count
     return counts
 
 

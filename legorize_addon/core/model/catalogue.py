@@ -109,13 +109,16 @@ class Catalogue:
     exists : (n_parts, n_colours) bool array
         Whether the part was ever made in the colour.
     element : (n_parts, n_colours) int64 array
-        LEGO's element number of the part in the colour, 0 where it is not known.
+        LEGO's newest element number of the part in the colour, 0 where it is not known.
+    second_element : (n_parts, n_colours) int64 array
+        The newest one before that, 0 where there was none.
     """
 
     parts: tuple[Part, ...]
     colours: tuple[Colour, ...]
     exists: Mask
     element: NDArray[np.int64]
+    second_element: NDArray[np.int64]
 
     @property
     def codes(self) -> NDArray[np.int16]:
@@ -248,14 +251,17 @@ def read_catalogue(folder: Path) -> Catalogue:
     colour_rows = {colour.code: row for row, colour in enumerate(colours)}
     pairs = _read(
         folder / "availability.csv",
-        lambda cells: (part_rows[cells["part"]], colour_rows[int(cells["colour"])], int(cells["element"] or 0)),
-    )
+        lambda cells: (
+            part_rows[cells["part"]], colour_rows[int(cells["colour"])],
+            int(cells["element"] or 0), int(cells["second_element"] or 0),
+        ),
+    )  # fmt: skip
     exists = np.zeros((len(parts), len(colours)), bool)
-    element = np.zeros(exists.shape, np.int64)
-    for part, colour, number in pairs:
+    element, second = np.zeros((2, *exists.shape), np.int64)
+    for part, colour, newest, earlier in pairs:
         exists[part, colour] = True
-        element[part, colour] = number
-    return Catalogue(parts, colours, exists, element)
+        element[part, colour], second[part, colour] = newest, earlier
+    return Catalogue(parts, colours, exists, element, second)
 
 
 def _read(path: Path, convert: Callable[[dict[str, str]], _Row]) -> tuple[_Row, ...]:

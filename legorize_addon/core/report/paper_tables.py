@@ -13,11 +13,10 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ..arrays import Floats
 from ..build import Build
-from ..files import count_parts
-from ..model import SUPPORTS, Assembly, Bricks, Catalogue, concatenate, footprint
+from ..model import SUPPORTS, Assembly, Bricks, Catalogue, Part, concatenate, footprint
 from ..safe_text import csv_text, one_line
+from ..shopping import count_lots
 from .report import hollow_ratio
 
 LINE_END = "\r\n"
@@ -72,19 +71,19 @@ def paper_tables(build: Build, catalogue: Catalogue, *, name: str) -> dict[str, 
 
 def _volumes(bricks: Bricks, catalogue: Catalogue) -> str:
     """Return the number of each part in each colour, and its share of the volume in percent."""
-    parts = count_parts(Assembly(bricks, catalogue))
-    volume = _volume(catalogue)[parts.part] * parts.count
-    percent = 100 * volume / max(volume.sum(), 1)
+    lots = count_lots(Assembly(bricks, catalogue))
+    volumes = [_volume(lot.part) * lot.count for lot in lots]
+    whole = max(sum(volumes), 1)
     rows = [
-        (part.number, part.title, colour.code, colour.name, count, round(share, 4))
-        for (part, colour, count), share in zip(parts.entries(catalogue), percent.tolist(), strict=True)
+        (lot.part.number, lot.part.title, lot.colour.code, lot.colour.name, lot.count, round(100 * volume / whole, 4))
+        for lot, volume in zip(lots, volumes, strict=True)
     ]
     return _text(("part", "title", "colour", "name", "count", "volume_percent"), rows)
 
 
-def _volume(catalogue: Catalogue) -> Floats:
-    """Return the cells of each part, a plate high."""
-    return np.array([len(footprint(part, 0)) * part.height for part in catalogue.parts], dtype=np.float64)
+def _volume(part: Part) -> int:
+    """Return the cells of a part, a plate high."""
+    return len(footprint(part, 0)) * part.height
 
 
 def _text(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any, Final
 
@@ -11,11 +13,12 @@ from ..arrays import Floats, Mask
 from ..build import Build, Cut
 from ..building import Kind
 from ..errors import enough_memory
-from ..files import PartsList, count_parts, ldraw_matrix, masses, not_made, pick_a_brick_csv
+from ..files import ldraw_matrix
 from ..measures import corner_windings, lower_bound, pass_through_types
 from ..model import NOBODY, SUPPORTS, Assembly, Catalogue, ContactGraph, Fill, Role, UnitGrid, brick_columns
 from ..progress import Progress, silent
 from ..shell import free_bodies, tally_cases
+from ..shopping import Lot, ShoppingList, not_made, shopping_list
 from ..slicing import cut_at_grid
 from ..supports import AssemblyPlan
 from ..unit_bricks import Offsets, OverhangKind, overhang_kinds
@@ -72,9 +75,8 @@ def report(
     BuildError
         A brick has a colour that is not in the catalogue.
     """
-    parts = count_parts(Assembly(build.bricks, catalogue))
+    wanted = shopping_list(Assembly(build.bricks, catalogue), moves=len(build.supports.moves))
     levels, supports = _levels(build), build.supports
-    _, no_element = pick_a_brick_csv(parts, catalogue)
     return {
         "schema": SCHEMA,
         "version": version,
@@ -89,8 +91,10 @@ def report(
         "offsets": _offsets(build.offsets),
         "overhangs": _overhangs(levels),
         "hollowing": _hollowing(build, levels),
-        "counts": _counts(build, catalogue, parts),
-        "mass_g": round(float(masses(parts, catalogue).sum()), 2),
+        "counts": _counts(build, catalogue, wanted.lots),
+        "mass_g": round(wanted.mass, 2),
+        "size": _size(wanted),
+        "building_time_s": round(wanted.seconds),
         "hollow_ratio": round(hollow_ratio(build), 4),
         "layout": _layout(build, catalogue, progress if with_bound else None),
         "bodies": free_bodies(build.hollow),
@@ -99,8 +103,8 @@ def report(
         "buildable_steps": supports.walk.n_steps - len(supports.walk.bad_steps),
         "building": _building(build),
         "supports": _supports(supports, catalogue),
-        "unavailable_part_colours": _pairs(not_made(parts, catalogue), catalogue),
-        "unknown_elements": _pairs(no_element, catalogue),
+        "unavailable_part_colours": _pairs(not_made(wanted.lots)),
+        "unknown_elements": _pairs([lot for lot in wanted.lots if not lot.element]),
         "timings_s": {stage: round(seconds, 4) for stage, seconds in build.timings.items()},
         "notes": list(build.notes),
     }
@@ -195,10 +199,12 @@ def _hollowing(build: Build, levels: Mask) -> dict[str, Any]:
     }
 
 
-def _counts(build: Build, catalogue: Catalogue, parts: PartsList) -> dict[str, Any]:
+def _counts(build: Build, catalogue: Catalogue, lots: Sequence[Lot]) -> dict[str, Any]:
     bricks = build.bricks
-    by_part = np.bincount(parts.part, parts.count, len(catalogue.parts)).astype(int).tolist()
-    by_colour = np.bincount(parts.colour, parts.count, len(catalogue.colours)).astype(int).tolist()
+    by_part, by_colour = Counter[str](), Counter[str]()
+    for lot in lots:
+        by_part[lot.part.number] += lot.count
+        by_colour[str(lot.colour.code)] += lot.count
     plate = np.array([part.height == 1 for part in catalogue.parts])
     return {
         "bricks": len(bricks),
@@ -206,8 +212,8 @@ def _counts(build: Build, catalogue: Catalogue, parts: PartsList) -> dict[str, A
         "support_outside": len(build.supports.removed) + int((bricks.role == Role.SUPPORT_KEPT).sum()),
         "support_inside": int((bricks.role == Role.SUPPORT_INSIDE).sum()),
         "unit_bricks_before": int(build.grid.solid.any(axis=1).sum()),
-        "by_part": {part.number: n for part, n in zip(catalogue.parts, by_part, strict=True) if n},
-        "by_colour": {str(colour.code): n for colour, n in zip(catalogue.colours, by_colour, strict=True) if n},
+        "by_part": dict(by_part),
+        "by_colour": dict(sorted(by_colour.items(), key=lambda entry: int(entry[0]))),
     }
 
 
@@ -320,9 +326,12 @@ def _supports(supports: AssemblyPlan, catalogue: Catalogue) -> dict[str, Any]:
     }
 
 
-def _pairs(parts: PartsList, catalogue: Catalogue) -> dict[str, Any]:
-    """Return how many bricks a parts list has, and its pairs."""
-    pairs = [
-        {"part": part.number, "colour": colour.code, "count": count} for part, colour, count in parts.entries(catalogue)
-    ]
-    return {"bricks": int(parts.count.sum()), "pairs": pairs}
+def _pairs(lots: Sequence[Lot]) -> dict[str, Any]:
+    """Return how many bricks lots have, and their pairs of part and colour."""
+    pairs = [{"part": lot.part.number, "colour": lot.colour.code, "count": lot.count} for lot in lots]
+    return {"bricks": sum(lot.count for lot in lots), "pairs": pairs}
+
+
+def _size(wanted: ShoppingList) -> dict[str, list[float]]:
+    """Return the size of the finished model along x, y and z: in studs and plates, and in cm without the top studs."""
+    return {"studs_plates": [*wanted.studs, wanted.plates], "cm": [round(length, 2) for length in wanted.cm]}

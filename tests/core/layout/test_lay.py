@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import get_args
 
 import numpy as np
@@ -12,7 +13,6 @@ from hypothesis import strategies as st
 from legorize_addon.core.errors import BuildError, Cancelled
 from legorize_addon.core.layout.lay import Tier, lay, lay_unjoined
 from legorize_addon.core.model.bricks import Bricks, Role
-from legorize_addon.core.model.catalogue import Catalogue
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from legorize_addon.core.shell.hollowing import hollow
 from tests.core.layout.cells import CATALOGUE, assert_covers, brick_grid, grid_of, with_part
@@ -146,7 +146,7 @@ def test_a_colour_without_bricks_of_one_cell():
     """Where no part of one cell exists and no larger one fits, one sentence names the colour."""
     exists = CATALOGUE.exists.copy()
     exists[CATALOGUE.part_row("3005"), CATALOGUE.colour_row(RED)] = False
-    catalogue = Catalogue(CATALOGUE.parts, CATALOGUE.colours, exists, CATALOGUE.element)
+    catalogue = replace(CATALOGUE, exists=exists)
     with pytest.raises(BuildError, match=f"1 cells .* colour {RED}"):
         lay(brick_grid([[[RED]]]), catalogue, rng=np.random.default_rng(0))
     pair = brick_grid([[[RED, RED]]])

@@ -16,6 +16,7 @@ from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.report.outputs import output_texts
 from legorize_addon.core.settings import Settings
+from legorize_addon.core.shopping.formats import FORMATS
 from tests.core.solids import box
 from tests.core.textured import painted
 
@@ -34,7 +35,7 @@ def test_shops_get_no_empty_list() -> None:
     """A model without supports has no list of supports; one with supports has each of its lists for them too."""
     catalogue = load_catalogue()
     plain = legorize(painted(box([0.0, 0.0, 0.0], [4.0, 3.0, 2.0]), 4), Settings(width=4))
-    lists = {"parts.csv", "bricklink.xml", "rebrickable.csv", "pick-a-brick.csv"}
+    lists = {kind.file for kind in FORMATS}
     names = set(output_texts(plain, catalogue, {}, "box"))
     assert lists < names
     assert not [name for name in names if name.startswith("support")]
@@ -45,8 +46,8 @@ def test_shops_get_no_empty_list() -> None:
     files = output_texts(hanging, catalogue, {}, "box")
     assert set(files) - names == {f"support-{name}" for name in lists}
     for kind in ("rebrickable", "pick-a-brick"):
-        rows = [line.split(",") for line in files[f"support-{kind}.csv"].splitlines()[1:]]
-        assert sum(int(row[-1]) for row in rows) == 2
+        rows = csv.DictReader(io.StringIO(files[f"support-{kind}.csv"]))
+        assert sum(int(row.get("Quantity") or row["quantity"]) for row in rows) == 2
     bare = replace(catalogue, element=np.zeros_like(catalogue.element))
     assert set(output_texts(hanging, bare, {}, "box")) == (names | {f"support-{name}" for name in lists}) - {
         "pick-a-brick.csv", "support-pick-a-brick.csv"
