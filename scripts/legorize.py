@@ -54,12 +54,14 @@ try:
     from legorize_addon.core.model.bricks import Role
     from legorize_addon.core.model.catalogue import load_catalogue
     from legorize_addon.core.pipeline import legorize
+    from legorize_addon.core.presets import PRESETS, preset_values
     from legorize_addon.core.progress import Meter, Overall, Progress, duration, part
     from legorize_addon.core.report.checks import failed_checks
     from legorize_addon.core.report.outputs import CERTAIN, output_texts
     from legorize_addon.core.report.report import report
     from legorize_addon.core.report.summary import summary
     from legorize_addon.core.settings import Settings, choices, renamed, setting_type
+    from legorize_addon.core.settings_file import read_settings, settings_text
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.reading.importers import load
     from legorize_addon.reading.objects import read_rendered
@@ -96,7 +98,7 @@ MOST_PICTURES: Final = 400
 class Taken(NamedTuple):
     """What is read, by the flags of the same names."""
 
-    source: Path
+    source: Path | None
     frame: int | None
     object: list[str]
 
@@ -148,10 +150,17 @@ def main(arguments: Sequence[str]) -> int:
     try:
         options = vars(parser().parse_args(arguments))
         out, taken = options.pop("out"), Taken(**{name: options.pop(name) for name in Taken._fields})
+        only_settings = options.pop("print_settings")
         wanted = Wanted(**{name: options.pop(name) for name in Wanted._fields})
         wanted.check()
+        settings = settings_of(options)
+        if only_settings:
+            print(settings_text(settings), end="")
+            return 0
+        if taken.source is None or out is None:
+            raise SettingsError("The command line is wrong: it needs a file to read, IN, and a folder, --out DIR.")
         with enough_memory():
-            return run(taken, out, settings_of(options), wanted)
+            return run(taken, out, settings, wanted)
     except LegorizeError as error:
         # a stop in the middle of an importer looks like a broken file
         if not stop.status:
@@ -162,9 +171,11 @@ def main(arguments: Sequence[str]) -> int:
 def parser() -> Parser:
     """Return the parser, whose flags for settings are generated."""
     made = Parser(prog="legorize.py", description="Turn a textured mesh into a brick model.", allow_abbrev=False)
-    made.add_argument("source", metavar="IN", type=lambda text: named(text, "file"), help="file with the mesh")
     made.add_argument(
-        "--out", metavar="DIR", type=lambda text: named(text, "folder"), required=True,
+        "source", metavar="IN", nargs="?", type=lambda text: named(text, "file"), help="file with the mesh"
+    )
+    made.add_argument(
+        "--out", metavar="DIR", type=lambda text: named(text, "folder"),
         help="folder for the results, or a link to one; it replaces the results of an earlier run and keeps your "
              "own files",
     )  # fmt: skip
@@ -177,6 +188,7 @@ def parser() -> Parser:
              "layout itself"),
     )  # fmt: skip
     made.add_argument("--save-blend", action="store_true", help="write the scene with the bricks, build.blend")
+    add_sets(made)
     sizes = made.add_mutually_exclusive_group()
     for entry in fields(Settings):
         add_flag(sizes if entry.name in SIZES else made, entry)
@@ -239,6 +251,18 @@ def add_paper(made: Parser) -> None:
         help="draw the layer maps in the real size of the bricks, so that these can be laid on the prints",
     )  # fmt: skip
     made.add_argument("--paper", choices=tuple(PAPERS), default="A4", help="size of the pages (default: A4)")
+
+
+def add_sets(made: Parser) -> None:
+    """Add the flags that choose many settings at once."""
+    looks = "; ".join(f"{word}: {preset.text.removesuffix('.')}" for word, preset in PRESETS.items())
+    made.add_argument("--preset", choices=tuple(PRESETS), help=f"settings that belong together ({looks})")
+    made.add_argument(
+        "--settings", metavar="FILE", type=lambda text: named(text, "file"),
+        help="JSON file with settings, as --print-settings writes it, or a report.json; it changes what a preset sets, "
+             "and flags change both",
+    )  # fmt: skip
+    made.add_argument("--print-settings", action="store_true", help="print all settings as JSON, and build nothing")
 
 
 def add_flag(group: Any, entry: Field[Any]) -> None:
@@ -315,13 +339,30 @@ def pictures(text: str) -> int:
 
 
 def settings_of(options: dict[str, Any]) -> Settings:
-    """Return the settings that the flags ask for; flags of an earlier version get a remark."""
+    """Return the settings of the preset, changed by those of the file, changed by flags; earlier names get a remark."""
+    preset, file = options.pop("preset", None), options.pop("settings", None)
+    layers = [preset_values(preset) if preset else {}]
+    if file is not None:
+        values, remarks = read_settings(text_of(readable(file)))
+        layers.append(values)
+        print(*remarks, sep="\n", end="\n" if remarks else "", file=sys.stderr)
     for entry in fields(Settings):
         if entry.metadata["was"] in options:
             options[entry.name] = options.pop(entry.metadata["was"])
             print(renamed(entry), file=sys.stderr)
-    named = [name for name in SIZES[1:] if name in options]
-    return Settings(**options, **({"size_by": named[0]} if named else {}))
+    chosen: dict[str, Any] = {}
+    for layer in (*layers, options):
+        sizes = [name for name in SIZES[1:] if name in layer]
+        chosen |= {"size_by": sizes[0], **layer} if len(sizes) == 1 else layer
+    return Settings(**chosen)
+
+
+def text_of(path: Path) -> str:
+    """Return the text of a file."""
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise SettingsError(f"{path} is not a UTF-8 text: save it as one.") from error
 
 
 def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:

@@ -23,6 +23,8 @@ ORDER: Final = (
     "core.progress",
     "core.native",
     "core.settings",
+    "core.settings_file",
+    "core.presets",
     "core.geometry",
     "core.model",
     "core.mesh",

@@ -125,7 +125,7 @@ def test_only_the_pipeline_knows_the_order() -> None:
     for name, tree in trees(sorted(CORE.rglob("*.py"))):
         used = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level}
         assert "pipeline" not in used, name
-        readers = tuple(f"core/{each}.py" for each in ("pipeline", "stages", "build", "estimate"))
+        readers = tuple(f"core/{each}.py" for each in ("pipeline", "stages", "build", "estimate", "settings_file"))
         assert "settings" not in used or name.endswith(readers), name
 
 

@@ -23,8 +23,8 @@ above it in this table.
 ``report``           what was built, in numbers and sentences
 ===================  =======================================================================
 
-``arrays``, ``units``, ``errors``, ``safe_text``, ``progress`` and ``settings`` lie
-below all of them; ``estimate``, ``build`` (the result of every stage), ``stages``
+``arrays``, ``units``, ``errors``, ``safe_text``, ``progress``, ``settings``,
+``settings_file`` and ``presets`` lie below all of them; ``estimate``, ``build`` (the result of every stage), ``stages``
 (what the settings mean for each stage) and ``pipeline`` (the stages in order)
 above. Nothing in this folder imports ``bpy``.
 """

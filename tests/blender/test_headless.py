@@ -765,8 +765,8 @@ def test_name_of_the_file_is_no_command(name: str, script: ModuleType, tmp_path:
 
 def test_parser_complains_by_exception(script: ModuleType) -> None:
     """A wrong command line never ends with argparse's own 2, which would mean a failed check."""
-    with pytest.raises(SettingsError, match="required"):
-        script.parser().parse_args(["in.obj"])
+    with pytest.raises(SettingsError, match="unrecognized"):
+        script.parser().parse_args(["--widht", "3"])
 
 
 def top_level(folder: Path) -> list[str]:
@@ -918,3 +918,44 @@ def test_flags_of_an_earlier_version_are_read(script, capsys) -> None:
     assert "--hold" not in parser.format_help()
     assert script.settings_of({"clutch": 0.5}) == Settings(clutch=0.5)
     assert not capsys.readouterr().err
+
+
+def test_settings_are_printed_and_read(script, capsys, tmp_path) -> None:
+    """A preset is changed by the file, the file by flags; what is printed can be read, and nothing is built."""
+    file = tmp_path / "mine.json"
+    file.write_text('{"hold": 0.5, "plate_gain": 0.3, "height": 7}', encoding="utf-8")
+    assert script.main(["--preset", "cheapest", "--settings", str(file), "--seed", "3", "--print-settings"]) == 0
+    printed, told = capsys.readouterr()
+    assert told.count("clutch") == 1
+    chosen = json.loads(printed)
+    expected = {"clutch": 0.5, "plate_gain": 0.3, "size_by": "height", "height": 7, "layout": "exact", "seed": 3}
+    assert {name: chosen[name] for name in expected} == expected
+    file.write_text(printed, encoding="utf-8")
+    assert script.main(["--settings", str(file), "--print-settings"]) == 0
+    assert capsys.readouterr() == (printed, "")
+    assert list(tmp_path.iterdir()) == [file]
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        (["--settings", "gone.json"], "gone.json"),
+        (["--settings", "word.json"], "There is no setting 'widht'"),
+        (["--settings", "latin.json"], "is not a UTF-8 text"),
+        (["--settings", "width.json"], "width is 0"),
+        (["--preset", "best"], "invalid choice: 'best'"),
+        (["in.obj"], "it needs a file to read, IN, and a folder, --out DIR"),
+        (["--out", "out"], "it needs a file to read, IN, and a folder, --out DIR"),
+    ],
+)
+def test_settings_that_cannot_be_read(script, capsys, tmp_path, monkeypatch, flags, words) -> None:
+    """One sentence."""
+    monkeypatch.chdir(tmp_path)
+    Path("word.json").write_text('{"widht": 3}')
+    Path("width.json").write_text('{"width": 0}')
+    Path("latin.json").write_bytes(b'{"palette": "\xe4"}')
+    assert script.main(flags) == 1
+    printed, told = capsys.readouterr()
+    assert printed == ""
+    assert words in told
+    assert told.count("\n") == 1
