@@ -26,6 +26,7 @@ from legorize_addon.core.files import folder
 from legorize_addon.core.files.ldraw import read_ldr
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.settings import Settings
+from legorize_addon.core.shopping.formats import FORMATS
 from legorize_addon.scene.builds import builds as scene_builds
 from legorize_addon.scene.collections import read_bricks
 from legorize_addon.view.heat_map import heat_map_shown
@@ -37,11 +38,10 @@ ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts" / "legorize.py"
 FILES = {
     *("model.ldr", "model.mpd", "build_order.csv", "report.json"),
-    *("parts.csv", "bricklink.xml", "rebrickable.csv", "pick-a-brick.csv"),
+    *(kind.file for kind in FORMATS),
     *(f"tables/table_{number}.csv" for number in range(1, 5)),
 }
-SHOPS = ("parts.csv", "bricklink.xml", "rebrickable.csv", "pick-a-brick.csv")
-SUPPORT_FILES = {f"support-{name}" for name in SHOPS}
+SUPPORT_FILES = {f"support-{kind.file}" for kind in FORMATS}
 BOX = (0.4, 0.2, 0.36)
 ARM = ("--width", "16", "--hanging", "0")
 RED, WHITE = 4, 15
