@@ -1,8 +1,12 @@
-"""Build and validate the extension: one zip a platform, with the wheels for every Python of Blender.
+"""Build and validate the extension: one zip a platform, with the wheels for every Python of Blender or for one.
 
 ::
 
-    python scripts/build_extension.py [--platform linux-x64 ...] [--out dist]
+    python scripts/build_extension.py [--platform linux-x64 ...] [--python 3.13] [--out dist]
+
+A zip for one Python is half as large. Blender refuses it, with a sentence, on
+another Python: 3.11 is in Blender 4.2 to 5.0, 3.13 in 5.1 and later and in some
+distributions' own earlier ones.
 
 Blender takes a package with ``__init__.py`` beside the manifest, while the
 repository keeps the add-on in a folder of its own; so a copy is staged, with an
@@ -26,6 +30,7 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from collections.abc import Iterable
 from importlib.util import find_spec
 from pathlib import Path
 from zipfile import ZipFile, ZipInfo
@@ -57,16 +62,20 @@ def main() -> None:
     parser.add_argument(
         "--platform", choices=TAGS, action="append", help="can be given several times; default: this machine's"
     )
+    parser.add_argument(
+        "--python", choices=PYTHONS, help="only for this Python of Blender, half as large (default: for all)"
+    )
     parser.add_argument("--out", type=Path, default=ROOT / "dist", help="folder for the zips and the cached wheels")
     chosen = parser.parse_args()
     platforms = chosen.platform or ([here] if here else [])
     if not platforms:
         parser.error(f"There are no wheels for this machine ({platform.machine()}): choose a --platform.")
-    for path in build(platforms, chosen.out):
+    for path in build(platforms, chosen.out, python=chosen.python):
         print(path)
+        print(sizes(path))
 
 
-def build(platforms: list[str], out: Path) -> list[Path]:
+def build(platforms: list[str], out: Path, *, python: str | None = None) -> list[Path]:
     """Build one zip for each platform.
 
     Parameters
@@ -75,6 +84,8 @@ def build(platforms: list[str], out: Path) -> list[Path]:
         Platform names of Blender's manifest, keys of ``TAGS``.
     out : Path
         Folder for the zips; downloaded wheels are kept in ``out/wheels``.
+    python : str, optional
+        Key of ``PYTHONS`` whose wheels alone are packed, instead of all.
 
     Returns
     -------
@@ -82,12 +93,32 @@ def build(platforms: list[str], out: Path) -> list[Path]:
         The validated zips, in the order of the platforms.
     """
     out.mkdir(parents=True, exist_ok=True)
-    return [_build_one(name, fetch_wheels(name, out / "wheels"), out) for name in platforms]
+    pythons, ending = ([python], f"-python{python}") if python else (list(PYTHONS), "")
+    return [_build_one(name, fetch_wheels(name, out / "wheels", pythons), out.resolve(), ending) for name in platforms]
 
 
-def _build_one(name: str, wheels: list[Path], out: Path) -> Path:
+def sizes(path: Path) -> str:
+    """Return how large the wheels of a zip are and what they take when they are installed, in lines."""
+    lines, packed, unpacked = [], 0, 0
+    with ZipFile(path) as zipped:
+        wheels = [entry for entry in zipped.infolist() if entry.filename.endswith(".whl")]
+        for wheel in sorted(wheels, key=lambda entry: -entry.file_size):
+            with zipped.open(wheel) as file, ZipFile(file) as inner:
+                inside = sum(entry.file_size for entry in inner.infolist())
+            lines.append(_size_line(wheel.file_size, inside, Path(wheel.filename).name))
+            packed, unpacked = packed + wheel.file_size, unpacked + inside
+    lines.append(_size_line(path.stat().st_size - packed, path.stat().st_size - packed, "the add-on itself"))
+    lines.append(_size_line(path.stat().st_size, path.stat().st_size - packed + unpacked, "all"))
+    return "\n".join(lines)
+
+
+def _size_line(packed: int, unpacked: int, name: str) -> str:
+    return f"{packed / 1e6:8.1f} MB, {unpacked / 1e6:6.1f} MB unpacked: {name}"
+
+
+def _build_one(name: str, wheels: list[Path], out: Path, ending: str) -> Path:
     version = tomllib.loads((ROOT / "blender_manifest.toml").read_text(encoding="utf-8"))["version"]
-    path = out.resolve() / f"legorize-{version}-{name}.zip"
+    path = out / f"legorize-{version}-{name}{ending}.zip"
     with tempfile.TemporaryDirectory() as folder:
         staged, packed = Path(folder) / "staged", Path(folder) / "packed.zip"
         stage(staged, name, wheels)
@@ -98,8 +129,8 @@ def _build_one(name: str, wheels: list[Path], out: Path) -> Path:
     return path
 
 
-def fetch_wheels(name: str, folder: Path) -> list[Path]:
-    """Download the pinned wheels for every Python, those that are not in the folder yet.
+def fetch_wheels(name: str, folder: Path, pythons: Iterable[str] = PYTHONS) -> list[Path]:
+    """Download the pinned wheels for some Pythons, those that are not in the folder yet.
 
     Parameters
     ----------
@@ -107,6 +138,8 @@ def fetch_wheels(name: str, folder: Path) -> list[Path]:
         Platform name of Blender's manifest.
     folder : Path
         Where wheels are kept; each (Python, platform) has a folder of its own.
+    pythons : iterable of str, optional
+        Keys of ``PYTHONS``; all by default.
 
     Returns
     -------
@@ -114,7 +147,8 @@ def fetch_wheels(name: str, folder: Path) -> list[Path]:
         The wheels, no file name twice, sorted by name.
     """
     found: dict[str, Path] = {}
-    for python, group in PYTHONS.items():
+    for python in pythons:
+        group = PYTHONS[python]
         pins, place = "\n".join(pinned(group)), folder / f"{group}-{name}"
         kept = place / "pins"
         if not kept.exists() or kept.read_text() != pins:

@@ -16,7 +16,7 @@ from zipfile import ZipFile
 
 import pytest
 
-from scripts.build_extension import HERE, PYTHONS, build
+from scripts.build_extension import HERE, PYTHONS, build, sizes
 
 ROOT = Path(__file__).resolve().parents[1]
 PLATFORM = HERE.get((platform.system(), platform.machine()), "")
@@ -83,6 +83,23 @@ def test_zip_brings_all_that_its_wheels_require(extension: Path, tmp_path: Path)
             required |= {normal(re.match(r"[\w.-]+", line)[0]) for line in lines if "extra ==" not in line}
         assert "scikit-learn" in brought
         assert required - brought == {"numpy"}
+
+
+def test_zip_for_one_python_is_half_as_large(extension: Path, tmp_path: Path) -> None:
+    """It has the wheels of that Python and those for any, and says what they take."""
+    [path] = build([PLATFORM], folder(tmp_path), python="3.13")
+    assert path.name == extension.name.replace(".zip", "-python3.13.zip")
+    all_wheels, wheels = (
+        {name for name in ZipFile(each).namelist() if "wheels/" in name} for each in (extension, path)
+    )
+    assert wheels == {name for name in all_wheels if "-cp311-" not in name} < all_wheels
+    assert path.stat().st_size < 0.6 * extension.stat().st_size
+    *lines, whole = sizes(path).splitlines()
+    assert whole.endswith(": all")
+    assert sum(float(line.split()[0]) for line in lines) == pytest.approx(
+        float(whole.split()[0]), abs=0.05 * len(lines)
+    )
+    assert sum(name.endswith(".whl") for name in wheels) == len(lines) - 1
 
 
 def test_installed_from_disk(extension: Path, tmp_path: Path) -> None:
