@@ -10,6 +10,7 @@ from .shades import TINTS, pale, tint_for, tinted
 if TYPE_CHECKING:
     from .booklet import Booklet
     from .layer_maps import layer_files, layer_pages
+    from .legend import lettered
     from .paper import PAPERS
 else:
     # a scene needs the colours alone
@@ -17,7 +18,8 @@ else:
         __name__,
         booklet=("Booklet",),
         layer_maps=("layer_files", "layer_pages"),
+        legend=("lettered",),
         paper=("PAPERS",),
     )
 
-__all__ = ["PAPERS", "TINTS", "Booklet", "layer_files", "layer_pages", "pale", "tint_for", "tinted"]
+__all__ = ["PAPERS", "TINTS", "Booklet", "layer_files", "layer_pages", "lettered", "pale", "tint_for", "tinted"]

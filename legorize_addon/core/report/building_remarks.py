@@ -9,7 +9,9 @@ import numpy as np
 
 from ..building import Proof
 from ..model import Role
-from ..supports import SAVING, AssemblyPlan
+from ..supports import SAVING, SLIM, AssemblyPlan, slim_stacks
+from ..units import PLATES_PER_BRICK
+from .places import listed, pillar_places
 from .remarks import brick_name, count_of, layer_of
 
 SHOWN: Final = 5
@@ -86,15 +88,16 @@ def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
 
 
 def _staying(supports: AssemblyPlan) -> Iterator[str]:
-    """Count the supports that are never taken out."""
-    outside = int(np.count_nonzero(supports.final.bricks.role == Role.SUPPORT_KEPT))
-    inside = sum(len(piece.pillars) for piece in supports.pieces)
-    for number, where in (
-        (outside, "in the model, under parts that would fall without them"),
-        (inside, "inside, under closed ceilings"),
+    """Count the supports that are never taken out, and say where they are."""
+    final = supports.final.bricks.role
+    for role, where in (
+        (Role.SUPPORT_KEPT, "in the model, under parts that would fall without them"),
+        (Role.SUPPORT_INSIDE, "inside, under closed ceilings"),
     ):
-        if number:
-            yield f"{count_of(number, 'support brick stays', 'support bricks stay')} {where}."
+        if number := int(np.count_nonzero(final == role)):
+            places = pillar_places(supports.assembly, supports.bricks.role == role)
+            stays = count_of(number, "support brick stays", "support bricks stay")
+            yield f"{stays} {where}: {listed(places)}."
 
 
 def _by_hand(supports: AssemblyPlan) -> Iterator[str]:
@@ -108,6 +111,16 @@ def _by_hand(supports: AssemblyPlan) -> Iterator[str]:
     if supports.unsteady:
         towers = count_of(len(supports.unsteady), "tower has", "towers have")
         yield f"{towers} to be held by hand while building, the first in step {supports.unsteady[0].step + 1}."
+    slim = slim_stacks(supports.assembly)
+    if len(slim.top):
+        which = np.isin(np.arange(len(supports.bricks)), slim.top)
+        stacks = count_of(len(slim.top), "support column is", "support columns are")
+        bricks = SLIM // PLATES_PER_BRICK
+        yield (
+            f"{stacks} one stud wide and more than {bricks} bricks high, because there is no room for a wider one: "
+            f"hold {'it' if len(slim.top) == 1 else 'them'} with the other hand while building, "
+            f"{listed(pillar_places(supports.assembly, which))}."
+        )
 
 
 def _faults(supports: AssemblyPlan) -> Iterator[str]:

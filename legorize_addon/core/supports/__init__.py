@@ -6,15 +6,18 @@ from .assembly_plan import AssemblyPlan, plan_assembly
 from .bracing import add_bracing
 from .pillars import add_pillars
 from .segmentation import SAVING, Joint, segment
+from .stacks import SLIM, slim_stacks
 from .strengthening import strengthen
 
 __all__ = [
     "SAVING",
+    "SLIM",
     "AssemblyPlan",
     "Joint",
     "add_bracing",
     "add_pillars",
     "plan_assembly",
     "segment",
+    "slim_stacks",
     "strengthen",
 ]

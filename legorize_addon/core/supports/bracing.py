@@ -27,7 +27,7 @@ from ..model import (
 )
 from ..progress import Progress, silent
 from ..statics import AIMS, LOCAL, SPARE, Effort, Stability, Statics, stability, torn_by
-from .pillars import Places, kept_pillar, places_below
+from .pillars import Places, kept_pillars, places_below
 
 ROUNDS: Final = 8
 """Times that pillars are added before a model is given up."""
@@ -119,7 +119,7 @@ def _with_more(tested: Callable[..., Propped], pillars: list[Bricks]) -> Propped
         places = _chosen(*propped, fast=FAST / SOONER**turn)
         if not len(places):
             break
-        pillars += [kept_pillar(propped[0], places, number) for number in range(len(places))]
+        pillars += kept_pillars(propped[0], places)
         propped = tested(pillars)
     return propped
 

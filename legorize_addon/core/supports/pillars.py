@@ -6,6 +6,7 @@ else would fall without one.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -18,13 +19,12 @@ from ..model import (
     NOBODY,
     Assembly,
     Bricks,
-    Catalogue,
-    ContactGraph,
     Role,
     stud_columns,
 )
 from ..units import PLATES_PER_BRICK
-from .boxes import INSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, merge_upwards
+from .boxes import INSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, merge_upwards, sizes_in
+from .stacks import widen
 
 GROUND: Final = 30
 """Plates that a pillar to a brick may be longer than one to the ground."""
@@ -77,12 +77,10 @@ def add_pillars(assembly: Assembly) -> Assembly:
     """
     while assembly.graph.n_floating:
         graph = assembly.graph
-        pillars = []
-        for number in np.unique(graph.component[~graph.grounded]).tolist():
-            boxes, carried = _under(assembly, graph.component == number)
-            colour = int(assembly.bricks.colour[carried])
-            pillars.append(_bricks(boxes, assembly.catalogue, colour, Role.SUPPORT_KEPT))
-        assembly = assembly.with_more(pillars)
+        floating = np.unique(graph.component[~graph.grounded]).tolist()
+        boxes, carried = zip(*(_under(assembly, graph.component == number) for number in floating), strict=True)
+        colours = assembly.bricks.colour[list(carried)].tolist()
+        assembly = assembly.with_more(_pillars(assembly, boxes, colours, Role.SUPPORT_KEPT))
     return assembly
 
 
@@ -100,15 +98,21 @@ def add_inner_pillars(assembly: Assembly, rows: Ints) -> Assembly:
     Assembly
         All that came in, in their order, and then the pillars, ``SUPPORT_INSIDE``.
     """
-    pillars = []
-    for row in rows.tolist():
-        boxes, _ = _under(assembly, np.arange(len(assembly)) == row)
-        pillars.append(_bricks(boxes, assembly.catalogue, INSIDE_COLOUR, Role.SUPPORT_INSIDE))
-    return assembly.with_more(pillars)
+    boxes = [_under(assembly, np.arange(len(assembly)) == row)[0] for row in rows.tolist()]
+    return assembly.with_more(_pillars(assembly, boxes, [INSIDE_COLOUR] * len(boxes), Role.SUPPORT_INSIDE))
 
 
-def _bricks(boxes: Boxes, catalogue: Catalogue, colour: int, role: Role) -> Bricks:
-    return bricks_of_boxes(merge_upwards(boxes, catalogue, colour), catalogue, colour=colour, role=role)
+def _pillars(assembly: Assembly, slim: Sequence[Boxes], colours: Sequence[int], role: Role) -> list[Bricks]:
+    """Return pillars as bricks, high ones wider where there is room beside all others."""
+    catalogue, low = assembly.catalogue, np.array([*assembly.graph.low, 0, 0, 0], dtype=np.int32)
+    free, boxes, found = assembly.graph.owner == NOBODY, list(slim), []
+    for number, colour in enumerate(colours):
+        others = [*boxes[:number], *boxes[number + 1 :]]
+        wide = widen(boxes[number], free, sizes_in(catalogue, colour), np.concatenate([*others, boxes[number][:0]]))
+        boxes[number] = wide
+        upright = merge_upwards(wide, catalogue, colour) + low
+        found.append(bricks_of_boxes(upright, catalogue, colour=colour, role=role))
+    return found
 
 
 def _under(assembly: Assembly, mine: Mask) -> tuple[Boxes, int]:
@@ -129,7 +133,7 @@ def _under(assembly: Assembly, mine: Mask) -> tuple[Boxes, int]:
         while _inside(squares[chosen], middle) < STEADY and max(steady)[0] > _inside(squares[chosen], middle):
             chosen.append(max(steady)[1])
             steady = [(_inside(squares[[*chosen, each]], middle), each) for each in standing.tolist()]
-    return np.concatenate([_pillar(assembly.graph, under, each) for each in chosen]), int(under.brick[first])
+    return np.concatenate([_pillar(under, each) for each in chosen]), int(under.brick[first])
 
 
 def places_below(assembly: Assembly, mine: Mask) -> Places:
@@ -160,10 +164,10 @@ def places_below(assembly: Assembly, mine: Mask) -> Places:
     return Places(row, x, y, top, length, on_brick.astype(bool))
 
 
-def kept_pillar(assembly: Assembly, places: Places, number: int) -> Bricks:
-    """Return the pillar at one place, in the colour of the brick on it, ``SUPPORT_KEPT``."""
-    colour = int(assembly.bricks.colour[places.brick[number]])
-    return _bricks(_pillar(assembly.graph, places, number), assembly.catalogue, colour, Role.SUPPORT_KEPT)
+def kept_pillars(assembly: Assembly, places: Places) -> list[Bricks]:
+    """Return the pillars at all places, each in the colour of the brick on it, ``SUPPORT_KEPT``."""
+    boxes = [_pillar(places, number) for number in range(len(places))]
+    return _pillars(assembly, boxes, assembly.bricks.colour[places.brick].tolist(), Role.SUPPORT_KEPT)
 
 
 def _inside(squares: Ints, middle: Floats) -> float:
@@ -171,10 +175,9 @@ def _inside(squares: Ints, middle: Floats) -> float:
     return inside(corners([(int(x), int(y)) for x, y in squares]), middle)
 
 
-def _pillar(graph: ContactGraph, places: Places, number: int) -> Boxes:
-    """Return a column of bricks with plates on top, whatever its length in plates."""
+def _pillar(places: Places, number: int) -> Boxes:
+    """Return a column of bricks with plates on top, whatever its length in plates, in cells of the connection."""
     x, y, top, length = (int(each[number]) for each in (places.x, places.y, places.top, places.length))
     heights = [PLATES_PER_BRICK] * (length // PLATES_PER_BRICK) + [1] * (length % PLATES_PER_BRICK)
     floors = top - length + np.concatenate([[0], np.cumsum(heights)])
-    boxes = boxes_of((x, y, int(floor), 1, 1, height) for floor, height in zip(floors, heights, strict=False))
-    return boxes + np.array([*graph.low, 0, 0, 0], dtype=np.int32)
+    return boxes_of((x, y, int(floor), 1, 1, height) for floor, height in zip(floors, heights, strict=False))

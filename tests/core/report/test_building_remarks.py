@@ -38,7 +38,20 @@ def test_nothing_to_tell():
 def test_post_that_stays_is_told():
     """A part that touches nothing else has one of one brick."""
     [sentence] = told(("3003", 0, 0, 0), ("3003", 0, 0, 6), posts=True)
-    assert sentence == "1 support brick stays in the model, under parts that would fall without them."
+    assert sentence == (
+        "1 support brick stays in the model, under parts that would fall without them: "
+        "on the layer maps at 1 A in layer 2 (step 1)."
+    )
+
+
+def test_high_slim_support_is_told():
+    """In a shaft of one stud no support can be wide, in the open it is."""
+    shaft = [("3005", x, y, 3 * z) for x in range(3) for y in range(3) for z in range(6) if (x, y) != (1, 1)]
+    lid = [("3005", 1, 1, 15), ("3001", 0, 0, 18)]
+    [sentence] = told(*shaft, *lid, deepest=0)
+    assert sentence.startswith("1 support column is one stud wide and more than 4 bricks high")
+    assert "2 B in layer" in sentence
+    assert told(("3003", 0, 0, 0), *[("3003", 0, 0, z) for z in range(3, 18, 3)], ("3007", 0, 0, 18), deepest=0) == ()
 
 
 def test_brick_in_the_air_is_named():
