@@ -112,6 +112,9 @@ class Catalogue:
         LEGO's newest element number of the part in the colour, 0 where it is not known.
     second_element : (n_parts, n_colours) int64 array
         The newest one before that, 0 where there was none.
+    cost : (n_parts, n_colours) float64 array, optional
+        What a part in a colour costs in a layout, in bricks: by its price, its mass or how many there are. Without it,
+        each part costs one brick.
     """
 
     parts: tuple[Part, ...]
@@ -119,6 +122,7 @@ class Catalogue:
     exists: Mask
     element: NDArray[np.int64]
     second_element: NDArray[np.int64]
+    cost: Floats | None = None
 
     @property
     def codes(self) -> NDArray[np.int16]:

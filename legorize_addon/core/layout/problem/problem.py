@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Floats, Mask
-from ...model import NOBODY, ContactGraph, ground_of
+from ...model import COLOUR_ANY, NOBODY, ContactGraph, ground_of
 from .placements import Placements, segment_sums
 from .shapes import Index, Rows, Shapes
 from .sheets import Sheets
@@ -138,8 +138,8 @@ def pose(
     Returns
     -------
     Problem
-        The sheets' cells and costs. A placement costs one brick, more if it is
-        a 1 x 1, hangs in the air, holds to one brick alone or covers optional
+        The sheets' cells and costs. A placement costs one brick, or what the
+        catalogue says of its part and colour, more if it is a 1 x 1, hangs in the air, holds to one brick alone or covers optional
         cells, and less for the seams that it bridges.
     """
     cells = sheets.cells
@@ -151,7 +151,7 @@ def pose(
     on_ground = (owner[sheets.level] == GROUND).any(axis=(1, 2))[found.corner[:, 2]]
     bridged = _bridged(found, among, _seams(owner[around])[:, cells])
     cost = (
-        1
+        _part_costs(found, among, sheets)
         + _SINGLE * (found.size == 1)
         + _HANGING * (n_sides == 0)
         + _END * ((n_sides == 1) & (bridged == 0) & ~on_ground)
@@ -160,6 +160,17 @@ def pose(
     )
     sheet, y, x = np.unravel_index(cells, sheets.colour.shape)
     return Problem(sheets, among, found, needed, np.stack([x, y, sheet], axis=1), cost)
+
+
+def _part_costs(found: Placements, among: Shapes, sheets: Sheets) -> Floats:
+    """Return what the parts of placements cost, in bricks: one each unless the catalogue says otherwise."""
+    if (among.cost == 1).all():
+        return np.ones(len(found))
+    colour = sheets.colour.reshape(-1)[sheets.cells][found.cells]
+    coloured = np.maximum.reduceat(colour, found.start[:-1]) if len(found) else colour
+    column = np.where(coloured == COLOUR_ANY, -1, np.searchsorted(among.codes, coloured))
+    costs: Floats = among.cost[found.shape, column]
+    return costs
 
 
 def _seams(owner: Rows) -> NDArray[np.int8]:

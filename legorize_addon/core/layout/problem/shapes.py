@@ -13,8 +13,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Mask
-from ...model import Catalogue, footprint
+from ...arrays import Floats, Mask
+from ...model import Catalogue, Part, footprint
 
 Plane = NDArray[np.int16]
 Rows = NDArray[np.int32]
@@ -65,6 +65,8 @@ class Shapes:
         any colour, tells whether it is made at all.
     hidden : (n_shapes,) int16 array
         LDraw code that the part gets where it is hidden.
+    cost : (n_shapes, n_codes + 1) float64 array
+        What the part costs in each code, in bricks; in the last column, where it is hidden.
     """
 
     part: NDArray[np.int16]
@@ -80,6 +82,7 @@ class Shapes:
     codes: Plane
     made: Mask
     hidden: Plane
+    cost: Floats
 
     def rows_of(self, part: Whole, turn: Whole) -> Index:
         """Return the rows of parts of this height in the given turns, shape (k,)."""
@@ -100,33 +103,43 @@ def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shap
         LDraw codes that occur in the grid.
     filler : int
         LDraw code for hidden bricks; a part that is not made in it gets the first colour of the catalogue in which it
-        is made.
+        is made. Where the catalogue says what parts cost, hidden ones get the cheapest colour.
 
     Returns
     -------
     Shapes
         In the order of the catalogue, then by quarter turn.
     """
-    forms = _forms(catalogue, height)
+    forms = _forms(catalogue.parts, height)
     codes = np.unique(codes)
-    # argmax finds the first colour in which a part is made
-    anywhere = catalogue.exists[forms.part]
-    in_filler = catalogue.exists_in(forms.part, filler)
+    made = np.column_stack(
+        [catalogue.exists_in(forms.part[:, None], codes), catalogue.exists[forms.part].any(axis=1)]
+    )
+    cost = np.ones(catalogue.exists.shape) if catalogue.cost is None else catalogue.cost
+    hidden = _hidden(cost[forms.part], catalogue.exists[forms.part], catalogue.codes == filler)
+    column = np.append(np.searchsorted(catalogue.codes, codes), 0)
+    column = np.minimum(np.tile(column, (len(forms.part), 1)), len(catalogue.colours) - 1)
+    column[:, -1] = hidden
     return replace(
-        forms,
-        codes=codes,
-        made=np.column_stack([catalogue.exists_in(forms.part[:, None], codes), anywhere.any(axis=1)]),
-        hidden=np.where(in_filler, np.int16(filler), catalogue.codes[anywhere.argmax(axis=1)]),
+        forms, codes=codes, made=made, hidden=catalogue.codes[hidden], cost=cost[forms.part[:, None], column]
     )
 
 
+def _hidden(cost: Floats, exists: Mask, filler: Mask) -> Index:
+    """Return the column of the cheapest colour of each shape: the filler if none is cheaper, or else the first."""
+    cost = np.where(exists, cost, np.inf)
+    best = cost.argmin(axis=1)
+    # argmax finds the only column that is the filler's, or the first if there is none
+    usual = int(filler.argmax())
+    as_usual = filler.any() & exists[:, usual] & (cost[:, usual] <= cost.min(axis=1))
+    return np.where(as_usual, usual, best)
+
+
 @lru_cache
-def _forms(catalogue: Catalogue, height: int) -> Shapes:
+def _forms(parts: tuple[Part, ...], height: int) -> Shapes:
     """Return the parts of one height in all their orientations, without any colour."""
-    oriented = [
-        (row, turn) for row, part in enumerate(catalogue.parts) if part.height == height for turn in range(part.turns)
-    ]
-    cells = tuple(footprint(catalogue.parts[row], turn) for row, turn in oriented)
+    oriented = [(row, turn) for row, part in enumerate(parts) if part.height == height for turn in range(part.turns)]
+    cells = tuple(footprint(parts[row], turn) for row, turn in oriented)
     extent = np.array([covered.max(axis=0) + 1 for covered in cells], dtype=np.intp)
     side = int(extent.max())
     pattern = np.array([pattern_bits(covered[:, 0], covered[:, 1], side).sum() for covered in cells])
@@ -145,6 +158,7 @@ def _forms(catalogue: Catalogue, height: int) -> Shapes:
         codes=np.zeros(0, dtype=np.int16),
         made=np.zeros((len(cells), 1), dtype=bool),
         hidden=np.zeros(len(cells), dtype=np.int16),
+        cost=np.ones((len(cells), 1)),
     )
 
 
