@@ -16,6 +16,7 @@ from .model import Assembly, Bricks, ContactGraph, UnitGrid
 from .settings import Settings
 from .slicing import Marks, Slices, Trajectories
 from .statics import Stability
+from .stock import Prices
 from .supports import AssemblyPlan, Joint
 from .unit_bricks import Offsets
 
@@ -78,6 +79,8 @@ class Build:
         Their supports while they are built, and the building order.
     joints : tuple of Joint
         Between the pieces of a split model.
+    prices : Prices or None
+        What parts cost, where a price file was given.
     proof : Proof or None
         Whether every building step stands by forces, where that was asked for.
     notes : tuple of str
@@ -101,6 +104,7 @@ class Build:
     stability: Stability
     supports: AssemblyPlan
     joints: tuple[Joint, ...]
+    prices: Prices | None
     proof: Proof | None
     notes: tuple[str, ...]
     timings: Mapping[str, float]

@@ -14,7 +14,7 @@ from .mesh import TriangleMesh
 from .model import Assembly, contact_graph
 from .native import watched
 from .progress import Overall, Progress, silent
-from .report import remarks, remarks_on_building, remarks_on_proof, remarks_on_split
+from .report import remarks, remarks_on_building, remarks_on_prices, remarks_on_proof, remarks_on_split
 from .settings import Settings
 from .shell import make_cohesive
 from .slicing import fit_grid, link_loops
@@ -113,7 +113,9 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
 
     made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, assembly, found, plan, joints)
     notes = (*repairs.sentences(), *unseen, *remarks_on_dithering(mesh, settings.dithering))
-    return Build(settings, *made, proof, (*notes, *_notes(settings, assembly, found, plan, proof)), run.timings)
+    notes = (*notes, *_notes(settings, assembly, found, plan, proof))
+    notes += remarks_on_prices(run.parts.prices, assembly.bricks, plan.removed, run.catalogue)
+    return Build(settings, *made, run.parts.prices, proof, notes, run.timings)
 
 
 def _notes(

@@ -10,13 +10,23 @@ from __future__ import annotations
 
 from dataclasses import Field, dataclass, field, fields
 from functools import cache
-from typing import Any, Literal, get_args, get_type_hints
+from typing import Any, Final, Literal, get_args, get_type_hints
 
 from .errors import SettingsError
 
+SEPARATOR: Final = ";"
+"""Between the names of several files in one setting."""
+
 
 def setting(
-    default: Any, text: str, *, group: str, low: float | None = None, high: float | None = None, was: str = ""
+    default: Any,
+    text: str,
+    *,
+    group: str,
+    low: float | None = None,
+    high: float | None = None,
+    was: str = "",
+    files: int = 0,
 ) -> Any:
     """Declare a setting.
 
@@ -33,13 +43,16 @@ def setting(
     was : str, optional
         Name that it had in an earlier version: still read from scenes and the
         command line, with a remark.
+    files : int, optional
+        How many files a text may name, separated by ``;``: none, one or several.
 
     Returns
     -------
     Field
         A dataclass field that carries the above as metadata.
     """
-    return field(default=default, metadata={"text": text, "group": group, "low": low, "high": high, "was": was})
+    metadata = {"text": text, "group": group, "low": low, "high": high, "was": was, "files": files}
+    return field(default=default, metadata=metadata)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -132,6 +145,19 @@ class Settings:
     layout: Literal["fast", "standard", "exact"] = setting(
         "standard", "How much work goes into few and well bonded bricks: a quick choice, linear programmes, or the "
         "fewest bricks that can be found, which takes several times as long.", group="Bricks")
+
+    goal: Literal["fewest", "cheapest"] = setting(
+        "fewest", "Whether the layout has as few bricks as it can, or costs as little as it can by the price file.",
+        group="Parts")
+    prices: str = setting(
+        "", "Price file: a CSV file with the columns part, colour and price, a price guide, or the inventory of a "
+        "store as CSV or BrickLink's XML.", group="Parts", files=1)
+    unpriced: Literal["estimate", "exclude"] = setting(
+        "estimate", "What to do with parts that the price file does not have in a colour: use the median price of the "
+        "part in other colours, or of its mass, or do not build with them.", group="Parts")
+    mass_weight: float = setting(
+        0.0, "How many bricks the layout may add to save one gram; 0 counts bricks alone.", group="Parts",
+        low=0.0, high=10.0)
 
     learned: bool = setting(
         True, "Let the fast layout exchange bricks as a trained support vector machine proposes.",

@@ -20,6 +20,7 @@ from .layout import FILLER, lay
 from .layout.learning import NO_EXCHANGES, learned_table, samples_text
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
 from .model import Assembly, Bricks, Catalogue, UnitGrid, load_catalogue
+from .part_choice import PartChoice
 from .progress import Overall
 from .settings import Settings
 from .shell import hollow
@@ -49,6 +50,8 @@ class Run:
     ----------
     settings : Settings
     catalogue : Catalogue
+    parts : PartChoice
+        What the layout prefers.
     palette : (n,) int16 array
         Codes of the colours to use.
     exchanges : (4, 16, 16, 24) bool array or None
@@ -63,6 +66,7 @@ class Run:
 
     settings: Settings
     catalogue: Catalogue
+    parts: PartChoice
     palette: NDArray[np.int16]
     exchanges: Mask | None
     rng: np.random.Generator
@@ -74,9 +78,8 @@ class Run:
         """Return a run that begins."""
         catalogue = load_catalogue()
         palette = chosen_palette(settings.palette, catalogue)
-        return cls(
-            settings, catalogue, palette, _exchanges(settings), np.random.default_rng(settings.seed), progress, {}
-        )
+        parts, rng = PartChoice.of(settings, catalogue), np.random.default_rng(settings.seed)
+        return cls(settings, catalogue, parts, palette, _exchanges(settings), rng, progress, {})
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
@@ -217,14 +220,16 @@ def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
 
 def lay_bricks(run: Run, shell: UnitGrid) -> Bricks:
     """Lay the bricks."""
-    return lay(
-        shell,
-        catalogue=run.catalogue,
-        rng=run.rng,
-        tier=run.settings.layout,
-        exchanges=run.exchanges,
-        filler=_filler(run.palette, run.catalogue),
-        progress=run.progress,
+    return run.parts.laid(
+        partial(
+            lay,
+            shell,
+            rng=run.rng,
+            tier=run.settings.layout,
+            exchanges=run.exchanges,
+            filler=_filler(run.palette, run.catalogue),
+            progress=run.progress,
+        )
     )
 
 

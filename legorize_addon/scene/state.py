@@ -223,7 +223,7 @@ class BuildState:
         """The building steps, see :func:`~legorize_addon.scene.kept_steps.stored_steps`; empty if unknown."""
         return self._plain("steps")
 
-    def add_building(self, **figures: int | float) -> None:
+    def add_building(self, **figures: int | float | str) -> None:
         """Keep more figures of the building."""
         for name, value in figures.items():
             self._group["building"][name] = value

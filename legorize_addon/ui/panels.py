@@ -253,6 +253,10 @@ def _building_figures(building: Mapping[str, Any] | None) -> tuple[str, ...]:
     if building["removed"]:
         lines[0] += f", {building['removed_mass']:.0f} g"
     lines.append(f"Support bricks that stay: {building['kept']}")
+    if building.get("cost"):
+        lines.append(f"Price: {building['cost']}")
+        if building["removed"]:
+            lines.append(f"Price of the supports to take out: {building['support_cost']}")
     lines.append(f"Pieces: {building['pieces']}, building steps: {building['steps']}")
     if building.get("by_hand"):
         lines.append(f"Towers to hold by hand: {building['by_hand']}")

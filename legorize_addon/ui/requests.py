@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import bpy
 
 from ..core.progress import Progress
-from ..core.settings import Settings
+from ..core.settings import SEPARATOR, Settings
 from ..core.units import MM_PER_METRE
 from ..reading import has_surface
 from ..scene import builds_of, is_own, orphans, sources_of
@@ -43,6 +43,8 @@ class BuildRequest:
         The user's choices.
     samples : str
         Path of the file that the settings name in ``learned_from``.
+    files : mapping of str to str
+        Absolute paths of the other files that settings name, by the setting.
     mm_per_unit : float
         World mm per Blender unit.
     replaces : tuple of int
@@ -56,6 +58,7 @@ class BuildRequest:
     remarks: tuple[str, ...]
     settings: Settings
     samples: str
+    files: Mapping[str, Any]
     mm_per_unit: float
     replaces: tuple[int, ...]
 
@@ -75,7 +78,7 @@ class BuildRequest:
         """Run the core; no Blender in here."""
         from ..core.pipeline import legorize
 
-        build = legorize(self.mesh, replace(self.settings, learned_from=self.samples), progress)
+        build = legorize(self.mesh, replace(self.settings, learned_from=self.samples, **self.files), progress)
         # the scene keeps the name that holds on every machine
         return replace(build, settings=self.settings)
 
@@ -145,9 +148,17 @@ def build_request(context: bpy.types.Context, sources: Sequence[bpy.types.Object
         remarks=remarks,
         settings=settings,
         samples=resolved(settings.learned_from),
+        files=absolute_files(settings),
         mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
         replaces=tuple(model.session_uid for model in replaced_by(context, sources)),
     )
+
+
+def absolute_files(settings: Settings) -> dict[str, Any]:
+    """Return the settings that name files, with paths that do not depend on where the .blend is."""
+    named = [entry.name for entry in fields(Settings) if entry.metadata["files"]]
+    paths = {name: getattr(settings, name).split(SEPARATOR) for name in named if getattr(settings, name)}
+    return {name: SEPARATOR.join(bpy.path.abspath(path.strip()) for path in each) for name, each in paths.items()}
 
 
 def by_uid(blocks: Iterable[bpy.types.ID], uids: Sequence[int]) -> list[Any]:

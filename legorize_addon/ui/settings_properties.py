@@ -36,7 +36,8 @@ def _property(entry: Field[Any]) -> Any:
     if kind is bool:
         return BoolProperty(**common)
     if kind is str:
-        return StringProperty(**common)
+        # Blender's file browser gives one name, several are typed
+        return StringProperty(**common, **({"subtype": "FILE_PATH"} if entry.metadata["files"] == 1 else {}))
     limits = {"min": entry.metadata["low"], "max": entry.metadata["high"]}
     return IntProperty(**common, **limits) if kind is int else FloatProperty(**common, **limits)
 

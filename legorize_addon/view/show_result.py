@@ -63,9 +63,18 @@ def show_result(
     place = (build.grid.origin, build.scale, mm_per_unit)
     model = Model(supports.assembly, *place, stability=build.stability, steps=supports.steps)
     shown = show_build(scene, model, replace(source, settings=build.settings), detail=detail, replaces=earlier)
-    state_of(shown).add_building(by_hand=len(supports.unsteady))
+    state_of(shown).add_building(by_hand=len(supports.unsteady), **_costs(build))
     if Role.SUPPORT_OUTSIDE in roles_shown(shown):
         show_role(shown, Role.SUPPORT_OUTSIDE, visible=False)
     if kept is not None:
         kept.show(scene, shown)
     return shown
+
+
+def _costs(build: Build) -> dict[str, str]:
+    """Return what model and supports cost by the price file, in words; nothing without one."""
+    prices, catalogue = build.prices, build.assembly.catalogue
+    if prices is None:
+        return {}
+    tables = {"cost": build.bricks, "support_cost": build.supports.removed}
+    return {name: prices.money(float(prices.each(bricks, catalogue).sum())) for name, bricks in tables.items()}

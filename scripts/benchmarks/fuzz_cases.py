@@ -263,6 +263,8 @@ def _settings(rng: np.random.Generator) -> Settings:
         "learned_from": "",
     }
     chosen["size_by"] = str(rng.choice(["width", "width", "height"]))
+    # no body has a price file
+    chosen["goal"] = "fewest"
     chosen["shell"] = int(rng.choice([1, 1, 2, 3]))
     chosen["palette"] = str(rng.choice(["", "", "", "4", "0, 15", "1, 2, 4, 14, 15, 71"]))
     # only pictures can be backed, and most bodies are none

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from .lower_bound import lower_bound
+from .lower_bound import least_cost, lower_bound
 from .pass_through import corner_windings, pass_through_types
 
 __all__ = [
     "corner_windings",
+    "least_cost",
     "lower_bound",
     "pass_through_types",
 ]

@@ -1,8 +1,8 @@
-"""How few bricks a model could be built of: a proven lower bound for every layout.
+"""How few bricks a model could be built of, or how little it could cost: proven lower bounds for every layout.
 
 Every cell gets a price, so that the cells of no placement are worth more than
-one brick together. Then no layout has fewer bricks than all cells are worth
-(weak duality), whoever lays it. The dual of the linear programme finds the best
+one brick together, or more than its part costs. Then no layout has fewer bricks,
+or costs less, than all cells are worth (weak duality), whoever lays it. The dual of the linear programme finds the best
 prices. On very wide sheets it finds those around the middle alone, whose cells keep
 an equal share of the largest part, or else block after block, the others staying
 as they are.
@@ -11,12 +11,25 @@ as they are.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from ..arrays import Floats, Mask
-from ..layout.problem import Candidates, Index, Placements, Shapes, Sheets, blocks, dominated, placements, shapes, split
+from ..layout.problem import (
+    Candidates,
+    Index,
+    Placements,
+    Shapes,
+    Sheets,
+    blocks,
+    dominated,
+    part_costs,
+    placements,
+    shapes,
+    split,
+)
 from ..layout.solvers import prices
 from ..model import Catalogue, UnitGrid
 from ..progress import Progress, silent
@@ -35,6 +48,9 @@ two percent there; above which the rest is priced block after block; studs along
 
 _ROUNDING: Final = 1e-6
 """What the prices of a component may lose by rounding."""
+
+_FREE: Final = 1e-6
+"""Bricks below which a part counts as free: what its cells are worth is then within the rounding."""
 
 
 def lower_bound(grid: UnitGrid, catalogue: Catalogue, *, progress: Progress = silent) -> int:
@@ -57,16 +73,45 @@ def lower_bound(grid: UnitGrid, catalogue: Catalogue, *, progress: Progress = si
         and so on: the sum over all components of the linear programme's bound,
         rounded up.
     """
+    plain = replace(catalogue, cost=None)
+    return sum(int(np.ceil(worth - _ROUNDING).sum()) for worth in _worths(grid, plain, progress))
+
+
+def least_cost(grid: UnitGrid, catalogue: Catalogue, price: Floats, *, progress: Progress = silent) -> float:
+    """Return an amount of money that no layout of a model falls below.
+
+    Parameters
+    ----------
+    grid : UnitGrid
+        As for :func:`lower_bound`.
+    catalogue : Catalogue
+        Parts and colours.
+    price : (n_parts, n_colours) float64 array
+        Of one part in a colour, not below 0. Hidden parts may have any colour.
+    progress : Progress
+        Told before each batch of sheets.
+
+    Returns
+    -------
+    float
+        In the unit of the prices.
+    """
+    # prices of the size of bricks, for the solver's tolerances
+    mean = float(price[catalogue.exists].mean()) or 1.0
+    paid = replace(catalogue, cost=price / mean)
+    return mean * sum(float(np.maximum(worth - _ROUNDING, 0).sum()) for worth in _worths(grid, paid, progress))
+
+
+def _worths(grid: UnitGrid, catalogue: Catalogue, progress: Progress) -> Iterator[Floats]:
+    """Yield what the cells of each component of some sheets are worth together, in what parts cost."""
     codes = np.unique(grid.colour[grid.colour >= 0])
-    least = 0
     for sheets in split(grid):
         among = shapes(catalogue, sheets.height, codes, int(catalogue.codes[0]))
         for share, part in _slabs(sheets):
             found = placements(part, among)
             for which in _batches(found, len(part)):
                 progress("bound", share)
-                least += _fewest(part.take(which), among, found.on(which, part.n_cells))
-    return least
+                yield _worth_of_components(part.take(which), among, found.on(which, part.n_cells))
 
 
 def _slabs(sheets: Sheets) -> Iterator[tuple[float, Sheets]]:
@@ -82,22 +127,23 @@ def _batches(found: Placements, n_sheets: int) -> list[Index]:
     return [np.flatnonzero(batch == number) for number in np.unique(batch)]
 
 
-def _fewest(sheets: Sheets, among: Shapes, found: Placements) -> int:
-    """Return the bound of some sheets."""
+def _worth_of_components(sheets: Sheets, among: Shapes, found: Placements) -> Floats:
+    """Return the bound of each component of some sheets."""
     cells = sheets.cells
     required = sheets.required.reshape(-1)[cells]
     everything = Candidates.of(found)
-    candidates = everything.only(~dominated(found, among, required, np.ones(len(found))))
+    cost = part_costs(found, among, sheets)
+    candidates = everything.only(~dominated(found, among, required, cost))
     sheet, y, x = np.unravel_index(cells, sheets.colour.shape)
-    price = cell_prices(candidates, required, np.stack([x, y, sheet], axis=1))
+    price = cell_prices(candidates, required, np.stack([x, y, sheet], axis=1), cost)
     group = everything.groups(len(required))
     of_cell = np.zeros(len(required), dtype=np.intp)
     of_cell[found.cells] = np.repeat(group, found.size)
-    return int(np.ceil(np.bincount(of_cell, weights=price) - _ROUNDING).sum())
+    return np.bincount(of_cell, weights=price)
 
 
-def cell_prices(candidates: Candidates, required: Mask, corner: Index) -> Floats:
-    """Price cells so that no placement is worth more than one brick.
+def cell_prices(candidates: Candidates, required: Mask, corner: Index, cost: Floats | None = None) -> Floats:
+    """Price cells so that no placement is worth more than it costs.
 
     Parameters
     ----------
@@ -107,24 +153,31 @@ def cell_prices(candidates: Candidates, required: Mask, corner: Index) -> Floats
         Cells that have to be covered.
     corner : (n_cells, 3) intp array
         Where the cells are: x and y in studs, number of the sheet.
+    cost : (n_placements,) float64 array, optional
+        Of every placement of the problem, not below 0; one brick each by default.
 
     Returns
     -------
     (n_cells,) float64 array
         Prices in bricks, not above 0 where a cell need not be covered.
     """
-    # to begin with, a brick is worth one brick if all of its required cells have no better one
+    limit = np.ones(len(candidates.rows)) if cost is None else cost[candidates.rows]
+    # to begin with, a brick is worth what it costs if all of its required cells have no better one
     needed = np.repeat(candidates.totals(required[candidates.cells]), candidates.size)
-    most = np.ones(len(required), dtype=np.int64)
-    np.maximum.at(most, candidates.cells, needed)
-    price = np.where(required, 1 / most, 0.0)
+    share = np.full(len(required), np.inf)
+    np.minimum.at(share, candidates.cells, np.repeat(limit, candidates.size) / np.maximum(needed, 1))
+    price = np.where(required & np.isfinite(share), share, 0.0)
     for part in _parts(candidates, corner):
         inside = candidates.within(part)
         touching = np.isin(candidates.rows, inside.rows, assume_unique=True)
-        room = 1 - _worth(candidates, np.where(part, 0.0, price))[touching]
+        room = (limit - _worth(candidates, np.where(part, 0.0, price)))[touching]
         cell, better = prices(inside, required, room)
         price[cell] = better
-    return price / max(1.0, _worth(candidates, price).max(initial=0.0))
+    worth = _worth(candidates, price)
+    # rounding errors of the solver, for which all prices pay
+    over = np.divide(worth, limit, out=np.ones(len(worth)), where=limit > _FREE).max(initial=0.0)
+    priced: Floats = price / max(1.0, over)
+    return priced
 
 
 def _parts(candidates: Candidates, corner: Index) -> Iterator[Mask]:

@@ -171,6 +171,10 @@ class Catalogue:
         choice = ", ".join(str(colour.code) for colour in self.colours)
         raise BuildError(f"Colour {code} is not in the catalogue: choose one of the LDraw codes {choice}.")
 
+    def colour_rows(self, codes: ArrayLike) -> Ints:
+        """Return the rows of the colours with LDraw codes that are in the catalogue, of the shape of `codes`."""
+        return np.searchsorted(self.codes, codes)
+
     def exists_in(self, part_rows: ArrayLike, codes: ArrayLike) -> Mask:
         """Return which parts are made in which colours.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .building_remarks import remarks_on_building, remarks_on_proof, remarks_on_split
+from .price_remarks import remarks_on_prices
 from .remarks import brick_name, layer_of, remarks
 
 __all__ = [
@@ -10,6 +11,7 @@ __all__ = [
     "layer_of",
     "remarks",
     "remarks_on_building",
+    "remarks_on_prices",
     "remarks_on_proof",
     "remarks_on_split",
 ]

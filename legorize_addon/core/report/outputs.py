@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import Any, Final
 
 from ..build import Build
@@ -10,6 +11,7 @@ from ..errors import enough_memory
 from ..files import build_order_csv, write_ldr, write_mpd
 from ..model import Assembly, Catalogue
 from ..shopping import ShoppingList, list_texts, shopping_list
+from .money import with_prices
 from .paper_tables import paper_tables
 
 CERTAIN: Final = ("model.ldr", "model.mpd", "build_order.csv", "parts.csv", "report.json")
@@ -42,7 +44,9 @@ def _order(build: Build, catalogue: Catalogue) -> str:
 def wanted_lists(build: Build, catalogue: Catalogue, title: str) -> tuple[ShoppingList, ShoppingList]:
     """Return what to buy for the finished model, and for the supports that are taken out of it again."""
     model, removed = (Assembly(bricks, catalogue) for bricks in (build.bricks, build.supports.removed))
-    return (
+    lists = (
         shopping_list(model, title=title, moves=len(build.supports.moves)),
         shopping_list(removed, title=f"{title}, supports", moves=0),
     )
+    one, other = (replace(each, lots=with_prices(each.lots, build.prices, catalogue)) for each in lists)
+    return one, other

@@ -23,6 +23,7 @@ from ..slicing import cut_at_grid
 from ..supports import AssemblyPlan
 from ..unit_bricks import Offsets, OverhangKind, overhang_kinds
 from ..units import PLATES_PER_BRICK
+from .money import price_facts
 from .remarks import remarks
 
 SCHEMA: Final = 2
@@ -97,6 +98,7 @@ def report(
         "building_time_s": round(wanted.seconds),
         "hollow_ratio": round(hollow_ratio(build), 4),
         "layout": _layout(build, catalogue, progress if with_bound else None),
+        "price": price_facts(build, catalogue, progress if with_bound else None),
         "bodies": free_bodies(build.hollow),
         "connection": _connection(build.graph),
         "stability": _stability(build, catalogue),

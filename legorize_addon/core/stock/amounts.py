@@ -8,7 +8,16 @@ from typing import Final
 _SIGNS: Final = {"€": "EUR", "£": "GBP", "$": "USD", "¥": "JPY", "zł": "PLN", "kč": "CZK", "₩": "KRW", "₹": "INR"}
 """Currencies by their signs; the dollar is the American one unless letters before it say otherwise."""
 
-_LETTERED: Final = {"US": "USD", "CA": "CAD", "C": "CAD", "AU": "AUD", "A": "AUD", "NZ": "NZD", "HK": "HKD", "SG": "SGD"}
+_LETTERED: Final = {
+    "US": "USD",
+    "CA": "CAD",
+    "C": "CAD",
+    "AU": "AUD",
+    "A": "AUD",
+    "NZ": "NZD",
+    "HK": "HKD",
+    "SG": "SGD",
+}
 _NUMBER: Final = re.compile(r"[0-9][0-9.,'’\u00a0\u202f ]*|[.,][0-9]+")  # noqa: RUF001 - an apostrophe of thousands
 _CODE: Final = re.compile(r"\b[A-Z]{3}\b")
 _DOLLAR: Final = re.compile(r"\b([A-Z]{1,2}) ?\$")

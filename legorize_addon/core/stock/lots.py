@@ -104,9 +104,7 @@ def _numbers(catalogue: Catalogue, whose: str) -> dict[int, int]:
 def _elements(catalogue: Catalogue) -> dict[int, Lot]:
     """Return lots by LEGO's element numbers."""
     part, colour = catalogue.element.nonzero()
-    return {
-        int(catalogue.element[lot]): lot for lot in zip(part.tolist(), colour.tolist(), strict=True)
-    }
+    return {int(catalogue.element[lot]): lot for lot in zip(part.tolist(), colour.tolist(), strict=True)}
 
 
 def _name(colour: Colour) -> str:

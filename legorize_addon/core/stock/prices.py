@@ -8,16 +8,16 @@ from typing import Final
 
 import numpy as np
 
-from ..arrays import Floats, Ints, Mask
+from ..arrays import Floats, Mask
 from ..errors import SettingsError
-from ..model import Catalogue
+from ..model import Bricks, Catalogue
 from .amounts import amount, currency
 from .lots import lots
 from .tables import Row, column, read_table
 
 _PRICES: Final = (
-    "qtyavgprice", "quantityaverageprice", "avgprice", "averageprice", "price", "unitprice", "priceeach", "priceperunit",
-    "pricepc", "myprice", "cost", "saleprice", "minprice", "maxprice",
+    "qtyavgprice", "quantityaverageprice", "avgprice", "averageprice", "price", "unitprice", "priceeach",
+    "priceperunit", "pricepc", "myprice", "cost", "saleprice", "minprice", "maxprice",
 )  # fmt: skip
 """Columns with the price of one part: the mean of what was sold comes before what one seller asks."""
 
@@ -47,9 +47,13 @@ class Prices:
     currency: str
     unknown: int
 
-    def total(self, part: Ints, colour: Ints, count: Ints) -> float:
-        """Return what some parts cost together, given the rows of part and colour and how many there are of each."""
-        return float((self.price[part, colour] * count).sum())
+    def each(self, bricks: Bricks, catalogue: Catalogue) -> Floats:
+        """Return the price of each of some bricks, (n,)."""
+        return self.price[bricks.part, catalogue.colour_rows(bricks.colour)]
+
+    def known(self, bricks: Bricks, catalogue: Catalogue) -> Mask:
+        """Return for which of some bricks the file has a price, (n,)."""
+        return self.stated[bricks.part, catalogue.colour_rows(bricks.colour)]
 
     def money(self, value: float) -> str:
         """Return an amount in words."""

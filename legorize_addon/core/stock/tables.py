@@ -48,7 +48,7 @@ def read_table(path: str, setting: str) -> list[Row]:
     rows = _items(text, path, setting) if text.lstrip().startswith("<") else _lines(text)
     if not rows:
         raise SettingsError(
-            f"{setting} is {path!r}, which has no rows: give a CSV file with a line of column names, or BrickLink's XML."
+            f"{setting} is {path!r}, which has no rows: give a CSV file with names of columns, or BrickLink's XML."
         )
     return rows
 
@@ -73,11 +73,8 @@ def _text(path: str, setting: str) -> str:
         raise SettingsError(
             f"{setting} is {path!r}, which cannot be opened ({reason}): choose another file, or leave {setting} empty."
         ) from error
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        encodings = ["utf-16"]
-    else:
-        # spreadsheets of Western Europe still write cp1252
-        encodings = ["utf-8-sig", "cp1252"]
+    # spreadsheets of Western Europe still write cp1252
+    encodings = ("utf-16",) if data.startswith((b"\xff\xfe", b"\xfe\xff")) else ("utf-8-sig", "cp1252")
     for encoding in encodings:
         try:
             text = data.decode(encoding)
@@ -98,9 +95,7 @@ def _lines(text: str) -> list[Row]:
     separator = max(_SEPARATORS, key=lambda each: len(next(csv.reader(lines[:1], delimiter=each))))
     cells = csv.reader(lines, delimiter=separator)
     names = [_plain(name) for name in next(cells)]
-    return [
-        dict(zip(names, (cell.strip() for cell in row), strict=False)) for row in cells if any(map(str.strip, row))
-    ]
+    return [dict(zip(names, (cell.strip() for cell in row), strict=False)) for row in cells if any(map(str.strip, row))]
 
 
 def _items(text: str, path: str, setting: str) -> list[Row]:
@@ -112,9 +107,13 @@ def _items(text: str, path: str, setting: str) -> list[Row]:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
         raise SettingsError(f"{damaged} ({error}): export it again.") from error
-    currency = next((value for element in root.iter() for name, value in element.items() if _plain(name) == "currency"), "")
+    currency = next(
+        (value for element in root.iter() for name, value in element.items() if _plain(name) == "currency"), ""
+    )
     rows = [
-        {_plain(cell.tag): (cell.text or "").strip() for cell in item} for item in root.iter() if _plain(item.tag) == "item"
+        {_plain(cell.tag): (cell.text or "").strip() for cell in item}
+        for item in root.iter()
+        if _plain(item.tag) == "item"
     ]
     return [{**({"currency": currency} if currency else {}), **row} for row in rows if row]
 

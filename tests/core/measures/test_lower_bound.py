@@ -14,7 +14,7 @@ from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.layout.lay import Tier, lay
 from legorize_addon.core.layout.problem.candidates import Candidates
 from legorize_addon.core.layout.solvers import covering_lp as programme
-from legorize_addon.core.measures.lower_bound import cell_prices, lower_bound
+from legorize_addon.core.measures.lower_bound import cell_prices, least_cost, lower_bound
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from tests.core.layout.cells import CATALOGUE, RED, WHITE, brick_grid, disc, grid_of, problem_of, random_sheet
 
@@ -126,3 +126,17 @@ def test_progress_may_cancel():
 
     with pytest.raises(Cancelled):
         lower_bound(brick_grid([[[RED]]]), CATALOGUE, progress=stop)
+
+
+def test_least_cost_of_known_sheets():
+    """A row of four costs a 1 x 4, or two 1 x 2 where they are cheaper; hidden bricks have the cheapest colour."""
+    two, four = CATALOGUE.part_row("3004"), CATALOGUE.part_row("3010")
+    price = np.ones(CATALOGUE.exists.shape)
+    row = brick_grid(np.full((1, 1, 4), RED))
+    assert least_cost(row, CATALOGUE, price) == pytest.approx(1, abs=1e-5)
+    price[two], price[four] = 0.3, 0.7
+    assert least_cost(row, CATALOGUE, price) == pytest.approx(0.6, abs=1e-5)
+    price[four, CATALOGUE.colour_row(2)] = 0.25
+    assert least_cost(row, CATALOGUE, price) == pytest.approx(0.6, abs=1e-5)
+    assert least_cost(brick_grid(np.full((1, 1, 4), COLOUR_ANY)), CATALOGUE, price) == pytest.approx(0.25, abs=1e-5)
+    assert least_cost(row, CATALOGUE, np.zeros_like(price)) == 0

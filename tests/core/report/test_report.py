@@ -87,6 +87,7 @@ def build_of(rows):
         stability=stability(Assembly(bricks, CATALOGUE)),
         supports=supports,
         joints=(),
+        prices=None,
         proof=None,
         notes=("A remark.",),
         timings={"slicing": 0.25},

@@ -7,7 +7,7 @@ from .candidates import Amounts, Candidates
 from .dominance import dominated
 from .placements import Placements, placements, segment_sums
 from .planes import spread
-from .problem import BRIDGE, GROUND, Problem, owners, pose, standing, with_margins
+from .problem import BRIDGE, GROUND, Problem, owners, part_costs, pose, standing, with_margins
 from .shapes import Index, Plane, Rows, Shapes, pattern_bits, shapes
 from .sheets import Sheets, split
 from .table import brick_table, gather
@@ -29,6 +29,7 @@ __all__ = [
     "dominated",
     "gather",
     "owners",
+    "part_costs",
     "pattern_bits",
     "placements",
     "pose",

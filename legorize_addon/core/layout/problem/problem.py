@@ -139,8 +139,8 @@ def pose(
     -------
     Problem
         The sheets' cells and costs. A placement costs one brick, or what the
-        catalogue says of its part and colour, more if it is a 1 x 1, hangs in the air, holds to one brick alone or covers optional
-        cells, and less for the seams that it bridges.
+        catalogue says of its part and colour, more if it is a 1 x 1, hangs in
+        the air, holds to one brick alone or covers optional cells, and less for the seams that it bridges.
     """
     cells = sheets.cells
     needed = sheets.required.reshape(-1)[cells]
@@ -151,7 +151,7 @@ def pose(
     on_ground = (owner[sheets.level] == GROUND).any(axis=(1, 2))[found.corner[:, 2]]
     bridged = _bridged(found, among, _seams(owner[around])[:, cells])
     cost = (
-        _part_costs(found, among, sheets)
+        part_costs(found, among, sheets)
         + _SINGLE * (found.size == 1)
         + _HANGING * (n_sides == 0)
         + _END * ((n_sides == 1) & (bridged == 0) & ~on_ground)
@@ -162,8 +162,21 @@ def pose(
     return Problem(sheets, among, found, needed, np.stack([x, y, sheet], axis=1), cost)
 
 
-def _part_costs(found: Placements, among: Shapes, sheets: Sheets) -> Floats:
-    """Return what the parts of placements cost, in bricks: one each unless the catalogue says otherwise."""
+def part_costs(found: Placements, among: Shapes, sheets: Sheets) -> Floats:
+    """Return what the parts of placements cost, in bricks: one each unless the catalogue says otherwise.
+
+    Parameters
+    ----------
+    found : Placements
+    among : Shapes
+    sheets : Sheets
+        Where they lie.
+
+    Returns
+    -------
+    (n,) float64 array
+        Without what their place adds to the cost.
+    """
     if (among.cost == 1).all():
         return np.ones(len(found))
     colour = sheets.colour.reshape(-1)[sheets.cells][found.cells]

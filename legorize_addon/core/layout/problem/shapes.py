@@ -112,9 +112,7 @@ def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shap
     """
     forms = _forms(catalogue.parts, height)
     codes = np.unique(codes)
-    made = np.column_stack(
-        [catalogue.exists_in(forms.part[:, None], codes), catalogue.exists[forms.part].any(axis=1)]
-    )
+    made = np.column_stack([catalogue.exists_in(forms.part[:, None], codes), catalogue.exists[forms.part].any(axis=1)])
     cost = np.ones(catalogue.exists.shape) if catalogue.cost is None else catalogue.cost
     hidden = _hidden(cost[forms.part], catalogue.exists[forms.part], catalogue.codes == filler)
     column = np.append(np.searchsorted(catalogue.codes, codes), 0)
