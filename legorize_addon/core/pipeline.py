@@ -112,19 +112,19 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     run.progress.finish()
 
     made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, assembly, found, plan, joints)
-    notes = (*repairs.sentences(), *unseen, *remarks_on_dithering(mesh, settings.dithering))
-    notes = (*notes, *_notes(settings, assembly, found, plan, proof))
-    notes += remarks_on_prices(run.parts.prices, assembly.bricks, plan.removed, run.catalogue)
+    notes = (*repairs.sentences(), *unseen, *_notes(run, mesh, assembly, found, plan, proof))
     return Build(settings, *made, run.parts.prices, proof, notes, run.timings)
 
 
 def _notes(
-    settings: Settings, assembly: Assembly, found: Stability, plan: AssemblyPlan, proof: Proof | None
+    run: Run, mesh: TriangleMesh, assembly: Assembly, found: Stability, plan: AssemblyPlan, proof: Proof | None
 ) -> tuple[str, ...]:
     """Return what a user must know about bricks and building, one sentence each."""
     return (
-        *remarks(assembly, found, spare=settings.spare),
+        *remarks_on_dithering(mesh, run.settings.dithering),
+        *remarks(assembly, found, spare=run.settings.spare),
         *remarks_on_building(plan),
-        *remarks_on_split(plan, most=settings.split),
+        *remarks_on_split(plan, most=run.settings.split),
         *remarks_on_proof(proof),
+        *remarks_on_prices(run.parts.prices, assembly.bricks, plan.removed, run.catalogue),
     )
