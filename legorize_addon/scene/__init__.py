@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from .animated_tree import FIRST, FRAMES, animated_tree
 from .assembly_columns import ASIDE, JOINED, REMOVED, TIER, there_after, way_after
 from .brick_points import MARGIN, NO_MARGIN, box_corners, middles, read_columns
+from .brick_tree import EXPLODE, HEAT_MAP, HEAT_PARTS, PALE, PARTS, STEPS, brick_tree
 from .builds import (
     LAYER_KEY,
     ROLE_KEY,
@@ -22,16 +24,11 @@ from .builds import (
 from .collections import clear_build, read_bricks, show_build, steps_of
 from .hidden_sources import orphans, show_orphans
 from .instancing import (
-    EXPLODE,
     HEAT_KEY,
-    HEAT_MAP,
-    HEAT_PARTS,
     MATERIAL_KEY,
-    PALE,
     PALE_KEY,
-    PARTS,
-    STEPS,
     bricks_modifier,
+    change_tree,
     get_input,
     has_input,
     plastic,
@@ -49,6 +46,8 @@ __all__ = [
     "ASIDE",
     "AXES",
     "EXPLODE",
+    "FIRST",
+    "FRAMES",
     "HEAT_KEY",
     "HEAT_MAP",
     "HEAT_PARTS",
@@ -68,12 +67,15 @@ __all__ = [
     "Model",
     "Section",
     "Source",
+    "animated_tree",
     "beyond",
     "box_corners",
+    "brick_tree",
     "bricks_modifier",
     "bricks_of",
     "builds",
     "builds_of",
+    "change_tree",
     "check_lines",
     "check_whole",
     "clear_build",

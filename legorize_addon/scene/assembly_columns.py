@@ -25,6 +25,13 @@ TIER: Final = "tier"
 REMOVED: Final = "removed"
 JOINED: Final = "joined"
 ASIDE: Final = "aside"
+MOMENT: Final = "moment"
+
+FALL: Final = 0.3
+"""Share of a step that a brick takes to fall into place."""
+
+READY: Final = 0.85
+"""Share of a step after which everything is in its place, so that one sees it."""
 
 NEVER: Final = np.iinfo(np.int32).max
 """Step of what does not happen."""
@@ -55,7 +62,8 @@ def assembly_columns(assembly: Assembly, steps: Steps) -> dict[str, NDArray[np.g
         step in which its piece or sub-assembly is put onto the first piece,
         ``NOBODY`` for what is placed there itself; ``aside`` (n, 3) float64, the
         way in mm from its place in the model to where it stands on the table
-        until then.
+        until then; ``moment`` (n,) float64, the share of its step after which a
+        brick is placed when the steps are animated.
     """
     pieces, row = np.unique(assembly.bricks.piece, return_inverse=True)
     row = row.reshape(-1)
@@ -67,7 +75,20 @@ def assembly_columns(assembly: Assembly, steps: Steps) -> dict[str, NDArray[np.g
         REMOVED: _removed(steps, len(assembly.bricks)),
         JOINED: _joined(steps, len(assembly.bricks)),
         ASIDE: _aside(assembly.bricks, steps, pieces[order], assembly.catalogue),
+        MOMENT: _moment(steps, len(assembly.bricks)),
     }
+
+
+def _moment(steps: Steps, n: int) -> Floats:
+    """Return the shares of their steps after which bricks begin to fall: one after another, all in time."""
+    placed = steps.moves.action == Action.PLACE
+    brick, step = steps.moves.brick[placed], steps.moves.step[placed]
+    order = np.lexsort((np.arange(len(step)), step))
+    numbers = np.unique(step[order], return_index=True, return_counts=True)
+    rank = np.arange(len(step)) - np.repeat(numbers[1], numbers[2])
+    moment = np.zeros(n)
+    moment[brick[order]] = (READY - FALL) * rank / np.maximum(np.repeat(numbers[2], numbers[2]) - 1, 1)
+    return moment
 
 
 def _removed(steps: Steps, n: int) -> NDArray[np.int32]:

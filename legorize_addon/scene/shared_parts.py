@@ -12,17 +12,9 @@ from typing import Final
 
 import bpy
 
+from .brick_tree import HEAT_PARTS, PARTS, SECTION, brick_trees
 from .builds import is_own
-from .instancing import (
-    HEAT_PARTS,
-    PARTS,
-    SECTION,
-    brick_trees,
-    bricks_modifier,
-    get_input,
-    is_brick_material,
-    set_input,
-)
+from .instancing import bricks_modifier, get_input, is_brick_material, set_input
 from .part_meshes import MESH_KEY, PART_KEY
 from .state import BuildState
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .animation import Animation, animate, animation_of
 from .heat_map import LEGEND, has_margins, heat_map_shown, show_heat_map
 from .highlight import can_highlight, highlight_step, highlighted
 from .show_result import show_result
@@ -16,10 +17,14 @@ from .visibility import (
     show_role,
     show_steps,
     shown_corners,
+    stop_animation,
 )
 
 __all__ = [
     "LEGEND",
+    "Animation",
+    "animate",
+    "animation_of",
     "can_highlight",
     "check_steps",
     "corners_while_building",
@@ -42,4 +47,5 @@ __all__ = [
     "show_steps",
     "shown_corners",
     "steps_done",
+    "stop_animation",
 ]

@@ -16,13 +16,18 @@ from ..core.arrays import Floats, Mask
 from ..core.errors import BuildError
 from ..core.model import Bricks, Role, load_catalogue
 from ..scene import (
+    FRAMES,
     LAYER_KEY,
     ROLE_KEY,
     Section,
     beyond,
     box_corners,
+    brick_tree,
+    bricks_modifier,
     bricks_of,
+    change_tree,
     check_whole,
+    has_input,
     layer_collections,
     layers_of,
     middles,
@@ -136,12 +141,23 @@ def show_steps(build: bpy.types.Collection, steps: int) -> None:
         The build does not know its steps.
     """
     check_steps(build)
+    stop_animation(build)
     if bool(steps) != bool(steps_done(build)) and Role.SUPPORT_OUTSIDE in roles_shown(build):
         state = state_of(build)
         if steps:
             state.supports_shown = roles_shown(build)[Role.SUPPORT_OUTSIDE]
         show_role(build, Role.SUPPORT_OUTSIDE, visible=bool(steps) or state.supports_shown)
     do_steps(build, steps)
+
+
+def stop_animation(build: bpy.types.Collection) -> None:
+    """Show a build that is put together as the frames go by as a whole in every frame, its supports as before."""
+    modifiers = filter(None, map(bricks_modifier, point_objects(build)))
+    animated = [modifier for modifier in modifiers if has_input(modifier, FRAMES)]
+    for modifier in animated:
+        change_tree(modifier, brick_tree())
+    if animated and Role.SUPPORT_OUTSIDE in roles_shown(build):
+        show_role(build, Role.SUPPORT_OUTSIDE, visible=state_of(build).supports_shown)
 
 
 def shown_bricks(build: bpy.types.Collection) -> Bricks:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from legorize_addon.scene.instancing import HEAT_PARTS, PARTS, SECTION, bricks_modifier, get_input, set_input
+from legorize_addon.scene.brick_tree import HEAT_PARTS, PARTS, SECTION
+from legorize_addon.scene.instancing import bricks_modifier, get_input, set_input
 from legorize_addon.scene.state import BUILD_KEY
 
 

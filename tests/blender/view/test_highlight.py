@@ -6,9 +6,10 @@ import bpy
 import numpy as np
 import pytest
 
+from legorize_addon.scene.brick_tree import STEPS
 from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.collections import read_bricks
-from legorize_addon.scene.instancing import STEPS, bricks_modifier, get_input
+from legorize_addon.scene.instancing import bricks_modifier, get_input
 from legorize_addon.ui.properties import current_build
 from legorize_addon.view.heat_map import show_heat_map
 from legorize_addon.view.highlight import highlight_step, highlighted

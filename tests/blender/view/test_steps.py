@@ -26,9 +26,10 @@ from legorize_addon.core.units import BRICK, STUD
 from legorize_addon.render.contact_sheet import MARGIN, even_steps, render_contact_sheet, tiled
 from legorize_addon.scene.assembly_columns import JOINED, NEVER, REMOVED, TIER, assembly_columns
 from legorize_addon.scene.brick_points import NO_MARGIN, box_corners, positions
+from legorize_addon.scene.brick_tree import EXPLODE, STEPS, TREE_KEY
 from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
-from legorize_addon.scene.instancing import EXPLODE, STEPS, TREE_KEY, bricks_modifier
+from legorize_addon.scene.instancing import bricks_modifier
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import BUILD_KEY
 from legorize_addon.scene.verdict import check_lines
