@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.files import replacing
-from ..view import check_steps, highlight_step, highlighted, n_steps, show_steps, steps_done
+from ..view import animate, animation_of, check_steps, highlight_step, highlighted, n_steps, show_steps, steps_done
 from .still import render_still
 
 MARGIN: Final = 4
@@ -55,7 +55,7 @@ def render_contact_sheet(
         The build does not know its steps, or the file cannot be written there.
     """
     check_steps(build)
-    before, bright = steps_done(build), highlighted(build)
+    before, bright, moving = steps_done(build), highlighted(build), animation_of(build)
     with replacing(path, "picture") as partial, tempfile.TemporaryDirectory() as folder:
         frame, taken = Path(folder) / "frame.png", []
         try:
@@ -69,6 +69,8 @@ def render_contact_sheet(
         finally:
             show_steps(build, before)
             highlight_step(build, visible=bright)
+            if moving:
+                animate(scene, build, first=moving.first, frames=moving.frames)
         _write(tiled(taken), partial)
 
 
