@@ -67,6 +67,7 @@ try:
     from legorize_addon.reading.objects import read_rendered
     from legorize_addon.reading.quiet import quiet
     from legorize_addon.render.contact_sheet import render_contact_sheet
+    from legorize_addon.render.film import Cut, make_film, render_frames
     from legorize_addon.render.still import AZIMUTH, View, render_still
     from legorize_addon.scene.model import Source
     from legorize_addon.scene.section import AXES, Section
@@ -95,6 +96,10 @@ MOST_PICTURES: Final = 400
 """On a contact sheet."""
 
 
+MOST_FRAMES: Final = 10_000
+"""Of one building step, or of a turn."""
+
+
 class Taken(NamedTuple):
     """What is read, by the flags of the same names."""
 
@@ -114,6 +119,9 @@ class Wanted(NamedTuple):
     explode: float
     show_supports: bool
     contact_sheet: int
+    animate: int
+    turntable: int
+    frames: bool
     save_blend: bool
     bound: bool
     instructions: bool
@@ -124,7 +132,12 @@ class Wanted(NamedTuple):
     @property
     def any_picture(self) -> bool:
         """Whether the scene is needed at all."""
-        return bool(self.render or self.contact_sheet or self.save_blend)
+        return bool(self.render or self.contact_sheet or self.film or self.save_blend)
+
+    @property
+    def film(self) -> bool:
+        """Whether there is a film."""
+        return bool(self.animate or self.turntable)
 
     def check(self) -> None:
         """Refuse flags without effect."""
@@ -133,6 +146,8 @@ class Wanted(NamedTuple):
             if getattr(self, name) and not drawn:
                 flag = name.replace("_", "-")
                 raise SettingsError(f"--{flag} only changes the picture: add --render, or leave it out.")
+        if not self.frames and not (self.film and self.save_blend):
+            raise SettingsError("--no-frames leaves a film to others: add --save-blend, and --animate or --turntable.")
         if self.actual_size and not self.layers:
             raise SettingsError("--actual-size only changes layer maps: add --layers, or leave it out.")
 
@@ -181,6 +196,7 @@ def parser() -> Parser:
     )  # fmt: skip
     add_source(made)
     add_pictures(made)
+    add_film(made)
     add_paper(made)
     made.add_argument(
         "--bound", action="store_true",
@@ -235,6 +251,24 @@ def add_pictures(made: Parser) -> None:
     made.add_argument(
         "--contact-sheet", metavar="N", type=pictures, default=0,
         help="write N pictures of the building order side by side in one image, contact-sheet.png",
+    )  # fmt: skip
+
+
+def add_film(made: Parser) -> None:
+    """Add the flags for moving pictures."""
+    made.add_argument(
+        "--animate", metavar="N", type=film_frames, nargs="?", const=12, default=0,
+        help="write a film of how the model is built, frames/0001.png and so on, with N frames for each step "
+             "(default: 12)",
+    )  # fmt: skip
+    made.add_argument(
+        "--turntable", metavar="N", type=film_frames, nargs="?", const=120, default=0,
+        help="write a film in which the camera goes round the model once in N frames (default: 120); after the one "
+             "that --animate asks for",
+    )  # fmt: skip
+    made.add_argument(
+        "--frames", action=argparse.BooleanOptionalAction, default=True,
+        help="render the film (default); without, --save-blend keeps its scene, ready to be rendered elsewhere",
     )  # fmt: skip
 
 
@@ -338,6 +372,13 @@ def pictures(text: str) -> int:
     return int(text)
 
 
+def film_frames(text: str) -> int:
+    """Return a number of frames."""
+    if not (text.isdecimal() and 1 <= int(text) <= MOST_FRAMES):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 to {MOST_FRAMES}")
+    return int(text)
+
+
 def settings_of(options: dict[str, Any]) -> Settings:
     """Return the settings of the preset, changed by those of the file, changed by flags; earlier names get a remark."""
     preset, file = options.pop("preset", None), options.pop("settings", None)
@@ -379,7 +420,7 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         # in builds: measured without a proof at 48 to 192 studs, guessed for the proof and the pictures
         later = {"report": 0.03 + wanted.bound, "files": 0.03, "layer maps": 0.2 * wanted.layers}
         later["booklet"] = 3.0 * wanted.instructions
-        later["pictures"] = float(wanted.any_picture)
+        later["pictures"] = float(wanted.any_picture) + 20.0 * (wanted.film and wanted.frames)
         built = 1 / (1 + sum(later.values()))
         build = legorize(mesh, replace(settings, up=up), part(line, 0.0, built))
         build = replace(build, notes=(*left_out, *remarks, *build.notes), timings={**seconds, **build.timings})
@@ -396,8 +437,8 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
             with rest.stage("booklet") as progress, writing(out):
                 write_booklet(build, folder, wanted, source.stem, progress)
         if wanted.any_picture:
-            with rest.stage("pictures"):
-                show(build, folder, wanted, name=source.stem, sources=objects)
+            with rest.stage("pictures") as progress:
+                show(build, folder, wanted, Source(source.stem, objects, notes=build.notes), progress)
         files = [path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()]
         left = [name for name in changed(out) if name not in files]
         stop.too_late()
@@ -465,10 +506,10 @@ class Line:
             self._stream.flush()
 
 
-def show(build: Build, folder: Path, wanted: Wanted, *, name: str, sources: Sequence[bpy.types.Object]) -> None:
+def show(build: Build, folder: Path, wanted: Wanted, source: Source, progress: Progress) -> None:
     """Put the bricks into the scene, and write the wanted pictures and files."""
     scene = bpy.context.scene
-    shown = show_result(scene, build, Source(name, sources, notes=build.notes), mm_per_unit=mm_per_unit())
+    shown = show_result(scene, build, source, mm_per_unit=mm_per_unit())
     if wanted.render:
         with posed(shown, wanted):
             view = wanted.view or ("section" if wanted.section else "front_right")
@@ -478,6 +519,15 @@ def show(build: Build, folder: Path, wanted: Wanted, *, name: str, sources: Sequ
         path = folder / "contact-sheet.png"
         with quiet():
             render_contact_sheet(scene, shown, path, pictures=wanted.contact_sheet, outlines=wanted.outlines)
+    if wanted.film:
+        film = make_film(scene, shown, Cut(wanted.animate, wanted.turntable))
+        if wanted.frames:
+            (folder / "frames").mkdir()
+            with quiet():
+                render_frames(film, folder / "frames", progress)
+        # a render farm takes the scene that a file was saved with
+        if wanted.save_blend and bpy.context.window:
+            bpy.context.window.scene = film
     if wanted.save_blend:
         save(folder / "build.blend")
 

@@ -55,7 +55,7 @@ def make_film(
     cut: Cut,
     *,
     samples: int = 8,
-    resolution: tuple[int, int] = (960, 720),
+    resolution: tuple[int, int] = (640, 480),
 ) -> bpy.types.Scene:
     """Make a film, in place of an earlier one.
 

@@ -13,8 +13,9 @@ import bpy
 from ..core.settings import Settings, choices
 from ..core.units import BRICK, STUD
 from ..scene import builds, check_lines, damage, orphans, state_of
-from ..view import LEGEND, can_highlight, has_margins, n_pieces, n_steps, roles_shown
+from ..view import LEGEND, animation_of, can_highlight, has_margins, n_pieces, n_steps, roles_shown
 from . import job
+from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
 from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
 from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
 from .instructions import LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps
@@ -176,8 +177,22 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
             buttons = self.layout.row(align=True)
             buttons.operator(LEGORIZE_OT_booklet.bl_idname, text="Booklet", icon="DOCUMENTS")
             buttons.operator(LEGORIZE_OT_layer_maps.bl_idname, text="Layer Maps", icon="MESH_GRID")
+            self._draw_animation(build)
         if n_pieces(build) > 1:
             self.layout.prop(view, "exploded", slider=True)
+
+    def _draw_animation(self, build: bpy.types.Collection) -> None:
+        """Draw the buttons of the assembly animation and the film."""
+        buttons = self.layout.row(align=True)
+        if animation_of(build):
+            playing = bpy.context.screen.is_animation_playing
+            buttons.operator(
+                "screen.animation_play", text="Pause" if playing else "Play", icon="PAUSE" if playing else "PLAY"
+            )
+            buttons.operator(LEGORIZE_OT_stop_animation.bl_idname, text="", icon="X")
+        else:
+            buttons.operator(LEGORIZE_OT_animate.bl_idname, text="Animate", icon="PLAY")
+        buttons.operator(LEGORIZE_OT_film.bl_idname, text="Film", icon="RENDER_ANIMATION")
 
 
 class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from . import build, build_larger, export, instructions, learning, panels, properties
+from . import animation, build, build_larger, export, instructions, learning, panels, properties
 
-_PARTS = (properties, build, build_larger, export, instructions, learning, panels)
+_PARTS = (properties, build, build_larger, export, instructions, animation, learning, panels)
 
 
 def register() -> None:

@@ -92,9 +92,9 @@ def animate(scene: bpy.types.Scene, build: bpy.types.Collection, *, first: int, 
 
 def animation_of(build: bpy.types.Collection) -> Animation | None:
     """Return when a build is put together; None if it is shown as a whole."""
-    modifiers = [bricks_modifier(points) for points in point_objects(build)]
-    for modifier in modifiers:
-        if modifier is not None and has_input(modifier, FRAMES):
-            first, frames = (round(get_input(modifier, name)) for name in (FIRST, FRAMES))
-            return Animation(first, frames, n_steps(build))
-    return None
+    # all objects of a build change their trees together
+    modifier = next(filter(None, map(bricks_modifier, point_objects(build))), None)
+    if modifier is None or not has_input(modifier, FRAMES):
+        return None
+    first, frames = (round(get_input(modifier, name)) for name in (FIRST, FRAMES))
+    return Animation(first, frames, n_steps(build))

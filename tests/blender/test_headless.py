@@ -413,6 +413,24 @@ def test_contact_sheet(script: ModuleType, tmp_path: Path, monkeypatch: pytest.M
     assert steps_done(build) == 0
 
 
+def test_film(script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Frames are files beside the others; the saved file opens with the film, and others can render it."""
+    monkeypatch.setattr(script, "make_film", partial(script.make_film, samples=1, resolution=(32, 24)))
+    add_arm()
+    file = save(tmp_path / "arm.blend")
+    flags = [*ARM, "--animate", "1", "--turntable", "2", "--save-blend", "--no-frames"]
+    assert script.main([str(file), "--out", str(tmp_path / "out"), *flags]) == 0
+    assert set(contents(tmp_path / "out")) == FILES | SUPPORT_FILES | {"build.blend"}
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "build.blend"))
+    film = bpy.context.scene
+    assert film.name == "Legorize Film"
+    assert film.camera
+    assert film.frame_end > 30
+    assert script.main([str(file), "--out", str(tmp_path / "out"), *ARM, "--turntable", "2"]) == 0
+    frames = {"frames/0001.png", "frames/0002.png"}
+    assert set(contents(tmp_path / "out")) == FILES | SUPPORT_FILES | frames
+
+
 def test_saved_scene_can_be_legorized_again(script: ModuleType, tmp_path: Path) -> None:
     """A scene that holds a build gives the model of what the build was made of, not of its bricks."""
     add_box(BOX)
@@ -507,6 +525,8 @@ def test_every_setting_is_a_flag(script: ModuleType) -> None:
         (["--section", "x=0.5"], "--section only changes the picture: add --render"),
         (["--view", "below"], "--view only changes the picture: add --render"),
         (["--view", "above", "--render"], "--view: invalid choice: 'above'"),
+        (["--no-frames"], "--no-frames leaves a film to others: add --save-blend, and --animate or --turntable."),
+        (["--animate", "0"], "'0' is not a whole number from 1 to 10000"),
         (["--outlines"], "--outlines only changes the picture: add --render"),
         (["--heat-map"], "--heat-map only changes the picture: add --render"),
         (["--show-supports"], "--show-supports only changes the picture: add --render"),
