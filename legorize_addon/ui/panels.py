@@ -177,22 +177,9 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
             buttons = self.layout.row(align=True)
             buttons.operator(LEGORIZE_OT_booklet.bl_idname, text="Booklet", icon="DOCUMENTS")
             buttons.operator(LEGORIZE_OT_layer_maps.bl_idname, text="Layer Maps", icon="MESH_GRID")
-            self._draw_animation(build)
+            _draw_animation(self.layout, build)
         if n_pieces(build) > 1:
             self.layout.prop(view, "exploded", slider=True)
-
-    def _draw_animation(self, build: bpy.types.Collection) -> None:
-        """Draw the buttons of the assembly animation and the film."""
-        buttons = self.layout.row(align=True)
-        if animation_of(build):
-            playing = bpy.context.screen.is_animation_playing
-            buttons.operator(
-                "screen.animation_play", text="Pause" if playing else "Play", icon="PAUSE" if playing else "PLAY"
-            )
-            buttons.operator(LEGORIZE_OT_stop_animation.bl_idname, text="", icon="X")
-        else:
-            buttons.operator(LEGORIZE_OT_animate.bl_idname, text="Animate", icon="PLAY")
-        buttons.operator(LEGORIZE_OT_film.bl_idname, text="Film", icon="RENDER_ANIMATION")
 
 
 class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):
@@ -239,6 +226,18 @@ class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
         self.layout.operator(LEGORIZE_OT_export_ldr.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_export_mpd.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_render_still.bl_idname, icon="RENDER_STILL")
+
+
+def _draw_animation(layout: bpy.types.UILayout, build: bpy.types.Collection) -> None:
+    """Draw the buttons of the assembly animation and the film."""
+    buttons = layout.row(align=True)
+    if animation_of(build):
+        word, icon = ("Pause", "PAUSE") if bpy.context.screen.is_animation_playing else ("Play", "PLAY")
+        buttons.operator("screen.animation_play", text=word, icon=icon)
+        buttons.operator(LEGORIZE_OT_stop_animation.bl_idname, text="", icon="X")
+    else:
+        buttons.operator(LEGORIZE_OT_animate.bl_idname, text="Animate", icon="PLAY")
+    buttons.operator(LEGORIZE_OT_film.bl_idname, text="Film", icon="RENDER_ANIMATION")
 
 
 def _wrapped(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str) -> None:

@@ -217,6 +217,7 @@ def test_layers_panel_offers_what_the_build_knows(known: bool, pieces: int) -> N
     panel.draw(drawing, bpy.context)
     assert ("step" in drawing.layout.drawn) == ("by_steps" in drawing.layout.drawn) == known
     assert ("legorize.booklet" in drawing.layout.drawn) == ("legorize.layer_maps" in drawing.layout.drawn) == known
+    assert ("legorize.animate" in drawing.layout.drawn) == ("legorize.film" in drawing.layout.drawn) == known
     assert ("exploded" in drawing.layout.drawn) == (pieces > 1)
     assert {"top_layer", "section_axis", "shell", "detail"} <= set(drawing.layout.drawn)
 
