@@ -482,12 +482,16 @@ class Line:
     def __init__(self, stream: TextIO) -> None:
         self._stream, self._changes = stream, stream.isatty()
         self._meter, self._last, self._width = Meter(), ("", 0.0), 0
+        self._seen: set[str] = set()
 
     def __call__(self, stage: str, share: float) -> None:
         """Show the progress, unless it is shown already."""
         self._meter(stage, share)
-        if stage == self._last[0] and share < self._last[1] + (0.01 if self._changes else 0.1):
+        # stages that ask for parts of others by turns would fill a page with their names
+        known = stage == self._last[0] if self._changes else stage in self._seen
+        if known and share < self._last[1] + (0.01 if self._changes else 0.1):
             return
+        self._seen.add(stage)
         left = self._meter.seconds_left
         text = f"{share:4.0%} {stage}" + (f", {duration(left)} left" if left else "")
         # blanks cover what was longer

@@ -867,6 +867,17 @@ def test_progress_is_a_line_for_each_stage(
     assert 90 < shares[-1] <= 100
 
 
+def test_stages_that_take_turns_do_not_fill_the_page(script: ModuleType) -> None:
+    """A stage that was named is named again only when more is done."""
+    stream = io.StringIO()
+    line = script.Line(stream)
+    for share in (0.30, 0.31, 0.32, 0.33, 0.45):
+        line("supports", share)
+        line("stability", share)
+    printed = [text.split(",")[0] for text in stream.getvalue().splitlines()]
+    assert printed == [" 30% supports", " 30% stability", " 45% supports"]
+
+
 def test_progress_on_a_terminal_is_one_line(script: ModuleType) -> None:
     """On a terminal the line is written over, by blanks where it was longer, and is gone in the end."""
 
