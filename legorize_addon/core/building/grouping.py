@@ -76,7 +76,8 @@ class _Grouping:
         self.atoms, self.n = atoms, len(atoms)
         self.box, self.level, self.lot, self.size = atoms.box, atoms.level, atoms.lot, atoms.size
         self.temporary, self.tile, self.image = atoms.temporary, atoms.tile, atoms.image
-        self.middle = (self.box[:, ::2] + self.box[:, 1::2] + 1) / 2
+        # twice the middle: places are only compared
+        self.middle = self.box[:, ::2] + self.box[:, 1::2]
         self.left = np.array([len(below) for below in atoms.below])
         self.ready, self.done = self.left == 0, np.zeros(self.n, dtype=bool)
         self.found: list[list[int]] = []

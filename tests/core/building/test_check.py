@@ -6,8 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from legorize_addon.core.building.check import walk
+from legorize_addon.core.building.check import ROOM, walk
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action, Moves
 from legorize_addon.core.building.steps import Kind, Steps, Submodel
@@ -131,3 +133,137 @@ def test_pieces_do_not_hold_each_other_before_they_are_joined():
     high = replace(table(("3003", 0, 0, 0), ("3003", 5, 0, 0), ("3003", 0, 0, 3)), piece=np.array([1, 0, 0], np.int16))
     found = walked(high, moves_of(("place", 0), ("place", 1), ("place", 2), pieces=[1, 0, 0]))
     assert found.in_air.tolist() == [2]
+
+
+class Plain:
+    """A walk through moves that looks at all cells of all bricks each time."""
+
+    def __init__(self, steps, bricks, pairs):
+        self.steps, self.table = steps, steps.submodel_of(len(bricks)).tolist()
+        self.low, self.squares = bricks.corner[:, 2].tolist(), []
+        parts = [CATALOGUE.parts[part] for part in bricks.part.tolist()]
+        self.top = [low + part.height for low, part in zip(self.low, parts, strict=True)]
+        for (x, y, _), part in zip(bricks.corner.tolist(), parts, strict=True):
+            self.squares.append({(x + i, y + j) for i in range(part.length) for j in range(part.width)})
+        self.floor = [steps.floor(each.number, bricks) for each in steps.submodels]
+        self.pairs, self.placed = pairs.tolist(), set()
+        self.faults = {name: [] for name in ("in_air", "squeezed", "covered", "cramped", "stuck", "loose_pieces")}
+        self.bad = set()
+
+    def there(self, table):
+        """Return what is in place on a table."""
+        return {row for row in self.placed if self.table[row] == table}
+
+    def stands(self, row):
+        """Tell whether a brick stands on its table."""
+        return self.low[row] == self.floor[self.table[row]]
+
+    def near(self, row, among):
+        """Return those below a brick that it touches, and those above."""
+        below = {one for one, other in self.pairs if other == row and one in among}
+        return below, {other for one, other in self.pairs if one == row and other in among}
+
+    def over(self, row, among):
+        """Tell whether something lies over the place of a brick."""
+        return any(self.squares[row] & self.squares[each] and self.top[each] > self.low[row] for each in among)
+
+    def blame(self, fault, row, step, *, when=True):
+        """Note a fault."""
+        if when:
+            self.faults[fault].append(row)
+            self.bad.add(step)
+
+    def place(self, row, step, pressed):
+        """Put a brick in place."""
+        there = self.there(self.table[row])
+        below, above = self.near(row, there)
+        self.blame("in_air", row, step, when=not (below or above or self.stands(row)))
+        self.blame("squeezed", row, step, when=bool((below or self.stands(row)) and above))
+        self.blame("covered", row, step, when=not pressed and self.over(row, there))
+        lower = [each for each in there if self.squares[each] & self.squares[row] and self.low[each] < self.low[row]]
+        ground = max([self.top[each] for each in lower] + [self.floor[self.table[row]]])
+        self.blame("cramped", row, step, when=pressed and self.low[row] - ground < ROOM)
+        self.placed.add(row)
+
+    def join(self, number, step):
+        """Put a submodel onto its parent."""
+        parent, mine = self.steps.submodels[number].parent, self.there(number)
+        there = self.there(parent) - mine
+        in_the_way = any(self.over(row, there) for row in mine)
+        self.table = [parent if each == number else each for each in self.table]
+        held = any(self.stands(row) or self.near(row, there)[0] for row in mine)
+        self.blame("loose_pieces", number, step, when=in_the_way or not held)
+
+    def remove(self, rows, steps):
+        """Take bricks out; what is left must be held, and each of them by what is left and by those after it."""
+        there = self.there(self.table[rows[0]])
+        for turn, row in enumerate(rows):
+            left = there - set(rows[: turn + 1])
+            lower = {each for each in left if self.squares[each] & self.squares[row] and self.low[each] < self.low[row]}
+            self.blame("stuck", row, steps[turn], when=bool(lower))
+        self.placed -= set(rows)
+        left = there - set(rows)
+        held = {row for row in left if self.stands(row)}
+        while more := {row for row in left - held if set.union(*self.near(row, held))}:
+            held |= more
+        for row in left - held:
+            self.blame("in_air", row, steps[-1])
+        for row, step in zip(rows[::-1], steps[::-1], strict=True):
+            holds = self.stands(row) or bool(set.union(*self.near(row, held)))
+            held |= {row} if holds else set()
+            self.blame("in_air", row, step, when=not holds)
+
+
+def random_order(rng):
+    """Return bricks in one to three pieces, some of which are taken out again, and moves mostly from below."""
+    rows, taken = [], np.zeros((26, 5, 5), bool)
+    parts = (("3005", 1, 1, 3), ("3004", 2, 1, 3), ("3003", 2, 2, 3), ("3024", 1, 1, 1), ("3010", 4, 1, 3))
+    for _ in range(rng.integers(2, 36)):
+        number, a, b, height = parts[rng.integers(len(parts))]
+        x, y, z = (int(rng.integers(0, most)) for most in (6 - a, 6 - b, rng.choice([10, 27 - height])))
+        cells = np.s_[z : z + height, y : y + b, x : x + a]
+        if not taken[cells].any():
+            taken[cells] = True
+            rows.append((number, x - 2, y, z + 3))
+    bricks, n = table(*rows), len(rows)
+    piece = rng.integers(0, 3, n) * (rng.random(n) < rng.choice([0, 0.3]))
+    bricks = replace(bricks, piece=np.unique(piece, return_inverse=True)[1].reshape(-1).astype(np.int16))
+    order = np.argsort(bricks.corner[:, 2] + rng.integers(-1, 2, n) * rng.integers(0, 9, n), kind="stable").tolist()
+    told = [("place", row, int(bricks.piece[row])) for row in order if rng.random() < 0.95]
+    for number in range(1, int(bricks.piece.max()) + 1):
+        told.insert(int(rng.integers(1, len(told) + 1)) if rng.random() < 0.3 else len(told), ("join", NOBODY, number))
+    temporary = rng.random(n) < 0.3
+    gone = [row for kind, row, _ in told if kind == "place" and temporary[row] and rng.random() < 0.9]
+    told += [("remove", row, int(bricks.piece[row])) for row in gone]
+    pressed = np.flatnonzero(rng.random(n) < 0.3)
+    moves = moves_of(*((kind, row) for kind, row, _ in told), pieces=[each for *_, each in told], pressed=pressed)
+    return bricks, moves, temporary
+
+
+@settings(deadline=None, max_examples=120)
+@given(st.integers(0, 10**6))
+def test_faults_are_those_of_a_walk_that_looks_at_all_cells(seed):
+    """Whatever is placed, joined and taken out in whatever order, the same bricks and steps are blamed."""
+    bricks, moves, temporary = random_order(np.random.default_rng(seed))
+    steps = steps_of(moves, bricks)
+    contacts = building_contacts(Assembly(bricks, CATALOGUE), temporary=temporary)
+    found = walk(steps, Assembly(bricks, CATALOGUE), contacts, temporary=temporary)
+    plain, rows = Plain(steps, bricks, contacts.pairs), list(range(len(moves)))
+    while rows:
+        row, action = rows[0], moves.action[rows[0]]
+        if action == Action.PLACE:
+            plain.place(int(moves.brick[row]), row, bool(moves.pressed[row]))
+        elif action == Action.JOIN:
+            plain.join(int(moves.submodel[row]), row)
+        else:
+            same = [row for row in rows if moves.submodel[row] == moves.submodel[rows[0]]]
+            run = [row for turn, row in enumerate(same) if row == rows[0] + turn]
+            plain.remove(moves.brick[run].tolist(), run)
+            rows = rows[len(run) - 1 :]
+        rows = rows[1:]
+    for name, blamed in plain.faults.items():
+        assert sorted(getattr(found, name).tolist()) == sorted(blamed), name
+    assert found.bad_steps.tolist() == sorted(plain.bad)
+    wrong = {row for row in range(len(bricks)) if (row in plain.placed) == temporary[row]}
+    assert set(found.wrong_end.tolist()) == wrong
+    assert found.n_steps == len(moves)

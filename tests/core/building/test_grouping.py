@@ -6,10 +6,23 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.building.grouping import FEW, LOTS, MANY, group
-from legorize_addon.core.building.items import MOST, REACH, TILE_MOST, Items, span
+from legorize_addon.core.building.grouping import (
+    ASIDE,
+    FEW,
+    HIGHER,
+    LAYER,
+    LOTS,
+    MANY,
+    NEW_LOT,
+    SOON,
+    WAITS,
+    _Grouping,
+    group,
+)
+from legorize_addon.core.building.items import MOST, REACH, TILE_MOST, Atoms, Items, span
 from legorize_addon.core.building.tiles import tiles_of
 from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.progress import silent
 
 
 def items(box, level, *, lot=None, image=None, temporary=None, tile=None, size=None, due=None):
@@ -147,3 +160,112 @@ def test_all_items_once_in_an_order_that_holds(seed):
     assert (turn[before[:, 0]] < turn[before[:, 1]]).all()
     assert max(map(len, found)) <= MOST
     assert max(span(box[step]) for step in found) <= REACH
+
+
+class Plain:
+    """The rules of steps in plain words: one part after the other, one pair of studs after the other."""
+
+    def __init__(self, atoms):
+        self.a, self.done, self.found, self.last = atoms, set(), [], None
+
+    def steps(self):
+        """Return the steps before the small ones are given up."""
+        while len(self.done) < len(self.a):
+            step = self.filled([self.seed()], MANY)
+            ready = self.ready()
+            images = [int(self.a.image[k]) for k in step if self.a.image[k] in ready]
+            if images:
+                self.filled(images, FEW, unpaired=True)
+        return self.found
+
+    def ready(self):
+        """Return what may be next."""
+        return [k for k in range(len(self.a)) if k not in self.done and self.done.issuperset(self.a.below[k])]
+
+    def middle(self, k):
+        """Return twice the middle of a part."""
+        x0, x1, y0, y1 = self.a.box[k].tolist()
+        return x0 + x1, y0 + y1
+
+    def seed(self):
+        """Return what a step begins with."""
+        a, left = self.a, [k for k in range(len(self.a)) if k not in self.done]
+        ready = self.ready() or [min(left, key=lambda k: a.level[k])]
+        due = min(a.due[k] for k in ready)
+
+        def order(k):
+            way = self.last and max(abs(p - q) for p, q in zip(self.middle(k), self.last, strict=True))
+            return not a.temporary[k], a.tile[k], way, sum(self.middle(k)), k
+
+        return min((k for k in ready if a.due[k] == due), key=order)
+
+    def filled(self, begun, enough, *, unpaired=False):
+        """Fill a step."""
+        a, step = self.a, list(begun)
+        self.done |= set(begun)
+        enough = a.most if a.tile[step[0]] else enough
+        while sum(a.size[step]) < enough:
+            costs = {k: self.cost(k, step, unpaired) for k in self.ready()}
+            best = min(costs, key=costs.get, default=None)
+            if best is None or costs[best] == np.inf:
+                break
+            step.append(best)
+            self.done.add(best)
+        self.found.append(step)
+        self.last = tuple(sum(each) / len(step) for each in zip(*map(self.middle, step), strict=True))
+        return step
+
+    def cost(self, k, step, unpaired):
+        """Return how far a part is from belonging to a step, infinite if it does not."""
+        a, first, size = self.a, step[0], sum(self.a.size[step])
+        higher, image = abs(a.level[k] - a.level[first]), int(a.image[k])
+        fits = span(a.box[[*step, k]]) <= REACH and size + a.size[k] <= a.most
+        fits = fits and all(a.image[each] != k for each in step) and not (unpaired and image != NOBODY)
+        fits = fits and a.tile[k] == a.tile[first] and a.temporary[k] == a.temporary[first]
+        layers = LAYER - 1 if size >= FEW else LAYER if size > 1 else 3 * LAYER
+        fits = fits and (a.due[k] <= a.due[first] + SOON if a.temporary[first] else higher <= layers)
+        near = min(max(studs_between(a.box[k], a.box[each])) for each in step)
+        lots = {a.lot[each] for each in step}
+        new = a.lot[k] not in lots
+        if not fits or (size >= FEW and (near > ASIDE or (new and len(lots) >= LOTS))):
+            return np.inf
+        waits = image != NOBODY and image not in self.done and image not in self.ready()
+        return near + NEW_LOT * new + HIGHER * (not a.temporary[first]) * higher + WAITS * waits
+
+
+def studs_between(one, other):
+    """Return how many studs are between two boxes, in x and in y."""
+    for low, high in ((0, 1), (2, 3)):
+        squares = [range(each[low], each[high] + 1) for each in (one, other)]
+        yield max(min(abs(p - q) for p in squares[0] for q in squares[1]) - 1, 0)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.integers(0, 10**6))
+def test_steps_are_those_of_the_plain_rules(seed):
+    """Small parts and large ones, with images, supports, tiles, and some that each wait for the other."""
+    rng = np.random.default_rng(seed)
+    n, wide = int(rng.integers(1, 26)), int(rng.choice([8, 20, 40]))
+    low = rng.integers(0, wide, (n, 2))
+    high = low + rng.integers(0, 5, (n, 2))
+    image = np.full(n, NOBODY)
+    for one, other in rng.permutation(n)[: n // 2 * 2].reshape(-1, 2):
+        if rng.random() < 0.4:
+            image[[one, other]] = other, one
+    level = rng.integers(0, 4, n) * rng.choice([1, 3])
+    pairs = rng.integers(0, n, (n, 2))
+    before = pairs[(level[pairs[:, 0]] < level[pairs[:, 1]]) | (rng.random(n) < 0.05)]
+    made = items(
+        np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1),
+        level,
+        lot=rng.integers(0, rng.choice([1, 3, 12]), n),
+        image=image,
+        temporary=rng.random(n) < rng.choice([0, 0.4]),
+        tile=rng.integers(0, 3, n) * rng.integers(0, 2),
+        size=rng.choice([1, 1, 1, 2, 5], n),
+        due=level + rng.integers(0, 9, n),
+    )
+    atoms = Atoms(made, before.astype(np.int32))
+    grouping = _Grouping(atoms)
+    grouping.steps(silent)
+    assert grouping.found == Plain(atoms).steps()

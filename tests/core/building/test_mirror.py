@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from legorize_addon.core.building.mirror import boxes, mirror_images
+from legorize_addon.core.building.mirror import OFF, SYMMETRIC, boxes, mirror_images
 from legorize_addon.core.model.bricks import NOBODY
 from tests.core.standing import CATALOGUE, table
 
@@ -48,3 +50,41 @@ def test_images_are_mutual():
     """The image of an image is the brick."""
     found = mirror_images(table(*GATE), CATALOGUE)
     assert (found[found] == np.arange(len(found))).all()
+
+
+def plain(bricks):
+    """Try every plane, and look for the image of every brick among all bricks."""
+    outline = boxes(bricks, CATALOGUE).tolist()
+    kind = list(zip(bricks.part.tolist(), bricks.corner[:, 2].tolist(), strict=True))
+    best, most = [NOBODY] * len(bricks), int(SYMMETRIC * len(bricks))
+    for axis in (0, 2):
+        twice = min(box[axis] for box in outline) + max(box[axis + 1] for box in outline)
+        for shift in sorted(range(-OFF, OFF + 1), key=abs):
+            found = []
+            for own, box in zip(kind, outline, strict=True):
+                image = list(box)
+                image[axis : axis + 2] = twice + shift - box[axis + 1], twice + shift - box[axis]
+                same = [k for k, other in enumerate(outline) if other == image and kind[k] == own]
+                found += same or [NOBODY]
+            if len(found) - found.count(NOBODY) > most:
+                best, most = found, len(found) - found.count(NOBODY)
+    return best
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.integers(0, 10**6))
+def test_images_are_those_found_by_looking_at_all_bricks(seed):
+    """Bricks in rows, many of them with an image in x or in y, some without, some outside of the outline's middle."""
+    rng = np.random.default_rng(seed)
+    rows, taken, axis = [], set(), int(rng.integers(2))
+    for _ in range(rng.integers(1, 12)):
+        number, wide, deep = (("3005", 1, 1), ("3004", 2, 1), ("3003", 2, 2))[rng.integers(3)]
+        place = [*rng.integers(-6, 6, 2).tolist(), 3 * int(rng.integers(2))]
+        image = [*place]
+        image[axis] = -place[axis] - (wide, deep)[axis]
+        for x, y, z in [place, image][: 1 + (rng.random() < 0.7)]:
+            cells = {(x + i, y + j, z) for i in range(wide) for j in range(deep)}
+            if not cells & taken:
+                taken |= cells
+                rows.append((number, x, y, z))
+    assert mirror_images(table(*rows), CATALOGUE).tolist() == plain(table(*rows))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 from hypothesis import given, settings
@@ -12,9 +13,10 @@ from legorize_addon.core.building.check import walk
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.items import MOST
 from legorize_addon.core.building.moves import Action
-from legorize_addon.core.building.order import plan_steps
+from legorize_addon.core.building.order import _Writer, plan_steps
 from legorize_addon.core.building.steps import Kind
 from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.contacts import contact_graph
 from tests.core.standing import CATALOGUE, table
 
@@ -116,6 +118,13 @@ def test_pieces_are_joined_before_what_comes_over_them():
     assert told.index(("PLACE", 0, 0)) < joint < told.index(("PLACE", 4, 0))
     assert found.buildable
     assert steps.arrival(len(bricks))[[1, 2]].tolist() == [steps.moves.step[joint]] * 2
+
+
+def test_the_mirror_image_of_a_submodel_is_found_among_others():
+    """It has the images of all bricks and no others."""
+    rows = {1: [0, 1], 2: [2, 3], 3: [5, 4], 4: [4], 5: [6]}
+    planner = SimpleNamespace(image=np.array([4, 5, NOBODY, 6, 0, 1, 3]), all_rows=rows.__getitem__)
+    assert [_Writer(planner)._images(number, list(rows)) for number in rows] == [[3], [], [1], [], []]
 
 
 def test_floating_bricks_come_last():

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from legorize_addon.core.building import tables
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.steps import Kind
-from legorize_addon.core.building.tables import Planner
+from legorize_addon.core.building.tables import Planner, _due, _off_middle
 from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.progress import silent
 from tests.core.standing import CATALOGUE, table
 
@@ -68,3 +72,67 @@ def test_a_small_sub_assembly_is_one_step():
     _, steps = planned(comb(0))
     small = next(each.number for each in steps.submodels if each.kind == Kind.SUBASSEMBLY)
     assert sum(step.submodel == small for step in steps) == 1
+
+
+def told(bricks, monkeypatch):
+    """Return the items of the main table of bricks, those of each item, and the planner."""
+    seen = []
+    monkeypatch.setattr(tables, "_some", lambda items, *_: seen.append(items) or [list(range(len(items)))])
+    gone = np.zeros(len(bricks), bool)
+    pairs = building_contacts(Assembly(bricks, CATALOGUE), temporary=gone).pairs
+    planner = Planner(bricks, CATALOGUE, pairs, gone)
+    planner.plan_pieces(silent)
+    puts = planner.tables[0].steps[0]
+    return seen[-2], [[put.brick] if put.brick != NOBODY else planner.all_rows(put.submodel) for put in puts], planner
+
+
+def test_items_are_what_their_bricks_are(monkeypatch):
+    """Box, lowest plate, number and look of each item, and its image, found brick by brick."""
+    far = [("3005", 20, y, 0) for y in (0, 15)] + [("3003", 22, 7, 0), ("3004", 22, 0, 0), ("3005", 20, 7, 0)]
+    bricks = comb(0, 4, 7, 11, 15)
+    bricks = type(bricks)(*(np.concatenate([getattr(bricks, k), getattr(table(*far), k)]) for k in bricks.__slots__))
+    bricks.colour[16:18] = 15
+    items, members, planner = told(bricks, monkeypatch)
+    assert max(map(len, members)) == 2
+
+    def look(rows):
+        corner = bricks.corner[rows] - bricks.corner[rows].min(axis=0)
+        return sorted(zip(bricks.part[rows].tolist(), bricks.colour[rows].tolist(), corner.tolist(), strict=True))
+
+    for one, rows in enumerate(members):
+        box = planner.box[rows]
+        assert items.box[one].tolist() == [*(box[:, k].min() if k % 2 == 0 else box[:, k].max() for k in range(4))]
+        assert items.level[one] == items.due[one] == bricks.corner[rows, 2].min()
+        assert items.size[one] == len(rows)
+        for other, others in enumerate(members):
+            assert (items.lot[one] == items.lot[other]) == (look(rows) == look(others))
+        images = {int(image) for image in planner.image[rows]}
+        found = [k for k, others in enumerate(members) if images == set(others) and others != rows]
+        assert [items.image[one]] == (found or [NOBODY])
+    assert (items.image != NOBODY).any()
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.integers(0, 10**6))
+def test_ranks_and_levels_are_those_of_plain_sums(seed):
+    """How far bricks lie off the middle, in half studs, x before y; and what supports wait for, through each other."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 12))
+    low = rng.integers(-9, 9, (n, 2))
+    box = np.stack([low[:, 0], low[:, 0] + 1, low[:, 1], low[:, 1] + rng.integers(0, 3, n)], axis=1)
+    middle = [(box[:, k].min() + box[:, k + 1].max()) / 2 for k in (0, 2)]
+    off = [
+        tuple(abs((each[k] + each[k + 1]) / 2 - middle[k // 2]) for k in (0, 2)) for each in box.astype(float).tolist()
+    ]
+    rank = _off_middle(box)
+    assert all((rank[a] < rank[b]) == (off[a] < off[b]) for a in range(n) for b in range(n))
+    level, temporary = np.arange(n) * 3 + rng.integers(0, 2), rng.random(n) < 0.6
+    before = np.unique(np.sort(rng.integers(0, n, (n, 2)), axis=1), axis=0)
+    before = before[before[:, 0] < before[:, 1]]
+
+    def due(row):
+        over = [due(upper) for lower, upper in before.tolist() if lower == row] if temporary[row] else []
+        return min((each for each in over if each is not None), default=None if temporary[row] else int(level[row]))
+
+    expected = [int(level[row]) if due(row) is None else due(row) for row in range(n)]
+    assert _due(level, temporary, before).tolist() == expected

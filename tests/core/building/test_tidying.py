@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from legorize_addon.core.building.items import Atoms, Items
+from legorize_addon.core.building.items import REACH, Atoms, Items, in_turn, span
 from legorize_addon.core.building.tidying import Tidying
 from legorize_addon.core.model.bricks import NOBODY
 
@@ -50,3 +52,71 @@ def test_two_go_together_or_not_at_all():
     atoms = row(20)
     found = Tidying(atoms, [[0, 1, 2, 3, 4], [5, 19]]).steps()
     assert found == [[0, 1, 2, 3, 4], [5, 19]]
+
+
+def plain(atoms, found):
+    """Give up steps of one brick, then of two, then of three: all parts of a step move, or none."""
+    found = [list(step) for step in found]
+
+    def number(atom):
+        return next(k for k, step in enumerate(found) if atom in step)
+
+    def target(atom, own):
+        for far in range(1, len(found)):
+            for k in (own - far, own + far):
+                if not (0 <= k < len(found) and found[k]):
+                    continue
+                step, image = [*found[k], atom], atoms.image[atom]
+                in_order = all(number(each) <= k for each in atoms.below[atom])
+                in_order = in_order and all(number(each) >= k for each in atoms.above[atom])
+                beside = image == NOBODY or abs(number(image) - k) <= 1
+                room = sum(atoms.size[step]) <= atoms.most and span(atoms.box[step]) <= REACH
+                if in_order and beside and room and len(set(atoms.tile[step].tolist())) == 1:
+                    return k
+        return None
+
+    for few in (1, 2, 3):
+        for own in range(len(found)):
+            if not 1 <= sum(atoms.size[found[own]]) <= few:
+                continue
+            kept = [list(step) for step in found]
+            for atom in kept[own]:
+                to = target(atom, own)
+                if to is None:
+                    found[:] = kept
+                    break
+                found[own].remove(atom)
+                found[to].append(atom)
+    return [set(step) for step in found if step]
+
+
+@settings(deadline=None, max_examples=150)
+@given(st.integers(0, 10**6))
+def test_small_steps_are_given_up_by_the_plain_rules(seed):
+    """Whatever the places, sizes, tiles, images and the order: the steps are those of the rules written out."""
+    rng = np.random.default_rng(seed)
+    n, n_steps = int(rng.integers(2, 16)), int(rng.integers(2, 8))
+    step = np.sort(rng.integers(0, n_steps, n))
+    low = rng.integers(0, rng.choice([4, 14, 20]), (n, 2))
+    image = np.full(n, NOBODY)
+    for one, other in rng.permutation(n)[: n // 2 * 2].reshape(-1, 2):
+        if rng.random() < 0.3:
+            image[[one, other]] = other, one
+    level = rng.integers(0, 9, n)
+    pairs = np.sort(rng.integers(0, n, (n // 2, 2)), axis=1)
+    made = Items(
+        box=np.stack([low[:, 0], low[:, 0] + 2, low[:, 1], low[:, 1] + 1], axis=1),
+        level=level,
+        due=level,
+        size=rng.choice([1, 1, 2, 4], n),
+        lot=np.zeros(n, np.int64),
+        temporary=np.zeros(n, bool),
+        image=image,
+        tile=rng.integers(0, 2, n) * rng.integers(0, 2),
+    )
+    atoms = Atoms(made, pairs[pairs[:, 0] < pairs[:, 1]].astype(np.int32))
+    step_of = np.array([step[members[0]] for members in atoms.members])
+    begun = [np.flatnonzero(step_of == k).tolist() for k in range(n_steps)]
+    found = Tidying(atoms, [each for each in begun if each]).steps()
+    assert [set(each) for each in found] == plain(atoms, [each for each in begun if each])
+    assert found == [in_turn(each, atoms.below, atoms.box, atoms.level) for each in found]

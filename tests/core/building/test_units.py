@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from legorize_addon.core.building.blocking import column_pairs
 from legorize_addon.core.building.units import find_units, presses
@@ -41,20 +42,33 @@ def test_what_rests_on_a_unit_comes_after_it():
     assert not found.pressed.any()
 
 
-def test_units_that_each_wait_for_the_other_become_one():
-    """Two hooks that reach under each other's beams can only be put on together, if they hang together."""
-    found = units(
-        ("3003", 0, 0, 0),
-        ("3003", 0, 0, 3),
-        ("3003", 0, 0, 6),
-        ("3010", 0, 0, 9),
-        ("3024", 3, 0, 8),
-        ("3010", 0, 1, 9),
-        ("3024", 3, 1, 8),
-        *(("3003", 0, 6, 3 * k) for k in range(3)),
-    )
+HOOKS = (
+    *(("3003", 0, 0, 3 * k) for k in range(3)),
+    ("3008", 0, 0, 9),
+    ("3008", 0, 1, 9),
+    ("3024", 3, 0, 8),
+    ("3023", 3, 0, 7, 1),
+    ("3024", 2, 1, 8),
+    ("3023", 2, 0, 7, 1),
+)
+"""Two beams; below each hangs a plate that reaches under the other one without touching it."""
+
+
+def test_units_that_each_wait_for_the_other_are_given_up():
+    """Hooks that do not hang together cannot be put on as one: what hangs is pressed from below, what stands is not."""
+    found = units(*HOOKS)
+    assert np.flatnonzero(found.pressed).tolist() == [5, 6, 7, 8]
+    assert groups(found) == [[row] for row in range(9)]
     assert not found.loose.any()
-    assert {frozenset((3, 4)), frozenset((5, 6))} <= {frozenset(group) for group in groups(found)}
+
+
+@pytest.mark.parametrize(("n", "together"), [(28, True), (27, False)])
+def test_units_that_each_wait_for_the_other_become_one(n, together):
+    """Hooks that a plate holds together are one sub-assembly, if it is at most a quarter of all bricks."""
+    across = ("3023", 5, 0, 8, 1)
+    found = units(*HOOKS, across, *(("3003", 0, 6, 3 * k) for k in range(n - 10)))
+    assert (list(range(3, 10)) in groups(found)) == together
+    assert found.pressed.any() != together
 
 
 def test_under_a_piece_it_is_pressed():
