@@ -157,6 +157,15 @@ class BuildState:
         self._group["top_layer"] = top
 
     @property
+    def single_layer(self) -> bool:
+        """Whether only the highest of these layers is shown."""
+        return bool(self._group.get("single_layer", False))
+
+    @single_layer.setter
+    def single_layer(self, single: bool) -> None:
+        self._group["single_layer"] = single
+
+    @property
     def extent(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Lowest and highest corner of the model in mm."""
         extent = self._group["extent"]

@@ -153,6 +153,7 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
         self.layout.use_property_decorate = False
         build = current_build(context.scene)
         self.layout.prop(view, "top_layer", text=f"Top of {state_of(build).layers}")
+        self.layout.prop(view, "single_layer")
         self._draw_building(view, build)
         self.layout.row().prop(view, "section_axis", expand=True)
         if view.section_axis != "none":

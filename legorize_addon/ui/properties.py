@@ -65,7 +65,19 @@ def _top_layer(self: bpy.types.PropertyGroup) -> int:
 def _set_top_layer(self: bpy.types.PropertyGroup, value: int) -> None:
     build = _whole_build(self)
     if build:
-        show_layers(self.id_data, build, max(1, min(value, state_of(build).layers)))
+        top = max(1, min(value, state_of(build).layers))
+        show_layers(self.id_data, build, top, single=state_of(build).single_layer)
+
+
+def _single_layer(self: bpy.types.PropertyGroup) -> bool:
+    build = current_build(self.id_data)
+    return bool(build) and state_of(build).single_layer
+
+
+def _set_single_layer(self: bpy.types.PropertyGroup, value: bool) -> None:
+    build = _whole_build(self)
+    if build:
+        show_layers(self.id_data, build, state_of(build).top_layer, single=value)
 
 
 def _section(self: bpy.types.PropertyGroup) -> Section:
@@ -207,6 +219,12 @@ class LegorizeView(bpy.types.PropertyGroup):
         min=1,
         get=_top_layer,
         set=_set_top_layer,
+    )
+    single_layer: BoolProperty(
+        name="Only this layer",
+        description="Show the top layer alone, without those below it",
+        get=_single_layer,
+        set=_set_single_layer,
     )
     show_sources: BoolProperty(
         name="Show original",

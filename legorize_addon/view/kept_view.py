@@ -9,6 +9,7 @@ import bpy
 
 from ..core.model import Role
 from ..scene import Section, damage, state_of
+from .animation import Animation, animate, animation_of
 from .heat_map import has_margins, heat_map_shown, show_heat_map
 from .highlight import highlight_step, highlighted
 from .steps import explode, exploded, n_steps, steps_done
@@ -25,6 +26,8 @@ class KeptView:
         Whether each role that occurs is shown.
     top_layer : int or None
         Number of layers shown; None for all.
+    single_layer : bool
+        Whether only the highest of these is shown.
     section : Section
         The cut.
     exploded : float
@@ -35,15 +38,19 @@ class KeptView:
         Whether its heat map is shown.
     highlighted : bool
         Whether what was there before the last step is pale.
+    animation : Animation or None
+        When it is put together, if it is.
     """
 
     roles: Mapping[Role, bool]
     top_layer: int | None
+    single_layer: bool
     section: Section
     exploded: float
     steps: int
     heat_map: bool
     highlighted: bool
+    animation: Animation | None
 
     @classmethod
     def of(cls, builds: Sequence[bpy.types.Collection]) -> KeptView | None:
@@ -53,12 +60,14 @@ class KeptView:
                 state = state_of(build)
                 return cls(
                     roles=_wanted_roles(build),
-                    top_layer=state.top_layer if state.top_layer < state.layers else None,
+                    top_layer=state.top_layer if state.top_layer < state.layers or state.single_layer else None,
+                    single_layer=state.single_layer,
                     section=section_of(build),
                     exploded=exploded(build),
                     steps=steps_done(build),
                     heat_map=heat_map_shown(build),
                     highlighted=highlighted(build),
+                    animation=animation_of(build),
                 )
         return None
 
@@ -76,12 +85,14 @@ class KeptView:
             if role in self.roles:
                 show_role(build, role, visible=self.roles[role])
         if self.top_layer is not None:
-            show_layers(scene, build, min(self.top_layer, state_of(build).layers))
+            show_layers(scene, build, min(self.top_layer, state_of(build).layers), single=self.single_layer)
         cut_away(build, self.section)
         if n_steps(build):
             explode(build, self.exploded)
             show_steps(build, min(self.steps, n_steps(build)))
             highlight_step(build, visible=self.highlighted)
+            if self.animation is not None:
+                animate(scene, build, first=self.animation.first, frames=self.animation.frames)
         if self.heat_map and has_margins(build):
             show_heat_map(build, visible=True)
 
@@ -89,6 +100,6 @@ class KeptView:
 def _wanted_roles(build: bpy.types.Collection) -> dict[Role, bool]:
     """Return the roles as the user wants them shown, whatever the building steps show for a while."""
     roles = roles_shown(build)
-    if steps_done(build) and Role.SUPPORT_OUTSIDE in roles:
+    if (steps_done(build) or animation_of(build)) and Role.SUPPORT_OUTSIDE in roles:
         roles[Role.SUPPORT_OUTSIDE] = state_of(build).supports_shown
     return roles

@@ -41,8 +41,8 @@ HIDDEN_KEY: Final = "legorize_hidden"
 """Key, on objects of a hidden role, of how the user had hidden them: in the viewport, in renders."""
 
 
-def show_layers(scene: bpy.types.Scene, build: bpy.types.Collection, top: int) -> None:
-    """Show the lower layers of a build and hide those above, in the viewport and in renders.
+def show_layers(scene: bpy.types.Scene, build: bpy.types.Collection, top: int, *, single: bool = False) -> None:
+    """Show the lower layers of a build, or one of them, and hide the others, in the viewport and in renders.
 
     Parameters
     ----------
@@ -52,9 +52,12 @@ def show_layers(scene: bpy.types.Scene, build: bpy.types.Collection, top: int) -
         The build.
     top : int
         Number of layers to show, from the lowest.
+    single : bool, optional
+        Whether to show only the highest of these.
     """
-    state_of(build).top_layer = top
-    hidden = {layer: layer[LAYER_KEY] >= top for layer in layers_of(build)}
+    state_of(build).top_layer, state_of(build).single_layer = top, single
+    shown = range(top - 1 if single else 0, top)
+    hidden = {layer: layer[LAYER_KEY] not in shown for layer in layers_of(build)}
     # renders look at the whole scene anew. Setting the flags one by one would make the viewport do so too, at once,
     # and the eyes of the outliner, unlike Collection.hide_viewport, do without
     build.children.foreach_set("hide_render", [hidden.get(child, child.hide_render) for child in build.children])

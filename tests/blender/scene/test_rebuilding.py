@@ -14,6 +14,7 @@ from legorize_addon.scene.builds import builds
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import state_of
 from legorize_addon.ui.properties import current_build
+from legorize_addon.view.animation import animation_of
 from legorize_addon.view.heat_map import heat_map_shown
 from legorize_addon.view.visibility import section_of
 from tests.blender.bricks import content, instances
@@ -121,11 +122,11 @@ def test_what_is_shown_stays(table) -> None:
     view = bpy.context.scene.legorize
     view.roles.support_outside, view.roles.shell = True, False
     view.heat_map = True
-    view.top_layer = 5
+    view.top_layer, view.single_layer = 5, True
     view.section_axis, view.section_at, view.section_flip = "x", 0.25, True
     again = build_again(clutch=0.9)
     assert (view.roles.support_outside, view.roles.shell, view.heat_map) == (True, False, True)
-    assert view.top_layer == 5
+    assert (view.top_layer, view.single_layer) == (5, True)
     assert section_of(again) == Section("x", view.section_at, flip=True)
     assert heat_map_shown(again)
     again = build_again(width=4)
@@ -142,6 +143,16 @@ def test_steps_stay(table) -> None:
     assert (view.by_steps, view.step) == (True, 3)
     view.by_steps = False
     assert not view.roles.support_outside
+
+
+def test_animation_stays(table) -> None:
+    """A model that is built in the timeline is so again."""
+    bpy.ops.legorize.build()
+    bpy.ops.legorize.animate(frames=7)
+    again = build_again(clutch=0.9)
+    assert animation_of(again).frames == 7
+    bpy.ops.legorize.stop_animation()
+    assert not bpy.context.scene.legorize.roles.support_outside
 
 
 def test_whole_model_stays_whole(table) -> None:

@@ -124,6 +124,17 @@ def test_top_layer_keeps_to_the_model(view) -> None:
     assert view.top_layer == 1
 
 
+def test_one_layer_alone(view) -> None:
+    """The layers below it are hidden too; the slider then walks through the layers."""
+    build = tower(4)
+    view.top_layer, view.single_layer = 2, True
+    assert [layer.hide_render for layer in layers_of(build)] == [True, False, True, True]
+    view.top_layer = 3
+    assert [layer.hide_render for layer in layers_of(build)] == [True, True, False, True]
+    view.single_layer = False
+    assert [layer.hide_render for layer in layers_of(build)] == [False, False, False, True]
+
+
 def test_section_keeps_to_its_build(view) -> None:
     """The cut is kept with the build: another build has its own, and the panel shows that of its build."""
     first = show(table([(0, x, 0, 0, 0, 4) for x in range(10)]), name="a")
