@@ -83,8 +83,8 @@ except ModuleNotFoundError as missing:
     )
     sys.exit(1)
 
-SIZES: Final = ("size_by", "width", "height", "scale")
-"""Settings that exclude each other; each of the last three also chooses itself in the first."""
+SIZES: Final = ("size_by", "width", "height", "scale", "parts", "budget")
+"""Settings that exclude each other; each of the others also chooses itself in the first."""
 
 IN_PICTURE: Final = ("view", "section", "outlines", "heat_map", "explode", "show_supports")
 """Flags that only change the picture."""

@@ -52,6 +52,7 @@ ORDER: Final = (
     "core.report",
     "core.part_choice",
     "core.stages",
+    "core.fitting",
     "core.pipeline",
     "core",
     "scene",

@@ -125,7 +125,7 @@ def test_only_the_pipeline_knows_the_order() -> None:
     for name, tree in trees(sorted(CORE.rglob("*.py"))):
         used = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level}
         assert "pipeline" not in used, name
-        names = ("pipeline", "stages", "build", "estimate", "part_choice", "settings_file")
+        names = ("pipeline", "stages", "build", "estimate", "part_choice", "fitting", "settings_file")
         readers = tuple(f"core/{each}.py" for each in names)
         assert "settings" not in used or name.endswith(readers), name
 
@@ -134,7 +134,10 @@ def test_every_setting_is_used() -> None:
     """No setting that neither the stages nor the estimate before them read."""
     [(_, settings)] = trees([CORE / "settings.py"])
     readers = [
-        tree for _, tree in trees([CORE / f"{name}.py" for name in ("pipeline", "stages", "part_choice", "estimate")])
+        tree
+        for _, tree in trees(
+            [CORE / f"{name}.py" for name in ("pipeline", "stages", "part_choice", "fitting", "estimate")]
+        )
     ]
     [fields] = [node.body for node in settings.body if isinstance(node, ast.ClassDef) and node.name == "Settings"]
     names = {node.target.id for node in fields if isinstance(node, ast.AnnAssign)}

@@ -35,6 +35,15 @@ _FLAT: Final = 0.999
 
 _MM_PER_CM: Final = 10.0
 
+COUNTED: Final = ("parts", "budget")
+"""Ways to set the size by what a model comes to."""
+
+_USUAL_PRICE: Final = 0.1
+"""Of a part in whatever currency: a brick costs some 0.1 dollars or euros. It only decides where a search begins."""
+
+_FINE: Final = 1.01
+"""Factor between scales below which they count as one."""
+
 _ENDLESS: Final = 1e6
 """Seconds from which the expected time is not shown any more."""
 
@@ -121,6 +130,8 @@ def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
         The mesh has no extent along the side that should get the given size.
     """
     mesh = turn_mesh(mesh, settings.up)
+    if settings.size_by in COUNTED:
+        settings = counted_size(mesh, replace(settings, up="auto"))
     extent = np.ptp(checked_vertices(mesh), axis=0)
     scale = scale_of_extent(
         extent, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale
@@ -149,6 +160,33 @@ def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
         megabytes=_MEGABYTES.of(of_build),
         stages=_stages(of_build, settings),
     )
+
+
+def counted_size(mesh: TriangleMesh, settings: Settings) -> Settings:
+    """Return settings with the scale at which a model may have the number of parts, or the price, that was asked for.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        As read, in world mm.
+    settings : Settings
+        Its size is set by parts or by a budget.
+
+    Returns
+    -------
+    Settings
+        Its size is set by the scale. Without knowing prices, a part is taken to cost a tenth.
+    """
+    wanted = settings.parts if settings.size_by == "parts" else max(settings.budget / _USUAL_PRICE, 1.0)
+    low, high = 1e-4, 1e6
+    # the estimate never falls as the scale grows
+    while high / low > _FINE:
+        middle = math.sqrt(low * high)
+        if estimate(mesh, replace(settings, size_by="scale", scale=middle)).bricks < wanted:
+            low = middle
+        else:
+            high = middle
+    return replace(settings, size_by="scale", scale=low)
 
 
 def check_limits(expected: Estimate, settings: Settings) -> None:

@@ -7,7 +7,8 @@ from functools import partial
 from .build import Build
 from .building import Proof, prove_steps
 from .errors import enough_memory
-from .estimate import check_limits, estimate
+from .estimate import COUNTED, check_limits, estimate
+from .fitting import fit
 from .layout import recolour_visible
 from .layout.joining import add_ties
 from .mesh import TriangleMesh
@@ -60,6 +61,8 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     LegorizeError
         The mesh or the settings cannot be used, in one sentence.
     """
+    if settings.size_by in COUNTED:
+        return watched(partial(fit, mesh, settings, _legorize), progress)
     return watched(partial(_legorize, mesh, settings), progress)
 
 

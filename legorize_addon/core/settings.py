@@ -60,7 +60,7 @@ class Settings:
     """What a user can choose. Wrong values are refused with one sentence."""
 
     # fmt: off
-    size_by: Literal["width", "height", "scale"] = setting(
+    size_by: Literal["width", "height", "scale", "parts", "budget"] = setting(
         "width", "Which of the numbers below sets the size of the model.", group="Size")
     width: int = setting(
         48, "Studs along the longer horizontal side.", group="Size", low=1, high=1000)
@@ -69,6 +69,12 @@ class Settings:
     scale: float = setting(
         10.0, "Scale factor: 10 keeps the object's own size, 5 halves it (k in section 3 of the paper).",
         group="Size", low=1e-4, high=1e6)
+    parts: int = setting(
+        1000, "Largest number of parts: the model becomes as large as it can, which takes several builds; temporary "
+        "supports do not count.", group="Size", low=1, high=1_000_000)
+    budget: float = setting(
+        50.0, "Largest price of the model and its supports, in the currency of the price file: the model becomes as "
+        "large as it can, which takes several builds.", group="Size", low=0.01, high=1e6)
     up: Literal["auto", "x", "y", "z"] = setting(
         "auto", "Axis of the object that points up; auto keeps the object as it is in Blender, and decides by the "
         "shape for files that do not say (.obj, .ply, .stl).", group="Size")
