@@ -153,7 +153,7 @@ class _Search:
             power = math.log(near[0][1] / near[1][1]) / math.log(near[0][0] / near[1][0])
         # counts that hardly change, or fall, say nothing of the power
         power = min(max(power, _POWER[0]), _POWER[1])
-        scale *= min(max((aim / found) ** (1 / power), 1 / _STEP), _STEP)
+        scale *= min(max(math.exp(math.log(aim / found) / power), 1 / _STEP), _STEP)
         while any(abs(math.log(scale / known)) < math.log(_BESIDE) / 2 for known, _ in self._known):
             scale *= _BESIDE if aim > found else 1 / _BESIDE
         return scale
