@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from legorize_addon.core.building.items import MOST, TILE_MOST, Atoms, Items, in_turn, span
+from legorize_addon.core.building.items import MOST, REACH, TILE_MOST, Atoms, Items, in_turn, span
 from legorize_addon.core.model.bricks import NOBODY
 
 NONE = np.zeros((0, 2), np.int32)
@@ -59,3 +61,39 @@ def test_lowest_first_unless_something_waits():
     level = np.array([0, 0, 3])
     assert in_turn([2, 1, 0], [[], [], []], box, level) == [1, 0, 2]
     assert in_turn([2, 1, 0], [[], [2], []], box, level) == [0, 2, 1]
+
+
+@settings(deadline=None, max_examples=80)
+@given(st.integers(0, 10**6))
+def test_atoms_are_pairs_that_lie_in_one_picture(seed):
+    """Each two items that are images of each other are looked at: places, levels, tiles and numbers of bricks."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 12))
+    low = rng.integers(0, [24, 24], (n, 2)) // rng.choice([1, 3], 2)
+    image = np.full(n, NOBODY)
+    for one, other in rng.permutation(n)[: n // 2 * 2].reshape(-1, 2):
+        image[[one, other]] = other, one
+    level, size, tile = rng.integers(0, 2, n) // 2 * 3, rng.choice([1, 1, 1, 2], n), rng.integers(0, 2, n) // 2
+    level[0] = tile[-1] = 1
+    box = np.stack([low[:, 0], low[:, 0] + 2, low[:, 1], low[:, 1] + 1], axis=1)
+    lot, temporary = np.zeros(n, np.int64), np.zeros(n, bool)
+    pairs = np.sort(rng.integers(0, n, (n, 2)), axis=1)
+    before = pairs[pairs[:, 0] < pairs[:, 1]]
+    atoms = Atoms(Items(box, level, level, size, lot, temporary, image, tile), before.astype(np.int32))
+    expected = set()
+    for one, other in enumerate(image.tolist()):
+        both = [one, other]
+        near = other != NOBODY and span(box[both]) <= REACH and max(size[both]) == 1
+        joined = near and level[one] == level[other] and tile[one] == tile[other]
+        expected.add(tuple(sorted(both)) if joined else (one,))
+    assert {tuple(each) for each in atoms.members} == expected
+    number = {item: k for k, each in enumerate(atoms.members) for item in each}
+    for k, each in enumerate(atoms.members):
+        own = box[each]
+        assert atoms.box[k].tolist() == [own[:, 0].min(), own[:, 1].max(), own[:, 2].min(), own[:, 3].max()]
+        assert atoms.size[k] == size[each].sum()
+        alone = len(each) == 2 or image[each[0]] == NOBODY
+        assert atoms.image[k] == (NOBODY if alone else number[int(image[each[0]])])
+    links = {(number[one], number[other]) for one, other in before.tolist()}
+    links = {link for link in links if link[0] != link[1]}
+    assert {(below, k) for k in range(len(atoms)) for below in atoms.below[k]} == links

@@ -243,7 +243,7 @@ def _solved(problem: Problem, touches: Mask, home: Ints, loose: int) -> Index | 
         share = _cheapest(problem.cost + _ALONE * alone, constraints)
         if share is None:
             return None
-        chosen = np.flatnonzero(share > 0.5)
+        chosen = np.flatnonzero(np.rint(share))
     return None
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..problem import Candidates, Index, Problem, dominated
 from . import linear
-from .covering_lp import WHOLE, shares, whole_shares
+from .covering_lp import shares, whole_shares
 from .linear import dive
 
 _NODES: Final = 200
@@ -56,5 +56,5 @@ def cover(problem: Problem, rng: np.random.Generator) -> Index:
         part = candidates.only(group[candidates.rows] == number)
         whole = whole_shares(part, required, cost[part.rows], _NODES)
         if whole is not None and whole @ cost[part.rows] < spent[number] - _LEAST_GAIN:
-            laid = np.concatenate([laid[group[laid] != number], part.rows[whole > WHOLE]])
+            laid = np.concatenate([laid[group[laid] != number], part.rows[whole.astype(bool)]])
     return laid

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from legorize_addon.core.layout.joining.cutting import Bench, Laid, Seam
 from legorize_addon.core.layout.lay import lay, lay_unjoined
 from legorize_addon.core.layout.problem.problem import owners
+from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY
 from tests.core.layout.cells import CATALOGUE, RED, WHITE, grid_of
@@ -121,3 +124,65 @@ def test_what_lies_around_a_seam():
     assert bench.over_and_under(Seam(3, ((0, 0), (1, 0)))) == [0]
     assert bench.over_and_under(Seam(5, ((0, 0), (1, 0)))) == [1]
     assert bench.over_and_under(Seam(4, ((0, 0), (1, 0)))) == []
+
+
+def test_forms_differ():
+    """No two forms of a height cover the same squares: what is turned and the same again is left out."""
+    for height in (1, 3):
+        squares = [frozenset(form.squares) for form in block().forms.made(height, RED)]
+        assert len(set(squares)) == len(squares)
+        assert {frozenset((y, x) for x, y in each) for each in squares} >= {each for each in squares if len(each) != 3}
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=40, deadline=None)
+def test_what_lies_where_is_found_cell_by_cell(seed):
+    """Open faces, what a tie reaches, where forms fit, and what holds after a cut, at a place in a random layout."""
+    rng = np.random.default_rng(seed)
+    cells = rng.choice([COLOUR_EMPTY, RED, RED], (2, 3, 3, 4))
+    cells[0, 0, 0, 0] = RED
+    bench = bench_of(cells)
+    there = np.pad(cells.reshape(6, 3, 4) != COLOUR_EMPTY, 1)
+    z, y, x = (int(rng.integers(most)) for most in (6, 3, 4))
+    around = [there[z + 1 + i, y + 1 + j, x + 1 + k] for i, j, k in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    around += [there[z + 1 - i, y + 1 - j, x + 1 - k] for i, j, k in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    if there[z + 1, y + 1, x + 1]:
+        assert bench.open_faces(z, (x, y)) == 6 - sum(around)
+    squares = {(int(a), int(b)) for a, b in rng.integers(0, 4, (9, 2))}
+    through = min(squares)
+    expected = {
+        (form, (through[0] - a, through[1] - b))
+        for form in bench.forms.made(1, RED)
+        for a, b in form.squares
+        if {(through[0] - a + i, through[1] - b + j) for i, j in form.squares} <= squares
+    }
+    found = list(bench.forms.within(squares, through, 1, RED))
+    assert set(found) == expected
+    sizes = [len(form.squares) for form, _ in found]
+    assert sizes == sorted(sizes, reverse=True)
+    seam = Seam(z, ((x, y), (x - 1, y) if x else (x, (y + 1) % 3)))
+    tie = plate(bench, {(x, y)}, z)
+    at = {end: {level: bool(there[level + 1, end[1] + 1, end[0] + 1]) for level in range(-1, 7)} for end in seam.ends}
+    assert bench.reaches(tie, seam) == all(near[z] or near[z - 1] or near[z + 1] for near in at.values())
+    numbers = [bench.at(z, (x, y))] if bench.at(z, (x, y)) != NOBODY else []
+    pieces = bench.cut(numbers, tie)
+    if pieces is not None:
+        assert bench.holds([tie, *pieces]) == held([tie, *pieces], bench)
+
+
+def held(pieces, bench):
+    """Tell whether pieces and all bricks that they touch are one, through the pieces alone."""
+    of_cell = {(piece.level, *square): k for k, piece in enumerate(pieces) for square in piece.squares}
+    links = {(k, k) for k in range(len(pieces))}
+    for (level, x, y), k in of_cell.items():
+        for step in (-1, 1):
+            other = of_cell.get((level + step, x, y))
+            number = bench.at(level + step, (x, y))
+            if other is not None:
+                links.add((k, other))
+            elif number != NOBODY:
+                links.add((k, len(pieces) + number))
+    nodes, joined = {node for link in links for node in link}, {0}
+    while more := {node for link in links if set(link) & joined for node in link} - joined:
+        joined |= more
+    return joined == nodes

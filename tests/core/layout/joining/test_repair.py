@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import replace
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.layout.joining.repair import connect_loose
+from legorize_addon.core.layout.joining.repair import _REACH, _Cells, _near, _offers, connect_loose
+from legorize_addon.core.layout.problem.placements import placements
+from legorize_addon.core.layout.problem.problem import with_margins
 from legorize_addon.core.layout.problem.shapes import shapes
 from legorize_addon.core.layout.problem.sheets import split
 from legorize_addon.core.layout.problem.table import gather
@@ -104,3 +107,52 @@ def test_repair_keeps_the_cover(seed):
     before = singles(grid)
     links = assert_covers(held(before, grid), grid)
     assert links.n_floating <= contact_graph(before, CATALOGUE).n_floating
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=40, deadline=None)
+def test_offers_are_the_placements_through_loose_cells(seed):
+    """Each is worth 3.5 bricks a component that it joins to another; chance decides only if there are too many."""
+    rng = np.random.default_rng(seed)
+    grid = brick_grid(rng.choice([COLOUR_EMPTY, RED, RED], (1, 4, 5)))
+    sheets = next(iter(split(grid)), None)
+    if sheets is None:
+        return
+    found = placements(sheets, shapes(CATALOGUE, 3, np.array([RED]), 71))
+    labels = rng.choice([-1, -1, 0, 0, 1, 2, 3], (3, len(sheets.cells)))
+    all_of = [found.cells[found.start[row] : found.start[row + 1]] for row in range(len(found))]
+    expected = [row for row, cells in enumerate(all_of) if (labels[:, cells] > 0).any()]
+    most = max(len(expected) + int(rng.integers(-3, 2)), 1)
+    before = deepcopy(rng)
+    rows, reward = _offers(found, labels.astype(np.int32), most, rng)
+    assert len(rows) == min(most, len(expected))
+    assert set(rows.tolist()) <= set(expected)
+    assert (np.diff(rows) > 0).all()
+    assert (rng.random() == before.random()) == (len(expected) <= most)
+    joins = [len(set(labels[:2, all_of[row]].ravel().tolist()) - {-1}) for row in rows]
+    assert reward.tolist() == [3.5 * max(each - 1, 0) for each in joins]
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=30, deadline=None)
+def test_cells_near_loose_ones_and_planes_that_they_reach(seed):
+    """Near is what is eight studs away at most; a plane is reached if a loose brick is in it."""
+    rng = np.random.default_rng(seed)
+    loose = rng.random((2, 12, 25)) < rng.choice([0, 0.01, 0.03])
+    places = np.argwhere(loose)
+    sheet, y, x = np.indices(loose.shape)
+    near = np.zeros(loose.shape, bool)
+    for k, b, a in places:
+        near |= (sheet == k) & (np.abs(y - b) <= _REACH) & (np.abs(x - a) <= _REACH)
+    np.testing.assert_array_equal(_near(loose), near)
+    grid = brick_grid(rng.choice([COLOUR_EMPTY, RED], (4, 2, 3)))
+    bricks = singles(grid)
+    if not len(bricks):
+        return
+    links, required = contact_graph(bricks, CATALOGUE), with_margins(grid.cover == Fill.REQUIRED, False)
+    loose = rng.random(links.n_components)[links.component] < 0.3
+    cells = _Cells.of(bricks, links, required, loose, CATALOGUE)
+    planes = {1 + z + k for z in bricks.corner[loose, 2].tolist() for k in range(3)}
+    assert set(np.flatnonzero(cells.reached).tolist()) == planes
+    assert cells.n_loose == loose.sum()
+    assert cells.label.tolist() == [*np.where(loose, links.component + 1, 0).tolist(), -1, -1]

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import ndimage
 
+from legorize_addon.core.layout.joining import ties
 from legorize_addon.core.layout.joining.cutting import Bench, Seam
 from legorize_addon.core.layout.joining.ties import add_ties, tie_seam
 from legorize_addon.core.layout.lay import lay_unjoined
@@ -308,3 +312,80 @@ def test_same_input_same_bricks(plates):
     one, other = (add_ties(bricks, grid, CATALOGUE, plates=plates)[0] for _ in range(2))
     np.testing.assert_array_equal(one.corner, other.corner)
     np.testing.assert_array_equal(one.part, other.part)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_what_hangs_on_a_joint_is_the_smaller_side(seed):
+    """Of a forest, each joint is taken away, and the bricks on both sides are counted."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(2, 12))
+    joints = [sorted((int(rng.integers(node)), node)) for node in range(1, n) if rng.random() < 0.8]
+    joints = np.array(rng.permutation(joints), np.int32).reshape(-1, 2)
+    size = rng.integers(1, 9, n)
+
+    def side(start, left):
+        found = {start}
+        while more := {node for joint in left if set(joint) & found for node in joint} - found:
+            found |= more
+        return int(size[list(found)].sum())
+
+    for row, (one, other) in enumerate(joints.tolist()):
+        left = np.delete(joints, row, axis=0).tolist()
+        assert ties._hanging(joints, size)[row] == min(side(one, left), side(other, left))
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_more_ties_are_the_next_places_of_a_joint(seed):
+    """Of the places after it: one that is free for each 6 bricks, up to 6; one that is dear for 40, less the free."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 40))
+    price = np.sort(rng.choice([-0.1, 0.5, 0.6, 5.0, 10.5, 10.6, 11.0], n))
+    pairs, joint = rng.integers(0, 2, (n, 2)), int(rng.integers(n))
+    bricks = int(rng.choice([0, 5, 6, 11, 12, 35, 36, 39, 40, 45, 79, 80, 300]))
+    same = [row for row in range(joint + 1, n) if sorted(pairs[row]) == sorted(pairs[joint])]
+    free = [row for row in same if price[row] < 0.6][: min(bricks // 6, 6)]
+    dear = [row for row in same if 0.6 <= price[row] < 10.6]
+    expected = free + dear[: min(max(bricks // 40 - len(free), 0), 1)]
+    assert list(ties._more(SimpleNamespace(price=price), pairs, [joint], [bricks])) == (expected if bricks >= 6 else [])
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_ties_offered_at_a_seam_are_all_that_there_are_in_order(seed):
+    """Every form at every place is tried; in the order, fewest wrong squares, least seen, then most to rest on."""
+    rng = np.random.default_rng(seed)
+    cells = np.full((2, 3, 3, 5), COLOUR_EMPTY)
+    cells[:, :, :, :] = rng.choice([COLOUR_EMPTY, 0, RED, RED], (3, 5))
+    cells[0, :, 0, 0] = RED
+    cells[rng.integers(2), rng.integers(3)] = COLOUR_EMPTY
+    grid = grid_of(cells)
+    bricks = laid(grid)
+    colour = with_margins(grid.colour, COLOUR_EMPTY)
+    bench = Bench(bricks, owners(contact_graph(bricks, CATALOGUE), colour.shape), CATALOGUE)
+    level, y, x = (int(rng.integers(most)) for most in (6, 3, 4))
+    seam, most_wrong = Seam(level, ((x, y), (x + 1, y))), int(rng.integers(3))
+    ends = [bench.at(level, end) for end in seam.ends]
+    cut = sorted({number for number in ends if number != NOBODY})
+    beside = [bench.laid[number] for number in cut or bench.over_and_under(seam)]
+    sides = [{end}.union(*(each.squares for each in beside if end in each.squares and cut)) for end in seam.ends]
+    found = ties._ties(bench, seam, cut, colour, 1, most_wrong)
+    expected = {}
+    for code in {each.colour for each in beside}:
+        for form in bench.forms.made(1, code):
+            for corner in [(a, b) for a in range(-3, 6) for b in range(-3, 4)]:
+                squares = {(corner[0] + a, corner[1] + b) for a, b in form.squares}
+                inside = [(a, b) for a, b in squares if 0 <= a < 5 and 0 <= b < 3]
+                if not (set(seam.ends) <= squares <= sides[0] | sides[1]):
+                    continue
+                wrong = [each for each in inside if colour[level + 1, each[1], each[0]] not in (code, COLOUR_EMPTY)]
+                around = [bench.at(level + step, each) for each in inside for step in (-1, 1)]
+                if len(wrong) <= most_wrong and (not wrong or set(around) != {NOBODY}):
+                    faces = sum(bench.open_faces(level, each) for each in wrong)
+                    rests = min(len(squares & side) for side in sides)
+                    expected[form, corner, code] = (len(wrong), faces, -rests, -len(squares), corner)
+    assert sorted(expected) == sorted((tie.form, tie.corner, tie.colour) for tie in found)
+    ranks = [expected[tie.form, tie.corner, tie.colour] for tie in found]
+    assert all(one <= other for one, other in pairwise(ranks))
+    assert {tie.level for tie in found} <= {level}

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from legorize_addon.core.layout.joining import windows
 from legorize_addon.core.layout.joining.windows import join_by_windows
 from legorize_addon.core.layout.lay import FILLER
 from legorize_addon.core.layout.problem.shapes import shapes
@@ -91,3 +93,58 @@ def test_windows_never_make_it_worse(seed):
         len(footprint(CATALOGUE.parts[part], int(turn))) for part, turn in zip(found.part, found.turn, strict=True)
     )
     assert cells == grid.solid[:, 0].sum()
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_windows_are_judged_as_the_whole_model_is(seed):
+    """Whether a window is better, which is told from what lies around it, agrees with the graph of all bricks."""
+    rng = np.random.default_rng(seed)
+    grid = brick_grid(rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, BLUE], (3, 4, 5), p=[0.3, 0.1, 0.4, 0.2]))
+    if not grid.solid.any():
+        return
+    judged, better, relaid = [], windows._better, windows._relaid
+
+    def tell(model, *rest):
+        judged.append((model, better(model, *rest)))
+        return True
+
+    def compared(model, *rest):
+        del judged[:]
+        bricks = relaid(model, *rest)
+        if judged:
+            after, before = contact_graph(bricks, CATALOGUE), model.links
+            gain = (after.n_floating, after.n_components) < (before.n_floating, before.n_components)
+            assert judged[0][1] == gain
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(windows, "_TRIES", (4, 10**6))
+        patched.setattr(windows, "_better", tell)
+        patched.setattr(windows, "_relaid", compared)
+        joined(grid, single_studs(grid))
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_cuts_are_the_placements_that_would_join_what_is_torn(seed):
+    """Sets of components that bricks hold together, one by one: torn ones, and the loose one alone, need one more."""
+    rng = np.random.default_rng(seed)
+    k, n = int(rng.integers(1, 6)), int(rng.integers(1, 8))
+    touches = rng.random((k, n)) < 0.3
+    chosen = np.flatnonzero(rng.random(n) < 0.5)
+    home, loose = rng.integers(0, 3, k), int(rng.integers(3))
+    groups = [{each} for each in range(k)]
+    for brick in chosen:
+        held = [group for group in groups if touches[list(group), brick].any()]
+        groups = [group for group in groups if group not in held] + ([set().union(*held)] if held else [])
+    assert windows._joined(touches[:, chosen]).tolist() == [
+        next(min(group) for group in groups if each in group) for each in range(k)
+    ]
+    expected = []
+    for group in sorted(groups, key=min):
+        inside = {int(home[each]) for each in group}
+        others = {int(home[each]) for each in range(k) if each not in group}
+        if inside & others or inside == {loose}:
+            ends = [(touches[list(group), j].any(), np.delete(touches[:, j], list(group)).any()) for j in range(n)]
+            expected.append([float(one and other) for one, other in ends])
+    assert windows._cuts(touches, chosen, home, loose).tolist() == expected

@@ -9,6 +9,7 @@ import pytest
 
 from legorize_addon.core.errors import BuildError
 from legorize_addon.core.layout.lay import lay
+from legorize_addon.core.layout.learning import own_samples
 from legorize_addon.core.layout.learning.own_samples import EACH, learn_more, learned_table, samples_text, version_of
 from legorize_addon.core.layout.learning.sample_file import MOST_SAMPLES
 from legorize_addon.core.layout.learning.svm import LEVELS, NO_EXCHANGES, read, shipped
@@ -86,6 +87,22 @@ def test_a_full_file_is_not_learned_on(model):
     full = "\n".join([*table, *(rows * 20)[: MOST_SAMPLES - len(rows)]])
     with pytest.raises(BuildError, match=f"full with {MOST_SAMPLES} samples"):
         learn_more(full, [model], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
+
+
+@pytest.mark.parametrize(("name", "room"), [("MOST_SAMPLES", 20 + EACH), ("MOST_MODELS", 6)])
+def test_a_file_is_filled_up_to_its_limits(model, monkeypatch, name, room):
+    """Twenty samples of five models and those of one more fit just in; with room for one less they do not."""
+    rows = [f"{number},{pays},0,{number + 4},{pays},2" for number in range(5) for pays in (0, 1, 0, 1)]
+    text = "\n".join(["# C: 1.0", "# gamma: 1.0", *rows])
+
+    def drawn(*_):
+        raise InterruptedError("it fits")
+
+    monkeypatch.setattr(own_samples, "samples_of", drawn)
+    for limit, told in ((room, InterruptedError), (room - 1, BuildError)):
+        monkeypatch.setattr(own_samples, name, limit)
+        with pytest.raises(told, match=r"it fits|full with 20 samples"):
+            learn_more(text, [model], CATALOGUE, np.random.default_rng(0), names=["one"], version=2)
 
 
 def test_folds_of_one_kind_can_be_judged(model):

@@ -11,7 +11,7 @@ import pytest
 
 from legorize_addon.core.errors import BuildError, SettingsError
 from legorize_addon.core.layout.learning.own_samples import learned_table, samples_text
-from legorize_addon.core.layout.learning.sample_file import MOST_BYTES, MOST_SAMPLES
+from legorize_addon.core.layout.learning.sample_file import MOST_BYTES, MOST_SAMPLES, _shown
 from legorize_addon.core.layout.learning.svm import LEVELS, Machine, read, table_of
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
@@ -187,3 +187,9 @@ def test_a_wrong_file_is_refused_before_the_work(layout: str, learned: bool, pat
     with pytest.raises(SettingsError, match="learned_from"):
         legorize(box(), chosen, lambda stage, _: begun.append(stage))
     assert not begun
+
+
+@pytest.mark.parametrize(("length", "shown"), [(19, "x" * 19), (20, "x" * 20), (21, "x" * 17 + "...")])
+def test_long_values_are_cut_to_twenty_characters(length, shown):
+    """A value from a file is shown whole if it is short."""
+    assert _shown("x" * length) == repr(shown)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from legorize_addon.core.layout.solvers.bond import running_bond
+from legorize_addon.core.layout.solvers.bond import _WORTH, running_bond
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill
 from tests.core.layout.cells import RED, WHITE, problem_of, ring
 
 
@@ -56,3 +59,37 @@ def test_parts_of_the_bond_share_no_cell(side):
     found = problem.placements
     cells = found.cells[found.entries(running_bond(problem))]
     assert len(np.unique(cells)) == len(cells)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_the_bond_is_the_best_of_all_lattices(seed):
+    """All ways to begin rows of the longest part, along x and y, are laid out in each colour: none is worth more."""
+    rng = np.random.default_rng(seed)
+    colour = np.full((int(rng.integers(5, 15)), int(rng.integers(5, 20))), RED)
+    colour[:, int(rng.integers(1, 20)) :] = WHITE
+    colour[rng.random(colour.shape) < rng.choice([0, 0.01])] = COLOUR_EMPTY
+    cover = np.where(rng.random(colour.shape) < 0.01, Fill.OPTIONAL, Fill.REQUIRED)
+    problem = problem_of(colour, np.where(colour == COLOUR_EMPTY, Fill.EMPTY, cover))
+    found, rows = problem.placements, running_bond(problem)
+    deep = np.zeros(colour.shape, bool)
+    for y, x in np.ndindex(*colour.shape):
+        around = np.s_[max(y - 2, 0) : y + 3, max(x - 2, 0) : x + 3]
+        whole = colour[around].shape == (5, 5) and len(set(colour[around].ravel().tolist())) == 1
+        deep[y, x] = whole and colour[y, x] != COLOUR_EMPTY and (cover[around] == Fill.REQUIRED).all()
+    for code in (RED, WHITE):
+        parts = {}
+        for row in np.flatnonzero(found.colour == code).tolist():
+            (x, y, _), (a, b) = found.corner[row].tolist(), problem.shapes.extent[found.shape[row]].tolist()
+            if deep[y : y + b, x : x + a].all() and min(a, b) == 2 and a * b == found.size[row]:
+                parts.setdefault(max(a, b), []).append((row, (x, y), int(b > a)))
+        length, worth = max(parts, default=0), {}
+        for row, place, along in parts.get(length, ()):
+            line, start = divmod(place[1 - along], 2)
+            begin = (place[along] + line * (length // 2)) % length
+            worth.setdefault((along, start, begin), []).append((_WORTH - problem.cost[row], row))
+        best = max((sum(each[0] for each in rest) for rest in worth.values()), default=0)
+        mine = sorted(row for row in rows.tolist() if found.colour[row] == code)
+        lattices = [sorted(row for _, row in rest) for rest in worth.values()]
+        assert mine in lattices if worth else mine == []
+        assert sum(_WORTH - problem.cost[mine]) == pytest.approx(best)
