@@ -47,6 +47,7 @@ ORDER: Final = (
     "core.instructions",
     "core.files.sources",
     "core.files",
+    "core.ldraw",
     "core.estimate",
     "core.build",
     "core.report",

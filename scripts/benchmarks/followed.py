@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from legorize_addon.core.files.ldraw import read_ldr
+from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.catalogue import Catalogue, footprint
 
 Cell = tuple[int, int, int]
@@ -100,7 +100,7 @@ def _floors(rows: list[dict[str, str]], places: dict[str, list[Cell]]) -> dict[s
 
 def _cells(lines: list[str], catalogue: Catalogue) -> dict[str, list[Cell]]:
     """Return the cells of each line's brick."""
-    bricks = read_ldr("\n".join(lines), catalogue)
+    bricks = read_ldraw("\n".join(lines), catalogue).bricks
     found = {}
     for line, part, corner, turn in zip(lines, bricks.part, bricks.corner.tolist(), bricks.turn, strict=True):
         x, y, z = corner

@@ -23,7 +23,7 @@ import pytest
 
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.files import folder
-from legorize_addon.core.files.ldraw import read_ldr
+from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shopping.formats import FORMATS
@@ -128,7 +128,7 @@ def test_every_kind_of_file(kind: str, script: ModuleType, tmp_path: Path) -> No
     assert facts["failed_checks"] == []
     if kind not in (".ply", ".stl"):
         catalogue = load_catalogue()
-        bricks = read_ldr((tmp_path / "out" / "model.ldr").read_text(), catalogue)
+        bricks = read_ldraw((tmp_path / "out" / "model.ldr").read_text(), catalogue).bricks
         assert set(facts["counts"]["by_colour"]) == {str(RED), str(WHITE)}
         # half of the face on top of one white brick is red: rounding decides about a plate there
         assert np.ptp(bricks.corner[bricks.colour == RED, 2]) in (2 * 3, 2 * 3 + 2)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .blocking import column_pairs, tangled
     from .check import Walk, walk
     from .contacts import BuildingContacts, building_contacts
+    from .given import given_steps
     from .order import plan_steps, steps_of
     from .proof import Proof, prove_steps
     from .towers import STEADY, Tipping, no_prop, tipping
@@ -26,6 +27,7 @@ else:
         blocking=("column_pairs", "tangled"),
         check=("Walk", "walk"),
         contacts=("BuildingContacts", "building_contacts"),
+        given=("given_steps",),
         order=("plan_steps", "steps_of"),
         proof=("Proof", "prove_steps"),
         towers=("STEADY", "Tipping", "no_prop", "tipping"),
@@ -48,6 +50,7 @@ __all__ = [
     "Walk",
     "building_contacts",
     "column_pairs",
+    "given_steps",
     "no_prop",
     "plan_steps",
     "presses",

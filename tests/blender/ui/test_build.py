@@ -11,7 +11,7 @@ import pytest
 import legorize_addon
 from legorize_addon.core import pipeline
 from legorize_addon.core.errors import Cancelled
-from legorize_addon.core.files.ldraw import read_ldr
+from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.progress import Progress
@@ -265,7 +265,7 @@ def test_export_reads_back(box, tmp_path) -> None:
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
     assert bpy.ops.legorize.export_ldr(filepath=str(tmp_path / "model.ldr")) == {"FINISHED"}
     text = (tmp_path / "model.ldr").read_bytes().decode()
-    found = read_ldr(text, load_catalogue())
+    found = read_ldraw(text, load_catalogue()).bricks
     assert rows(found) == rows(bricks)
     assert len(set(rows(bricks))) == len(bricks) > 1
 
@@ -312,7 +312,8 @@ def test_exports_of_a_model_with_supports(table, tmp_path) -> None:
     assert bpy.ops.legorize.export_ldr(filepath=str(tmp_path / "model.ldr")) == {"FINISHED"}
     assert bpy.ops.legorize.export_mpd(filepath=str(tmp_path / "model.mpd")) == {"FINISHED"}
     finished, whole = (
-        read_ldr((tmp_path / name).read_bytes().decode(), load_catalogue()) for name in ("model.ldr", "model.mpd")
+        read_ldraw((tmp_path / name).read_bytes().decode(), load_catalogue()).bricks
+        for name in ("model.ldr", "model.mpd")
     )
     assert rows(finished) == rows(bricks.take(bricks.role != Role.SUPPORT_OUTSIDE))
     assert rows(whole) == rows(bricks)
@@ -364,7 +365,7 @@ def test_names_are_no_commands(box, tmp_path) -> None:
     assert bpy.ops.legorize.export_ldr(filepath=str(tmp_path / name)) == {"FINISHED"}
     text = (tmp_path / name).read_text()
     assert text.startswith("0 Model STEP\n0 Name: a 1 4 0 0 0.ldr\n")
-    assert rows(read_ldr(text, load_catalogue())) == rows(read_bricks(build))
+    assert rows(read_ldraw(text, load_catalogue()).bricks) == rows(read_bricks(build))
 
 
 def test_two_slashes_are_the_folder_of_the_scene(box, tmp_path) -> None:

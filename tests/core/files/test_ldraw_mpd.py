@@ -11,8 +11,8 @@ from hypothesis import given, settings
 
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import steps_of
-from legorize_addon.core.files.ldraw import read_ldr
 from legorize_addon.core.files.ldraw_mpd import write_mpd
+from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.supports.assembly_plan import plan_assembly
@@ -64,7 +64,7 @@ def calls_in(text):
 @given(any_bricks())
 def test_multi_part_document_holds_the_same_bricks(bricks):
     """All models together are model and supports, whatever the bricks."""
-    assert multiset(read_ldr(document(bricks), CATALOGUE), steps=False) == multiset(bricks, steps=False)
+    assert multiset(read_ldraw(document(bricks), CATALOGUE).bricks, steps=False) == multiset(bricks, steps=False)
 
 
 def test_model_without_anything_that_hangs_is_one_model():
@@ -83,7 +83,7 @@ def test_equal_sub_assemblies_are_written_once_and_called_twice():
     assert first == ["0", "0", "0"]
     assert second == ["0", "0", "80"]
     assert "0 // Step 1, 2 times" in text or ", 2 times" in text
-    assert multiset(read_ldr(text, CATALOGUE), steps=False) == multiset(table(*COMB), steps=False)
+    assert multiset(read_ldraw(text, CATALOGUE).bricks, steps=False) == multiset(table(*COMB), steps=False)
 
 
 def test_supports_stand_among_the_bricks_and_are_taken_out():
@@ -159,4 +159,4 @@ def test_main_model_never_has_the_name_of_a_sub_model(name):
     text = document(bricks, name=name, title="STEP")
     names = [each.lower() for each in files_in(text)]
     assert len(set(names)) == len(names)
-    assert multiset(read_ldr(text, CATALOGUE)) == multiset(read_ldr(document(bricks), CATALOGUE))
+    assert multiset(read_ldraw(text, CATALOGUE).bricks) == multiset(read_ldraw(document(bricks), CATALOGUE).bricks)
