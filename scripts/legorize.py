@@ -7,8 +7,9 @@
 
 IN is a .blend, .obj, .glb, .gltf, .ply, .stl or .fbx file. The script reads what
 a render would show: a .blend at the frame at which it was saved, any other file
-in its rest pose, without animation. Every setting is a flag; ``--help`` lists
-them.
+in its rest pose, without animation. IN may also be a brick model, .ldr or .mpd,
+which is judged as our own, or laid again. Every setting is a flag; ``--help``
+lists them.
 
 Exit status: 0 written; 2 written, but a check failed and ``report.json`` says
 which; 1 nothing written, the folder is as it was, one sentence says why (or a
@@ -38,19 +39,22 @@ try:
     import time
     import tomllib
     import traceback
-    from collections.abc import Iterator, Sequence
-    from contextlib import ExitStack, contextmanager
+    from collections.abc import Callable, Iterator, Sequence
+    from contextlib import AbstractContextManager, ExitStack, contextmanager
     from dataclasses import Field, fields, replace
-    from typing import Any, Final, NamedTuple, NoReturn, Self, TextIO
+    from functools import partial
+    from typing import Any, Final, NamedTuple, NoReturn, Self, TextIO, get_args
 
     import bpy
 
-    from legorize_addon.core.build import Build
+    from legorize_addon.core.build import Finished
     from legorize_addon.core.errors import BuildError, LegorizeError, SettingsError, enough_memory
+    from legorize_addon.core.existing import Existing, StepsFrom, judge
     from legorize_addon.core.files.folder import new_folder, temporary_of, writing
     from legorize_addon.core.files.manifest import changed
     from legorize_addon.core.files.paths import named, readable
     from legorize_addon.core.instructions import PAPERS, Booklet, layer_files, layer_pages
+    from legorize_addon.core.ldraw.reader import SUFFIXES, read_file
     from legorize_addon.core.model.bricks import Role
     from legorize_addon.core.model.catalogue import load_catalogue
     from legorize_addon.core.pipeline import legorize
@@ -83,6 +87,9 @@ except ModuleNotFoundError as missing:
     )
     sys.exit(1)
 
+Timed = Callable[[str], AbstractContextManager[None]]
+"""Announces a stage before the build, and notes its time."""
+
 SIZES: Final = ("size_by", "width", "height", "scale", "parts", "budget")
 """Settings that exclude each other; each of the others also chooses itself in the first."""
 
@@ -106,6 +113,35 @@ class Taken(NamedTuple):
     source: Path | None
     frame: int | None
     object: list[str]
+    again: bool
+    steps: StepsFrom | None
+
+    @property
+    def is_bricks(self) -> bool:
+        """Whether the file is a brick model."""
+        return self.source is not None and self.source.suffix.lower() in SUFFIXES
+
+    def check(self) -> None:
+        """Refuse flags without effect."""
+        if self.is_bricks and (self.object or self.frame is not None):
+            raise SettingsError("--object and --frame choose from meshes: leave them out for a brick model.")
+        if not self.is_bricks and (self.again or self.steps):
+            raise SettingsError("--again and --steps are for brick models, .ldr and .mpd: leave them out for a mesh.")
+
+
+class Work(NamedTuple):
+    """What a file comes to.
+
+    Attributes
+    ----------
+    objects : sequence of bpy.types.Object
+        What the model is made of.
+    build : callable
+        Makes the model, told where to report its progress.
+    """
+
+    objects: Sequence[bpy.types.Object]
+    build: Callable[[Progress], Finished]
 
 
 class Wanted(NamedTuple):
@@ -168,6 +204,7 @@ def main(arguments: Sequence[str]) -> int:
         only_settings = options.pop("print_settings")
         wanted = Wanted(**{name: options.pop(name) for name in Wanted._fields})
         wanted.check()
+        taken.check()
         settings = settings_of(options)
         if only_settings:
             print(settings_text(settings), end="")
@@ -221,6 +258,14 @@ def add_source(made: Parser) -> None:
         "--object", metavar="NAME", action="append", default=[],
         help="take this object, or its children if it has no surface; can be given several times (default: "
              "everything that renders show)",
+    )  # fmt: skip
+    made.add_argument(
+        "--again", action="store_true",
+        help="lay a brick model (.ldr, .mpd) again: the same cells and colours in fewer bricks",
+    )  # fmt: skip
+    made.add_argument(
+        "--steps", choices=get_args(StepsFrom),
+        help="keep the building steps of a brick model, or plan new ones with supports (default: file, if it has any)",
     )  # fmt: skip
 
 
@@ -411,10 +456,8 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
     source, seconds = readable(taken.source), dict[str, float]()
     # before there is a folder to clear away: a crash of an importer leaves nothing behind
     with Line(sys.stdout) as line, ExitStack() as stack:
-        with timed(seconds, "import", line):
-            objects, left_out, up = load(source, frame=taken.frame, names=taken.object, up=settings.up)
-        with timed(seconds, "read", line), quiet():
-            mesh, remarks = read_rendered(objects, bpy.context)
+        read = work_on_bricks if taken.is_bricks else work_on_mesh
+        objects, make = read(source, taken, settings, partial(timed, seconds, progress=line))
         folder = stack.enter_context(new_folder(out, names=CERTAIN))
         stop.temporary = temporary_of(folder)
         # in builds: measured without a proof at 48 to 192 studs, guessed for the proof and the pictures
@@ -422,10 +465,10 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         later["booklet"] = 3.0 * wanted.instructions
         later["pictures"] = float(wanted.any_picture) + 20.0 * (wanted.film and wanted.frames)
         built = 1 / (1 + sum(later.values()))
-        build = legorize(mesh, replace(settings, up=up), part(line, 0.0, built))
-        build = replace(build, notes=(*left_out, *remarks, *build.notes), timings={**seconds, **build.timings})
+        build = make(part(line, 0.0, built))
+        build = replace(build, timings={**seconds, **build.timings})
         rest = Overall(later, part(line, built, 1.0))
-        facts = described(replace(build, settings=settings), rest, with_bound=wanted.bound)
+        facts = described(build, rest, with_bound=wanted.bound)
         with rest.stage("files"), writing(out):
             for name, text in output_texts(build, load_catalogue(), facts, source.stem).items():
                 (folder / name).parent.mkdir(exist_ok=True)
@@ -452,7 +495,36 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
     return 2 if facts["failed_checks"] else 0
 
 
-def described(build: Build, rest: Overall, *, with_bound: bool) -> dict[str, Any]:
+def work_on_mesh(source: Path, taken: Taken, settings: Settings, timed: Timed) -> Work:
+    """Read a mesh, to be legorized."""
+    with timed("import"):
+        objects, left_out, up = load(source, frame=taken.frame, names=taken.object, up=settings.up)
+    with timed("read"), quiet():
+        mesh, remarks = read_rendered(objects, bpy.context)
+
+    def build(progress: Progress) -> Finished:
+        """Legorize it."""
+        made = legorize(mesh, replace(settings, up=up), progress)
+        return replace(made, settings=settings, notes=(*left_out, *remarks, *made.notes))
+
+    return Work(objects, build)
+
+
+def work_on_bricks(source: Path, taken: Taken, settings: Settings, timed: Timed) -> Work:
+    """Read a brick model, to be judged, or laid again."""
+    with timed("import"):
+        with quiet():
+            bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        found = read_file(source, load_catalogue())
+    given = Existing(found.bricks, found.has_steps, found.remarks)
+    return Work((), partial(_judged, given, settings, taken))
+
+
+def _judged(given: Existing, settings: Settings, taken: Taken, progress: Progress) -> Finished:
+    return judge(given, settings, again=taken.again, steps=taken.steps or "file", progress=progress)
+
+
+def described(build: Finished, rest: Overall, *, with_bound: bool) -> dict[str, Any]:
     """Return what the report says of a build, with the checks that failed."""
     with rest.stage("report"):
         units = {"version": version(), "mm_per_unit": mm_per_unit()}
@@ -460,7 +532,7 @@ def described(build: Build, rest: Overall, *, with_bound: bool) -> dict[str, Any
         return facts | {"failed_checks": failed_checks(facts)}
 
 
-def write_layers(build: Build, folder: Path, wanted: Wanted, progress: Progress) -> None:
+def write_layers(build: Finished, folder: Path, wanted: Wanted, progress: Progress) -> None:
     """Write the layer maps."""
     plan, paper = build.supports, PAPERS[wanted.paper]
     options = {"temporary": plan.temporary, "paper": paper, "actual_size": wanted.actual_size, "progress": progress}
@@ -469,7 +541,7 @@ def write_layers(build: Build, folder: Path, wanted: Wanted, progress: Progress)
         (folder / name).write_text(text, encoding="utf-8", newline="")
 
 
-def write_booklet(build: Build, folder: Path, wanted: Wanted, title: str, progress: Progress) -> None:
+def write_booklet(build: Finished, folder: Path, wanted: Wanted, title: str, progress: Progress) -> None:
     """Write the booklet."""
     plan, paper = build.supports, PAPERS[wanted.paper]
     made = Booklet(plan.bricks, load_catalogue(), plan.steps, temporary=plan.temporary, title=title, paper=paper)
@@ -510,7 +582,7 @@ class Line:
             self._stream.flush()
 
 
-def show(build: Build, folder: Path, wanted: Wanted, source: Source, progress: Progress) -> None:
+def show(build: Finished, folder: Path, wanted: Wanted, source: Source, progress: Progress) -> None:
     """Put the bricks into the scene, and write the wanted pictures and files."""
     scene = bpy.context.scene
     shown = show_result(scene, build, source, mm_per_unit=mm_per_unit())

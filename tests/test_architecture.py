@@ -54,6 +54,7 @@ ORDER: Final = (
     "core.part_choice",
     "core.stages",
     "core.fitting",
+    "core.existing",
     "core.pipeline",
     "core",
     "scene",

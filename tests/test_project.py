@@ -125,7 +125,7 @@ def test_only_the_pipeline_knows_the_order() -> None:
     for name, tree in trees(sorted(CORE.rglob("*.py"))):
         used = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level}
         assert "pipeline" not in used, name
-        names = ("pipeline", "stages", "build", "estimate", "part_choice", "fitting", "settings_file")
+        names = ("pipeline", "existing", "stages", "build", "estimate", "part_choice", "fitting", "settings_file")
         readers = tuple(f"core/{each}.py" for each in names)
         assert "settings" not in used or name.endswith(readers), name
 

@@ -19,12 +19,14 @@ above it in this table.
 ``supports``         temporary supports, pillars that stay, and pieces that are joined
 ``measures``         figures for the report that building does not need
 ``instructions``     the booklet of the steps and layer maps, as SVG, HTML and PDF
-``files``            LDraw documents, lists for shops, the folder of the results
+``shopping``         what to buy: lots, and the lists that shops read
+``files``            LDraw documents, the folder of the results
+``ldraw``            LDraw documents back to bricks
 ``report``           what was built, in numbers and sentences
 ===================  =======================================================================
 
 ``arrays``, ``units``, ``errors``, ``safe_text``, ``progress``, ``settings``,
 ``settings_file`` and ``presets`` lie below all of them; ``estimate``, ``build`` (the result of every stage), ``stages``
-(what the settings mean for each stage) and ``pipeline`` (the stages in order)
+(what the settings mean for each stage), ``pipeline`` (the stages in order) and ``existing`` (models that exist already)
 above. Nothing in this folder imports ``bpy``.
 """

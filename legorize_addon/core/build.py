@@ -42,34 +42,16 @@ class Cut:
     marks: Marks | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Build:
-    """The result of every stage.
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Finished:
+    """A brick model with all that is known of it, whoever laid its bricks.
 
     Attributes
     ----------
     settings : Settings
         What was asked for.
-    mesh : TriangleMesh
-        The repaired mesh in the size of the model, in mm.
-    repairs : Repairs
-        What was repaired.
     scale : float
         Model mm per world mm.
-    turn : (4, 4) float64 array
-        From world mm to those of the mesh that stands upright, before it is scaled.
-    surface : SurfaceColours
-        The brick colour of every texel.
-    cut : Cut
-        The mesh cut in slices.
-    trajectories : Trajectories
-        The coloured loops.
-    offsets : Offsets
-        What closes horizontal faces.
-    grid : UnitGrid
-        All unit bricks, before hollowing.
-    hollow : UnitGrid
-        Required and optional cells.
     assembly : Assembly
         The layout, with the pillars that stay in it, and the step in which each
         brick is placed.
@@ -90,16 +72,7 @@ class Build:
     """
 
     settings: Settings
-    mesh: TriangleMesh
-    repairs: Repairs
     scale: float
-    turn: Floats
-    surface: SurfaceColours
-    cut: Cut
-    trajectories: Trajectories
-    offsets: Offsets
-    grid: UnitGrid
-    hollow: UnitGrid
     assembly: Assembly
     stability: Stability
     supports: AssemblyPlan
@@ -118,3 +91,50 @@ class Build:
     def graph(self) -> ContactGraph:
         """How they touch."""
         return self.assembly.graph
+
+    @property
+    def origin(self) -> Floats:
+        """Corner of cell 0 in mm of the scaled model, (3,)."""
+        return np.zeros(3)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Build(Finished):
+    """A model of a mesh: the result of every stage.
+
+    Attributes
+    ----------
+    mesh : TriangleMesh
+        The repaired mesh in the size of the model, in mm.
+    repairs : Repairs
+        What was repaired.
+    turn : (4, 4) float64 array
+        From world mm to those of the mesh that stands upright, before it is scaled.
+    surface : SurfaceColours
+        The brick colour of every texel.
+    cut : Cut
+        The mesh cut in slices.
+    trajectories : Trajectories
+        The coloured loops.
+    offsets : Offsets
+        What closes horizontal faces.
+    grid : UnitGrid
+        All unit bricks, before hollowing.
+    hollow : UnitGrid
+        Required and optional cells.
+    """
+
+    mesh: TriangleMesh
+    repairs: Repairs
+    turn: Floats
+    surface: SurfaceColours
+    cut: Cut
+    trajectories: Trajectories
+    offsets: Offsets
+    grid: UnitGrid
+    hollow: UnitGrid
+
+    @property
+    def origin(self) -> Floats:
+        """Corner of cell [0, 0, 0, 0] of the grid in mm, in the coordinates of the scaled mesh."""
+        return self.grid.origin

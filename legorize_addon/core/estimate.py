@@ -189,6 +189,11 @@ def counted_size(mesh: TriangleMesh, settings: Settings) -> Settings:
     return replace(settings, size_by="scale", scale=low)
 
 
+def megabytes(cells: int, bricks: int) -> float:
+    """Return about how much memory the bricks of a model take, without a mesh."""
+    return _MEGABYTES.of(_Features(cells=float(cells), bricks=float(bricks)))
+
+
 def check_limits(expected: Estimate, settings: Settings) -> None:
     """Refuse what is larger than the settings allow.
 

@@ -72,7 +72,6 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     check_limits(expected, settings)
     run = Run.of(settings, Overall(expected.stages, progress))
     plates, given = settings.plates != "none", mesh
-
     with run.stage("mesh"):
         mesh, repairs, turn, scale, unseen = prepare_mesh(run, mesh)
     with run.stage("colours"):
@@ -104,25 +103,25 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
         assembly, joints = segment(assembly, most=settings.split, deepest=settings.hanging)
     with run.stage("supports"):
         plan = make_plan(run, assembly)
-    more, assembly = len(plan.final) > len(assembly), plan.final
-    if more:
+    if len(plan.final) > len(assembly):
         with run.stage("stability again"):
-            found = stability(assembly, clutch=settings.clutch, progress=run.progress)
+            found = stability(plan.final, clutch=settings.clutch, progress=run.progress)
     proof = None
     if settings.prove_steps:
         with run.stage("proof"):
             proof = prove_steps(plan.steps, plan.assembly, clutch=settings.clutch, progress=run.progress)
     run.progress.finish()
+    notes = (*repairs.sentences(), *unseen, *_notes(run, mesh, found, plan, proof))
+    return Build(
+        settings=settings, mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut,
+        trajectories=trajectories, offsets=offsets, grid=grid, hollow=shell, assembly=plan.final, stability=found,
+        supports=plan, joints=joints, prices=run.parts.prices, proof=proof, notes=notes, timings=run.timings,
+    )  # fmt: skip
 
-    made = (mesh, repairs, scale, turn, surface, cut, trajectories, offsets, grid, shell, assembly, found, plan, joints)
-    notes = (*repairs.sentences(), *unseen, *_notes(run, mesh, assembly, found, plan, proof))
-    return Build(settings, *made, run.parts.prices, proof, notes, run.timings)
 
-
-def _notes(
-    run: Run, mesh: TriangleMesh, assembly: Assembly, found: Stability, plan: AssemblyPlan, proof: Proof | None
-) -> tuple[str, ...]:
+def _notes(run: Run, mesh: TriangleMesh, found: Stability, plan: AssemblyPlan, proof: Proof | None) -> tuple[str, ...]:
     """Return what a user must know about bricks and building, one sentence each."""
+    assembly = plan.final
     return (
         *remarks_on_dithering(mesh, run.settings.dithering),
         *remarks(assembly, found, spare=run.settings.spare),

@@ -14,12 +14,12 @@ from .kept_view import KeptView
 from .visibility import roles_shown, show_role
 
 if TYPE_CHECKING:
-    from ..core.build import Build
+    from ..core.build import Finished
 
 
 def show_result(
     scene: bpy.types.Scene,
-    build: Build,
+    build: Finished,
     source: Source,
     *,
     mm_per_unit: float,
@@ -35,7 +35,7 @@ def show_result(
     ----------
     scene : bpy.types.Scene
         Scene that gets the collection.
-    build : Build
+    build : Finished
         What the core made.
     source : Source
         What it was made of.
@@ -60,7 +60,7 @@ def show_result(
     supports = build.supports
     earlier = builds_of(scene, source.objects) if replaces is None else replaces
     kept = KeptView.of(earlier)
-    place = (build.grid.origin, build.scale, mm_per_unit)
+    place = (build.origin, build.scale, mm_per_unit)
     model = Model(supports.assembly, *place, stability=build.stability, steps=supports.steps)
     shown = show_build(scene, model, replace(source, settings=build.settings), detail=detail, replaces=earlier)
     state_of(shown).add_building(by_hand=len(supports.unsteady), **_costs(build))
@@ -71,7 +71,7 @@ def show_result(
     return shown
 
 
-def _costs(build: Build) -> dict[str, str]:
+def _costs(build: Finished) -> dict[str, str]:
     """Return what model and supports cost by the price file, in words; nothing without one."""
     prices, catalogue = build.prices, build.assembly.catalogue
     if prices is None:

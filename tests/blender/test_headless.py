@@ -24,6 +24,7 @@ import pytest
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.files import folder
 from legorize_addon.core.ldraw.reader import read_ldraw
+from legorize_addon.core.model.bricks import Bricks
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shopping.formats import FORMATS
@@ -33,6 +34,7 @@ from legorize_addon.view.heat_map import heat_map_shown
 from legorize_addon.view.steps import exploded, steps_done
 from legorize_addon.view.visibility import shown_bricks, shown_corners
 from tests.blender.builders import add_image, add_object, image_material
+from tests.core.foreign import nested_document
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts" / "legorize.py"
@@ -990,3 +992,51 @@ def test_settings_that_cannot_be_read(script, capsys, tmp_path, monkeypatch, fla
     assert printed == ""
     assert words in told
     assert told.count("\n") == 1
+
+
+def test_brick_models_are_judged_and_laid_again(script: ModuleType, tmp_path: Path) -> None:
+    """A .mpd of somebody else gets all files but the tables of a mesh; laid again it passes every check."""
+    source = tmp_path / "tower.MPD"
+    source.write_text(nested_document(), newline="")
+    again = tmp_path / "again"
+    assert script.main([str(source), "--out", str(tmp_path / "out"), "--layers"]) == 2
+    assert script.main([str(source), "--out", str(again), "--again", "--render", "--save-blend"]) == 0
+    bricks = FILES - {name for name in FILES if name.startswith("tables")}
+    assert {name for name in contents(tmp_path / "out") if not name.startswith("layers")} == bricks
+    assert bricks | {"render.png", "build.blend"} <= set(contents(again))
+    before, after = (report(folder) for folder in (tmp_path / "out", again))
+    assert before["counts"]["bricks"] == 64 > after["counts"]["bricks"]
+    assert before["failed_checks"] == ["Components that are not joined: 16."]
+    assert "16 parts are mirrored" in before["notes"][0]
+    # our own file is read back as it was written
+    assert script.main([str(again / "model.ldr"), "--out", str(tmp_path / "third")]) == 0
+    first, third = (
+        read_ldraw((folder / "model.ldr").read_text(), load_catalogue()) for folder in (again, tmp_path / "third")
+    )
+    assert rows(first.bricks) == rows(third.bricks)
+
+
+@pytest.mark.parametrize(
+    ("name", "flags", "message"),
+    [
+        ("m.ldr", ["--object", "A"], "--object and --frame choose from meshes"),
+        ("m.obj", ["--again"], "--again and --steps are for brick models"),
+        ("m.obj", ["--steps", "new"], "--again and --steps are for brick models"),
+        ("m.ldr", [], "m.ldr has no brick that can be read"),
+        ("none.ldr", [], "There is no file"),
+    ],
+)
+def test_wrong_use_of_brick_models(
+    name: str, flags: list[str], message: str, script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Flags that belong to the other kind of file, and files without bricks, get one sentence and write nothing."""
+    (tmp_path / "m.ldr").write_text("0 nothing\n")
+    (tmp_path / "m.obj").write_text("v 0 0 0\n")
+    assert script.main([str(tmp_path / name), "--out", str(tmp_path / "out"), *flags]) == 1
+    assert message in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def rows(bricks: Bricks) -> list[tuple[int, ...]]:
+    """Return part, place, turn and colour of each brick, sorted."""
+    return sorted(map(tuple, np.column_stack([bricks.part, bricks.corner, bricks.turn, bricks.colour]).tolist()))

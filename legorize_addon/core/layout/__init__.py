@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from .again import as_good, cells_of, lay_again
 from .lay import FILLER, lay
 from .recolour import recolour_visible
 
 __all__ = [
     "FILLER",
+    "as_good",
+    "cells_of",
     "lay",
+    "lay_again",
     "recolour_visible",
 ]

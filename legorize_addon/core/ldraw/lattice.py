@@ -91,4 +91,5 @@ def _phase(corner: Floats) -> Floats:
     rest = np.round(corner % PITCH / SNAP).astype(np.int64) % np.rint(PITCH / SNAP).astype(np.int64)
     found, count = np.unique(rest, axis=0, return_counts=True)
     # of equals the first, which is the smallest
-    return found[count.argmax()] * SNAP
+    begin: Floats = found[count.argmax()] * SNAP
+    return begin

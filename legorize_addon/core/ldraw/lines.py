@@ -50,32 +50,30 @@ class Reference:
     piece: int
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Section:
-    """One model of a document.
+    """One model of a document, filled as its lines are read.
 
     Attributes
     ----------
     items : list of Reference or None
         In the order of the file; None ends a step.
-    drawn : int
-        Lines that draw geometry of their own.
+    drawn : list of int
+        Numbers of lines that draw geometry of their own.
     """
 
     items: list[Reference | None] = field(default_factory=list)
-    drawn: int = 0
+    drawn: list[int] = field(default_factory=list)
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Document:
-    """All models of a file.
+    """All models of a file, filled as its lines are read.
 
     Attributes
     ----------
     sections : dict of str to Section
         By name in lower case, in the order of the file.
-    main : str
-        Name of the first one.
     colours : dict of int to (int, int, int)
         Codes that the file itself defines.
     broken : list of int
@@ -83,9 +81,13 @@ class Document:
     """
 
     sections: dict[str, Section] = field(default_factory=dict)
-    main: str = ""
     colours: dict[int, tuple[int, int, int]] = field(default_factory=dict)
     broken: list[int] = field(default_factory=list)
+
+    @property
+    def main(self) -> str:
+        """Name of the first model, which is the one that is read."""
+        return next(iter(self.sections))
 
 
 def decoded(data: bytes, name: str) -> str:
@@ -135,7 +137,6 @@ def parse(text: str) -> Document:
             kind = _take(document, section, kind, number, words)
     if not section_has_parts(document.sections[""]) and len(document.sections) > 1:
         del document.sections[""]
-    document.main = next(iter(document.sections))
     return document
 
 
@@ -155,7 +156,7 @@ def _take(
         else:
             section.items.append(item)
     elif words[0] in ("2", "3", "4", "5"):
-        section.drawn += 1
+        section.drawn.append(number)
     elif words[0] != "0":
         document.broken.append(number)
     elif words[1:2] in (["STEP"], ["ROTSTEP"]):

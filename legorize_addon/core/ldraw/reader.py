@@ -165,7 +165,7 @@ def _beside(path: Path, name: str) -> str | None:
     if "/" in name or not name.endswith(SUFFIXES):
         return None
     try:
-        [found] = [each for each in path.parent.iterdir() if each.name.lower() == name and each.is_file()] or [None]
+        found = next((each for each in path.parent.iterdir() if each.name.lower() == name and each.is_file()), None)
     except OSError:
         return None
     return None if found is None else decoded(_bytes(found), found.name)
@@ -185,15 +185,19 @@ def _add_files(document: Document, beside: Callable[[str], str | None]) -> None:
             text = beside(name)
             if text is not None:
                 other = parse(text)
-                document.sections[name] = other.sections.pop(other.main)
-                document.sections = {**other.sections, **document.sections}
-                document.colours = {**other.colours, **document.colours}
+                main = other.main
+                document.sections[name] = other.sections[main]
+                for inner, section in other.sections.items():
+                    if inner != main:
+                        document.sections.setdefault(inner, section)
+                for code, value in other.colours.items():
+                    document.colours.setdefault(code, value)
 
 
 def _on_lines(document: Document) -> Iterator[str]:
     if document.broken:
         yield f"{_lines(document.broken)} not LDraw, left out."
-    drawn = sum(section.drawn for section in document.sections.values() if section_has_parts(section))
+    drawn = sum(len(section.drawn) for section in document.sections.values() if section_has_parts(section))
     if drawn:
         many = "1 line draws" if drawn == 1 else f"{drawn} lines draw"
         yield f"{many} geometry that is no part, left out."
@@ -215,10 +219,10 @@ def _on_places(line: Ints, tilted: Mask, between: Mask, mirrored: Mask) -> Itera
         (between, "lies between the cells of the grid", "lie between the cells of the grid"),
     ):
         if rows.any():
-            yield f"{_parts(rows.sum())} {one if rows.sum() == 1 else more}, left out ({_first(line[rows])})."
+            yield f"{_parts(int(rows.sum()))} {one if rows.sum() == 1 else more}, left out ({_first(line[rows])})."
     if mirrored.any():
-        verb = "is" if mirrored.sum() == 1 else "are"
-        yield f"{_parts(mirrored.sum())} {verb} mirrored, read as the same part unmirrored ({_first(line[mirrored])})."
+        verb, where = "is" if mirrored.sum() == 1 else "are", _first(line[mirrored])
+        yield f"{_parts(int(mirrored.sum()))} {verb} mirrored, read as the same part unmirrored ({where})."
 
 
 def _on_colours(replaced: Sequence[Replaced], catalogue: Catalogue) -> Iterator[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..arrays import Floats
-from ..build import Build
+from ..build import Build, Finished
 from ..measures import least_cost
 from ..model import Catalogue
 from ..progress import Progress
@@ -22,12 +22,12 @@ def with_prices(lots: tuple[Lot, ...], prices: Prices | None, catalogue: Catalog
     return priced(lots, lambda one, other: float(prices.price[part[one.number], colour[other.code]]))
 
 
-def price_facts(build: Build, catalogue: Catalogue, proving: Progress | None) -> dict[str, Any] | None:
+def price_facts(build: Finished, catalogue: Catalogue, proving: Progress | None) -> dict[str, Any] | None:
     """Return what the model and its supports cost, and how near the model is to the proven bound.
 
     Parameters
     ----------
-    build : Build
+    build : Finished
     catalogue : Catalogue
     proving : Progress or None
         Told how far the proof of the bound is; None if nobody waits for it.
@@ -43,7 +43,9 @@ def price_facts(build: Build, catalogue: Catalogue, proving: Progress | None) ->
         return None
     model, supports = prices.each(build.bricks, catalogue), prices.each(build.supports.removed, catalogue)
     estimated = ~prices.known(build.bricks, catalogue)
-    least = None if proving is None else least_cost(build.hollow, catalogue, prices.price, progress=proving)
+    least = None
+    if proving is not None and isinstance(build, Build):
+        least = least_cost(build.hollow, catalogue, prices.price, progress=proving)
     return {
         "currency": prices.currency,
         "goal": build.settings.goal,

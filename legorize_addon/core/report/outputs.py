@@ -6,7 +6,7 @@ import json
 from dataclasses import replace
 from typing import Any, Final
 
-from ..build import Build
+from ..build import Build, Finished
 from ..errors import enough_memory
 from ..files import build_order_csv, write_ldr, write_mpd
 from ..model import Assembly, Catalogue
@@ -19,7 +19,7 @@ CERTAIN: Final = ("model.ldr", "model.mpd", "build_order.csv", "parts.csv", "rep
 
 
 @enough_memory()
-def output_texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:
+def output_texts(build: Finished, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:
     """Return the contents of the text files by name.
 
     Lists of supports are there only if there are supports to buy, and a list
@@ -32,16 +32,20 @@ def output_texts(build: Build, catalogue: Catalogue, facts: dict[str, Any], titl
         "build_order.csv": _order(build, catalogue),
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
         **list_texts(*wanted_lists(build, catalogue, title)),
-        **{f"tables/{name}": table for name, table in paper_tables(build, catalogue, name=title).items()},
+        **(_tables(build, catalogue, title) if isinstance(build, Build) else {}),
     }
 
 
-def _order(build: Build, catalogue: Catalogue) -> str:
+def _order(build: Finished, catalogue: Catalogue) -> str:
     supports = build.supports
     return build_order_csv(supports.steps, Assembly(supports.bricks, catalogue), by_hand=supports.by_hand)
 
 
-def wanted_lists(build: Build, catalogue: Catalogue, title: str) -> tuple[ShoppingList, ShoppingList]:
+def _tables(build: Build, catalogue: Catalogue, title: str) -> dict[str, str]:
+    return {f"tables/{name}": table for name, table in paper_tables(build, catalogue, name=title).items()}
+
+
+def wanted_lists(build: Finished, catalogue: Catalogue, title: str) -> tuple[ShoppingList, ShoppingList]:
     """Return what to buy for the finished model, and for the supports that are taken out of it again."""
     model, removed = (Assembly(bricks, catalogue) for bricks in (build.bricks, build.supports.removed))
     lists = (

@@ -17,7 +17,7 @@ from ..build import Build
 from ..model import SUPPORTS, Assembly, Bricks, Catalogue, Part, concatenate, footprint
 from ..safe_text import csv_text, one_line
 from ..shopping import count_lots
-from .report import hollow_ratio
+from .mesh_facts import hollow_ratio
 
 LINE_END = "\r\n"
 

@@ -9,20 +9,16 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..arrays import Floats, Mask
-from ..build import Build, Cut
+from ..build import Build, Finished
 from ..building import Kind
 from ..errors import enough_memory
-from ..files import ldraw_matrix
-from ..measures import corner_windings, lower_bound, pass_through_types
-from ..model import NOBODY, SUPPORTS, Assembly, Catalogue, ContactGraph, Fill, Role, UnitGrid, brick_columns
+from ..measures import lower_bound
+from ..model import Assembly, Catalogue, ContactGraph, Role
 from ..progress import Progress, silent
-from ..shell import free_bodies, tally_cases
 from ..shopping import Lot, ShoppingList, not_made, shopping_list
-from ..slicing import cut_at_grid
 from ..supports import AssemblyPlan
-from ..unit_bricks import Offsets, OverhangKind, overhang_kinds
 from ..units import PLATES_PER_BRICK
+from .mesh_facts import facts_of_mesh
 from .money import price_facts
 from .remarks import remarks
 
@@ -32,7 +28,7 @@ SCHEMA: Final = 2
 
 @enough_memory()
 def report(
-    build: Build,
+    build: Finished,
     catalogue: Catalogue,
     *,
     version: str,
@@ -44,8 +40,9 @@ def report(
 
     Parameters
     ----------
-    build : Build
-        A finished build.
+    build : Finished
+        A model; one of a mesh, a ``Build``, has all keys, and one that was read
+        as bricks those about bricks.
     catalogue : Catalogue
         Its parts and colours.
     version : str
@@ -77,29 +74,20 @@ def report(
         A brick has a colour that is not in the catalogue.
     """
     wanted = shopping_list(Assembly(build.bricks, catalogue), moves=len(build.supports.moves))
-    levels, supports = _levels(build), build.supports
+    supports = build.supports
     return {
         "schema": SCHEMA,
         "version": version,
         "seed": build.settings.seed,
         "settings": asdict(build.settings),
-        "input": _input(build),
-        "mesh_to_ldraw": _mesh_to_ldraw(build, mm_per_unit).tolist(),
-        "scale": build.scale,
-        "grid": _grid(build.grid),
-        "pass_through": _pass_through(build),
-        "detail": _detail(build.cut, build.grid),
-        "offsets": _offsets(build.offsets),
-        "overhangs": _overhangs(levels),
-        "hollowing": _hollowing(build, levels),
+        "grid": _grid(wanted),
+        **(facts_of_mesh(build, mm_per_unit) if isinstance(build, Build) else {}),
         "counts": _counts(build, catalogue, wanted.lots),
         "mass_g": round(wanted.mass, 2),
         "size": _size(wanted),
         "building_time_s": round(wanted.seconds),
-        "hollow_ratio": round(hollow_ratio(build), 4),
         "layout": _layout(build, catalogue, progress if with_bound else None),
         "price": price_facts(build, catalogue, progress if with_bound else None),
-        "bodies": free_bodies(build.hollow),
         "connection": _connection(build.graph),
         "stability": _stability(build, catalogue),
         "buildable_steps": supports.walk.n_steps - len(supports.walk.bad_steps),
@@ -112,96 +100,7 @@ def report(
     }
 
 
-def hollow_ratio(build: Build) -> float:
-    """Return the share of a model's cells that no brick fills, supports excluded."""
-    return 1 - _filled(build) / int(build.grid.solid.sum())
-
-
-def _input(build: Build) -> dict[str, Any]:
-    repairs = asdict(build.repairs)
-    return {
-        "triangles": len(build.mesh.faces),
-        "images": len(build.mesh.images),
-        "watertight": repairs.pop("watertight"),
-        "repairs": repairs,
-    }
-
-
-def _mesh_to_ldraw(build: Build, mm_per_unit: float) -> Floats:
-    turn = build.turn.copy()
-    turn[:3, 3] /= mm_per_unit
-    return ldraw_matrix(build.grid.origin, build.scale, mm_per_unit) @ turn
-
-
-def _grid(grid: UnitGrid) -> dict[str, int]:
-    """Return the extent of the model in studs and layers."""
-    layer, _, y, x = np.nonzero(grid.solid)
-    return {"x": int(np.ptp(x)) + 1, "y": int(np.ptp(y)) + 1, "layers": int(np.ptp(layer)) + 1}
-
-
-def _pass_through(build: Build) -> dict[str, int]:
-    """Return how many cells trajectories pass such that one, two or three corners lie inside, over all slices."""
-    loops, corner = build.trajectories, build.grid.origin[:2]
-    level = loops.loop_slice[loops.edge_loop].astype(np.int64)
-    n_levels, (n_y, n_x) = len(build.cut.slices.heights), build.grid.colour.shape[2:]
-    windings = corner_windings(loops.points, loops.ends, level, corner=corner, n_levels=n_levels, n_y=n_y, n_x=n_x)
-    pieces = cut_at_grid(loops.points, loops.ends, corner)
-    _, inside = pass_through_types(pieces, level[pieces.edge], windings)
-    return {f"type_{number}": int((inside == number).sum()) for number in (1, 2, 3)}
-
-
-def _levels(build: Build) -> Mask:
-    """Return the solid model in levels of plates or of bricks, as overhangs were looked for, without empty rims."""
-    solid = build.grid.solid
-    one_brick = len(build.offsets.ring) == len(solid)
-    levels = solid[:, 0] if one_brick else solid.reshape(-1, *solid.shape[2:])
-    used = [np.flatnonzero(levels.any(axis=others)) for others in ((0, 2), (0, 1))]
-    y, x = (slice(rows.min(initial=0), rows.max(initial=-1) + 1) for rows in used)
-    return levels[:, y, x]
-
-
-def _detail(cut: Cut, grid: UnitGrid) -> dict[str, int | None]:
-    """Return how many layers differ, were sliced plate by plate, and have columns that are not one brick."""
-    plates = grid.solid.any(axis=1) & ~brick_columns(grid)[0]
-    layers = len(grid.colour)
-    marked = {
-        f"marked_by_{name}": None if cut.marks is None else int(getattr(cut.marks, name).sum())
-        for name in ("number", "length", "area")
-    }
-    return {
-        "layers": layers,
-        **marked,
-        "sliced_in_plates": int((np.bincount(cut.layer, minlength=layers) == PLATES_PER_BRICK).sum()),
-        "layers_in_plates": int(plates.any(axis=(1, 2)).sum()),
-        "columns_of_plates": int(plates.sum()),
-    }
-
-
-def _offsets(offsets: Offsets) -> dict[str, int]:
-    return {
-        "trajectories": int(offsets.trajectories.sum()),
-        "bricks": int(offsets.cells.sum()),
-        "left_alone": int(offsets.left_alone.sum()),
-    }
-
-
-def _overhangs(levels: Mask) -> dict[str, int]:
-    found = overhang_kinds(levels)
-    return {kind.name.lower(): found.count(kind) for kind in OverhangKind}
-
-
-def _hollowing(build: Build, levels: Mask) -> dict[str, Any]:
-    """Return the cells that must and may be built, those of the solid model, and the cases of the paper's regions."""
-    cover = build.hollow.cover
-    return {
-        "must": int((cover == Fill.REQUIRED).sum()),
-        "may": int((cover == Fill.OPTIONAL).sum()),
-        "solid": int(build.grid.solid.sum()),
-        "cases": asdict(tally_cases(levels, upper_only=build.settings.hollow_rule == "upper")),
-    }
-
-
-def _counts(build: Build, catalogue: Catalogue, lots: Sequence[Lot]) -> dict[str, Any]:
+def _counts(build: Finished, catalogue: Catalogue, lots: Sequence[Lot]) -> dict[str, Any]:
     bricks = build.bricks
     by_part, by_colour = Counter[str](), Counter[str]()
     for lot in lots:
@@ -213,21 +112,10 @@ def _counts(build: Build, catalogue: Catalogue, lots: Sequence[Lot]) -> dict[str
         "plates": int(plate[bricks.part].sum()),
         "support_outside": len(build.supports.removed) + int((bricks.role == Role.SUPPORT_KEPT).sum()),
         "support_inside": int((bricks.role == Role.SUPPORT_INSIDE).sum()),
-        "unit_bricks_before": int(build.grid.solid.any(axis=1).sum()),
+        **({"unit_bricks_before": int(build.grid.solid.any(axis=1).sum())} if isinstance(build, Build) else {}),
         "by_part": dict(by_part),
         "by_colour": dict(sorted(by_colour.items(), key=lambda entry: int(entry[0]))),
     }
-
-
-def _filled(build: Build) -> int:
-    """Return the number of the model's cells that bricks fill, other than supports; some bricks fill further cells."""
-    owner, low = build.graph.owner, build.graph.low
-    support = np.isin(build.bricks.role, SUPPORTS)
-    cell = np.argwhere(owner != NOBODY)
-    cell = cell[~support[owner[tuple(cell.T)]]] + low[::-1]
-    solid = build.grid.solid.reshape(-1, *build.grid.solid.shape[2:])
-    within = ((cell >= 0) & (cell < solid.shape)).all(axis=1)
-    return int(solid[tuple(cell[within].T)].sum())
 
 
 def _connection(graph: ContactGraph) -> dict[str, int]:
@@ -238,13 +126,15 @@ def _connection(graph: ContactGraph) -> dict[str, int]:
     }
 
 
-def _layout(build: Build, catalogue: Catalogue, proving: Progress | None) -> dict[str, Any]:
+def _layout(build: Finished, catalogue: Catalogue, proving: Progress | None) -> dict[str, Any]:
     """Return how near the number of bricks is to the proven bound, unless nobody waits for the proof.
 
     The bound holds for every layout of the same cells and colours, with the same
     columns laid in bricks and in plates.
     """
-    fewest = None if proving is None else lower_bound(build.hollow, catalogue, progress=proving)
+    fewest = None
+    if proving is not None and isinstance(build, Build):
+        fewest = lower_bound(build.hollow, catalogue, progress=proving)
     return {
         "tier": build.settings.layout,
         "fewest_possible": fewest,
@@ -252,7 +142,7 @@ def _layout(build: Build, catalogue: Catalogue, proving: Progress | None) -> dic
     }
 
 
-def _stability(build: Build, catalogue: Catalogue) -> dict[str, Any]:
+def _stability(build: Finished, catalogue: Catalogue) -> dict[str, Any]:
     """Return the verdict with its reasons, and whether its proof was confirmed by a check apart from the search."""
     found = build.stability
     enough = found.enough_clutch
@@ -273,7 +163,7 @@ def _stability(build: Build, catalogue: Catalogue) -> dict[str, Any]:
     }
 
 
-def _building(build: Build) -> dict[str, Any]:
+def _building(build: Finished) -> dict[str, Any]:
     """Return the figures of the building order, and what its check found."""
     supports, found = build.supports, build.supports.walk
     return {
@@ -332,6 +222,12 @@ def _pairs(lots: Sequence[Lot]) -> dict[str, Any]:
     """Return how many bricks lots have, and their pairs of part and colour."""
     pairs = [{"part": lot.part.number, "colour": lot.colour.code, "count": lot.count} for lot in lots]
     return {"bricks": sum(lot.count for lot in lots), "pairs": pairs}
+
+
+def _grid(wanted: ShoppingList) -> dict[str, int]:
+    """Return the extent of the finished model in studs and layers."""
+    x, y = wanted.studs
+    return {"x": x, "y": y, "layers": -(-wanted.plates // PLATES_PER_BRICK)}
 
 
 def _size(wanted: ShoppingList) -> dict[str, list[float]]:

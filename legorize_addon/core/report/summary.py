@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import Any, Final
 
+from ..progress import duration
 from .remarks import count_of
 
 _VERDICTS: Final = {
@@ -38,9 +39,10 @@ def summary(facts: dict[str, Any], folder: str, files: Iterable[str]) -> tuple[s
     below = f", with {count_of(removed, 'temporary support brick', 'temporary support bricks')}" if removed else ""
     failed = facts["failed_checks"]
     checks = f"{count_of(len(failed), 'check', 'checks')} failed" if failed else "every check passed"
+    size = " x ".join(f"{length:.1f}" for length in facts["size"]["cm"])
     return (
-        f"Model: {bricks} in {count_of(layers, 'layer', 'layers')}, {facts['mass_g']:.0f} g, built in "
-        f"{count_of(steps, 'step', 'steps')}{below}.",
+        f"Model: {bricks} in {count_of(layers, 'layer', 'layers')}, {size} cm, {facts['mass_g']:.0f} g, built in "
+        f"{count_of(steps, 'step', 'steps')} and about {duration(facts['building_time_s'])}{below}.",
         f"Files in {folder}: {', '.join(_shortened(files))}.",
         f"Verdict: {_VERDICTS[facts['stability']['verdict']]}; {checks}.",
     )

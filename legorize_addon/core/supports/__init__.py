@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .assembly_plan import AssemblyPlan, plan_assembly
+from .assembly_plan import AssemblyPlan, plan_as_given, plan_assembly
 from .bracing import add_bracing
 from .pillars import add_pillars
 from .segmentation import SAVING, Joint, segment
@@ -16,6 +16,7 @@ __all__ = [
     "Joint",
     "add_bracing",
     "add_pillars",
+    "plan_as_given",
     "plan_assembly",
     "segment",
     "slim_stacks",

@@ -19,6 +19,7 @@ from ..building import (
     Tipping,
     Walk,
     building_contacts,
+    given_steps,
     plan_steps,
     steps_alone,
     tipping,
@@ -203,6 +204,47 @@ def plan_assembly(
     found = walk(steps, planned, contacts, temporary=temporary, progress=part(progress, 0.9, 1.0))
     unsteady = _unsteady(steps, planned, contacts)
     return AssemblyPlan(planned, contacts, tuple(pieces), steps, found, unsteady)
+
+
+def plan_as_given(
+    assembly: Assembly, *, own_steps: bool, deepest: int, clutch: float = HOLD, progress: Progress = silent
+) -> AssemblyPlan:
+    """Find how a model is built without adding anything to it.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        The model; supports that are taken out again have their role.
+    own_steps : bool
+        Whether the steps are those of its bricks, which then are all on one table
+        and stay; else they are planned.
+    deepest : int
+        Plates that bricks may hang one under another while building.
+    clutch : float
+        Pull in N that one contact point bears.
+    progress : Progress
+
+    Returns
+    -------
+    AssemblyPlan
+        Rows of the bricks are those of the model.
+    """
+    bricks, temporary = assembly.bricks, assembly.bricks.role == Role.SUPPORT_OUTSIDE
+    model = assembly.take(~temporary)
+    look = partial(plan_supports, clutch=clutch, progress=part(progress, 0.0, 0.5))
+    pieces = [
+        _piece(model, np.flatnonzero(model.bricks.piece == number), None, "none", deepest, look)
+        for number in np.unique(model.bricks.piece).tolist()
+    ]
+    contacts = building_contacts(assembly, temporary=temporary)
+    if own_steps:
+        steps = given_steps(assembly, contacts.pairs)
+    else:
+        ordering = part(progress, 0.5, 0.8)
+        steps = plan_steps(bricks, assembly.catalogue, contacts.pairs, temporary=temporary, progress=ordering)
+    planned = Assembly(replace(bricks, step=steps.moves.step_of(len(bricks))), assembly.catalogue)
+    found = walk(steps, planned, contacts, temporary=temporary, progress=part(progress, 0.8, 1.0))
+    return AssemblyPlan(planned, contacts, tuple(pieces), steps, found, _unsteady(steps, planned, contacts))
 
 
 def _unsteady(steps: Steps, assembly: Assembly, contacts: BuildingContacts) -> tuple[Tipping, ...]:

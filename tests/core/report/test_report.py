@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import json
-from dataclasses import fields
+from dataclasses import fields, replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from legorize_addon.core.build import Cut
+from legorize_addon.core.build import Build, Cut
 from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill, UnitGrid
 from legorize_addon.core.report.report import report
 from legorize_addon.core.settings import Settings
@@ -71,8 +70,9 @@ def build_of(rows):
     solid[:2, 1:5, 1:7] = True
     cut = stages(painted(box((4, 28, 0), (36, 52, 19.2)), 4))
     slices = SimpleNamespace(heights=cut.heights)
-    return SimpleNamespace(
+    return Build(
         settings=Settings(seed=7),
+        surface=None,
         mesh=mesh,
         repairs=Repairs(**{entry.name: 0 for entry in fields(Repairs)} | {"watertight": True}),
         scale=0.5,
@@ -82,8 +82,7 @@ def build_of(rows):
         offsets=offsets_of(grid_of(solid), plates=False),
         grid=grid_of(solid),
         hollow=grid_of(solid),
-        bricks=bricks,
-        graph=contact_graph(bricks, CATALOGUE),
+        assembly=Assembly(bricks, CATALOGUE),
         stability=stability(Assembly(bricks, CATALOGUE)),
         supports=supports,
         joints=(),
@@ -161,9 +160,9 @@ def test_matrix_belongs_to_grid_scale_and_units(described):
 def test_matrix_turns_as_the_mesh_was_turned():
     """Of a mesh that was turned about its foot the matrix begins with that turn, in units of the scene."""
     build = build_of([("3001", 1, 1, 0, 4, Role.SHELL)])
-    build.turn = np.array([[1, 0, 0, 50], [0, 0, -1, 60], [0, 1, 0, 70], [0, 0, 0, 1]], dtype=float)
-    turned = np.array(report(build, CATALOGUE, version="", mm_per_unit=10.0)["mesh_to_ldraw"])
-    build.turn = np.eye(4)
+    turn = np.array([[1, 0, 0, 50], [0, 0, -1, 60], [0, 1, 0, 70], [0, 0, 0, 1]], dtype=float)
+    turned = report(replace(build, turn=turn), CATALOGUE, version="", mm_per_unit=10.0)["mesh_to_ldraw"]
+    turned = np.array(turned)
     plain = np.array(report(build, CATALOGUE, version="", mm_per_unit=10.0)["mesh_to_ldraw"])
     np.testing.assert_allclose(turned @ [1, 2, 3, 1], plain @ [1 + 5, -3 + 6, 2 + 7, 1])
 
@@ -171,8 +170,8 @@ def test_matrix_turns_as_the_mesh_was_turned():
 def described_grid(grid, **changes):
     """Return the report of a build, in bricks, whose unit bricks and more are others."""
     changes = {"grid": grid, "offsets": offsets_of(grid, plates=False)} | changes
-    build = vars(build_of([("3001", 1, 1, 0, 4, Role.SHELL)])) | changes
-    return report(SimpleNamespace(**build), CATALOGUE, version="", mm_per_unit=1.0)
+    build = replace(build_of([("3001", 1, 1, 0, 4, Role.SHELL)]), **changes)
+    return report(build, CATALOGUE, version="", mm_per_unit=1.0)
 
 
 def test_detail_counts_layers_and_columns():

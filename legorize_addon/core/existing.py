@@ -1,0 +1,238 @@
+"""Brick models that exist already, from a file or the scene: judged as our own, or laid again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Final, Literal
+
+import numpy as np
+
+from .build import Finished
+from .building import prove_steps
+from .errors import BuildError, LimitError, enough_memory
+from .estimate import megabytes
+from .layout import as_good, cells_of, lay_again
+from .model import Assembly, Bricks, Catalogue, Role, contact_graph, load_catalogue, stud_columns
+from .native import watched
+from .progress import Overall, Progress, silent
+from .report import remarks, remarks_on_building, remarks_on_prices, remarks_on_proof
+from .settings import Settings
+from .shopping import shopping_list
+from .stages import Run, lay_bricks, strengthen_joints
+from .statics import stability
+from .supports import AssemblyPlan, plan_as_given, plan_assembly
+
+StepsFrom = Literal["file", "new"]
+"""Whether the steps of the model's author are kept, or planned."""
+
+SHOWN: Final = 0.1
+"""Model mm per world mm: in the scene a stud is 8 cm wide, because Blender's view shows nothing nearer than 1 cm."""
+
+EXPECTED: Final = {"layout": 3.0, "strengthening": 1.0, "stability": 1.0, "supports": 2.0}
+"""Shares of the time that stages take; without a mesh nothing better is known before."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Existing:
+    """Bricks that somebody laid.
+
+    Attributes
+    ----------
+    bricks : Bricks
+        Supports that are taken out again have the role for it.
+    has_steps : bool
+        Whether their steps are an author's.
+    notes : tuple of str
+        What was left out of them or changed, a sentence each.
+    """
+
+    bricks: Bricks
+    has_steps: bool = False
+    notes: tuple[str, ...] = ()
+
+
+@enough_memory()
+def judge(
+    given: Existing,
+    settings: Settings,
+    *,
+    again: bool = False,
+    steps: StepsFrom = "file",
+    scale: float = SHOWN,
+    progress: Progress = silent,
+) -> Finished:
+    """Find out whether a brick model stands and how it is built, and lay it again if that is wanted.
+
+    Parameters
+    ----------
+    given : Existing
+        The model.
+    settings : Settings
+        Those of layout, supports, check and limits count.
+    again : bool, optional
+        Whether to look for a layout of the same cells and colours in fewer
+        bricks.
+    steps : {"file", "new"}, optional
+        Whether an author's steps are kept; a model that has none, or is laid
+        again, gets new ones in any case.
+    scale : float, optional
+        Model mm per world mm, for the scene.
+    progress : Progress, optional
+
+    Returns
+    -------
+    Finished
+
+    Raises
+    ------
+    BuildError
+        There are no bricks.
+    LimitError
+        The model is larger than the settings allow.
+    """
+    return watched(partial(_judge, given, settings, again, steps, scale), progress)
+
+
+def _judge(
+    given: Existing, settings: Settings, again: bool, steps: StepsFrom, scale: float, progress: Progress
+) -> Finished:
+    """Go through the stages."""
+    check_size(given.bricks, settings)
+    run = Run.of(settings, Overall(EXPECTED, progress))
+    bricks, notes = without_overlaps(moved_up(given.bricks), run.catalogue)
+    if again:
+        bricks, more = _laid_again(run, bricks)
+        notes += more
+    assembly = Assembly(bricks, run.catalogue)
+    with run.stage("supports"):
+        own = steps == "file" and given.has_steps and not again
+        plan = _plan(run, assembly, own_steps=own, planned=again or steps == "new")
+    final = plan.final
+    if len(final) > len(assembly.take(bricks.role != Role.SUPPORT_OUTSIDE)):
+        notes += ("Pillars that stay were added, without which the model cannot be built.",)
+    with run.stage("stability"):
+        found = stability(final, clutch=settings.clutch, progress=run.progress)
+    proof = None
+    if settings.prove_steps:
+        with run.stage("proof"):
+            proof = prove_steps(plan.steps, plan.assembly, clutch=settings.clutch, progress=run.progress)
+    run.progress.finish()
+    prices = run.parts.prices
+    told = (
+        *remarks(final, found, spare=settings.spare),
+        *remarks_on_building(plan),
+        *remarks_on_proof(proof),
+        *remarks_on_prices(prices, final.bricks, plan.removed, run.catalogue),
+    )
+    return Finished(
+        settings=settings, scale=scale, assembly=final, stability=found, supports=plan, joints=(), prices=prices,
+        proof=proof, notes=(*given.notes, *notes, *told), timings=run.timings,
+    )  # fmt: skip
+
+
+def check_size(bricks: Bricks, settings: Settings) -> None:
+    """Refuse models that the limits do not allow, before anything is computed of them.
+
+    Raises
+    ------
+    BuildError
+        There are no bricks.
+    LimitError
+        There are too many, or they lie too far apart.
+    """
+    if not len(bricks):
+        raise BuildError("There are no bricks: open a file with bricks and plates.")
+    found = shopping_list(Assembly(bricks, load_catalogue()))
+    longest = max(found.cm)
+    if longest > settings.limit_size:
+        raise LimitError(
+            f"The model is {longest:,.0f} cm long, more than the limit of {settings.limit_size:,} cm: remove parts "
+            "that lie far away, or raise limit_size."
+        )
+    if len(bricks) > settings.limit_bricks:
+        raise LimitError(
+            f"The model has {len(bricks):,} bricks, more than the limit of {settings.limit_bricks:,}: open a smaller "
+            "one, or raise limit_bricks."
+        )
+    needed = megabytes(found.studs[0] * found.studs[1] * found.plates, len(bricks))
+    if needed > settings.limit_memory:
+        raise LimitError(
+            f"The model would take about {needed:,.0f} MB, more than the limit of {settings.limit_memory:,} MB: remove "
+            "parts that lie far away, or raise limit_memory."
+        )
+
+
+def moved_up(bricks: Bricks) -> Bricks:
+    """Return bricks of which none lies at negative coordinates: all moved by as much as that takes."""
+    low = np.minimum(bricks.corner.min(axis=0), 0)
+    return replace(bricks, corner=bricks.corner - low) if low.any() else bricks
+
+
+def without_overlaps(bricks: Bricks, catalogue: Catalogue) -> tuple[Bricks, tuple[str, ...]]:
+    """Return bricks of which no two fill a cell, the first ones first, and a sentence on those left out.
+
+    Supports that are taken out again may lie where other pieces are put later;
+    they stay.
+    """
+    lasting = np.flatnonzero(bricks.role != Role.SUPPORT_OUTSIDE)
+    model = bricks.take(lasting)
+    if not contact_graph(model, catalogue).collisions:
+        return bricks, ()
+    taken: set[tuple[int, int, int]] = set()
+    dropped = []
+    for row, cells in zip(lasting.tolist(), _cells(model, catalogue), strict=True):
+        if taken.isdisjoint(cells):
+            taken.update(cells)
+        else:
+            dropped.append(row)
+    kept = np.setdiff1d(np.arange(len(bricks)), dropped)
+    what = "1 brick lies" if len(dropped) == 1 else f"{len(dropped)} bricks lie"
+    return bricks.take(kept), (f"{what} in others, left out.",)
+
+
+def _cells(bricks: Bricks, catalogue: Catalogue) -> Sequence[list[tuple[int, int, int]]]:
+    """Return the cells of each brick."""
+    brick, columns = stud_columns(bricks, catalogue)
+    height = catalogue.height[bricks.part]
+    found: list[list[tuple[int, int, int]]] = [[] for _ in range(len(bricks))]
+    for row, (x, y, z) in zip(brick.tolist(), columns.tolist(), strict=True):
+        found[row] += [(x, y, z + level) for level in range(int(height[row]))]
+    return found
+
+
+def _laid_again(run: Run, given: Bricks) -> tuple[Bricks, tuple[str, ...]]:
+    """Return the model without supports that are taken out, in fewer bricks if they were found, and what to tell."""
+    given = given.take(given.role != Role.SUPPORT_OUTSIDE)
+    given = replace(given, piece=np.zeros_like(given.piece))
+    with run.stage("layout"):
+        laid = lay_again(given, run.catalogue, partial(lay_bricks, run))
+    if laid is given:
+        return given, (f"No layout in fewer than {len(given)} bricks was found: the model stays as it is.",)
+    with run.stage("strengthening"):
+        laid = _strengthened(run, laid, given)
+    return laid, (f"Laid again in {len(laid)} bricks instead of {len(given)}.",)
+
+
+def _strengthened(run: Run, laid: Bricks, given: Bricks) -> Bricks:
+    """Return a layout with ties where it is weak, as far as that shows nowhere and needs no more bricks than before."""
+    tied, _, _ = strengthen_joints(run, laid, cells_of(laid, run.catalogue))
+    better = len(tied) < len(given) and as_good(tied, given, run.catalogue)
+    return tied if better else laid
+
+
+def _plan(run: Run, assembly: Assembly, *, own_steps: bool, planned: bool) -> AssemblyPlan:
+    """Return how a model is built: as it says itself, or by supports and an order of our own."""
+    settings, bricks = run.settings, assembly.bricks
+    outside = bricks.role == Role.SUPPORT_OUTSIDE
+    as_given = partial(plan_as_given, assembly, deepest=settings.hanging, clutch=settings.clutch, progress=run.progress)
+    if not planned and outside.any():
+        # our own: its steps follow from its bricks
+        return as_given(own_steps=False)
+    if own_steps and not bricks.piece.any():
+        return as_given(own_steps=True)
+    return plan_assembly(
+        assembly.take(~outside), wish=settings.supports, deepest=settings.hanging, clutch=settings.clutch,
+        progress=run.progress,
+    )  # fmt: skip
