@@ -20,7 +20,7 @@ from .progress import Overall, Progress, silent
 from .report import remarks, remarks_on_building, remarks_on_prices, remarks_on_proof
 from .settings import Settings
 from .shopping import shopping_list
-from .stages import Run, lay_bricks, strengthen_joints
+from .stages import Run, lay_freely, strengthen_joints
 from .statics import stability
 from .supports import AssemblyPlan, plan_as_given, plan_assembly
 
@@ -207,7 +207,7 @@ def _laid_again(run: Run, given: Bricks) -> tuple[Bricks, tuple[str, ...]]:
     given = given.take(given.role != Role.SUPPORT_OUTSIDE)
     given = replace(given, piece=np.zeros_like(given.piece))
     with run.stage("layout"):
-        laid = lay_again(given, run.catalogue, partial(lay_bricks, run))
+        laid = lay_again(given, run.catalogue, partial(lay_freely, run))
     if laid is given:
         return given, (f"No layout in fewer than {len(given)} bricks was found: the model stays as it is.",)
     with run.stage("strengthening"):

@@ -88,7 +88,7 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     with run.stage("hollowing"):
         shell = make_cohesive(hollow_out(run, grid), plates=plates)
     with run.stage("layout"):
-        bricks = lay_bricks(run, shell)
+        bricks, shell = lay_bricks(run, shell)
     with run.stage("ties"):
         bricks, shell = add_ties(bricks, shell, run.catalogue, plates=plates)
     with run.stage("strengthening"):

@@ -16,7 +16,7 @@ from .arrays import Floats, Mask
 from .build import Cut
 from .colours import SurfaceColours, chosen_palette, count_texels, surface_colours
 from .estimate import AGAIN
-from .layout import FILLER, lay
+from .layout import FILLER, Alike, Manner, lay
 from .layout.learning import NO_EXCHANGES, learned_table, samples_text
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
 from .model import Assembly, Bricks, Catalogue, UnitGrid, load_catalogue
@@ -26,7 +26,7 @@ from .settings import Settings
 from .shell import hollow
 from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_layers, levels_of, slice_mesh
 from .statics import Effort, Stability, stability
-from .supports import AssemblyPlan, add_bracing, add_pillars, plan_assembly, strengthen
+from .supports import AssemblyPlan, add_bracing, add_pillars, parts_of_supports, plan_assembly, strengthen
 from .texturing import reduce_images, remarks_on_unseen, seen_part
 from .unit_bricks import (
     Detail,
@@ -170,6 +170,7 @@ def make_unit_grid(
     lattice = frame.plates() if _in_plates(settings) else frame
     facing = facing_of(mesh, surface) if settings.backing else None
     rules = Rules(
+        symmetric=settings.symmetric,
         keep_thin=settings.keep_thin,
         longest=settings.cell_colour == "longest",
         closed=repairs.watertight,
@@ -218,8 +219,8 @@ def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
     )
 
 
-def lay_bricks(run: Run, shell: UnitGrid) -> Bricks:
-    """Lay the bricks."""
+def lay_freely(run: Run, shell: UnitGrid) -> Bricks:
+    """Lay the bricks, whether the model is symmetric or not."""
     return run.parts.laid(
         partial(
             lay,
@@ -231,6 +232,26 @@ def lay_bricks(run: Run, shell: UnitGrid) -> Bricks:
             progress=run.progress,
         )
     )
+
+
+def lay_bricks(run: Run, shell: UnitGrid) -> tuple[Bricks, UnitGrid]:
+    """Lay the bricks, and the halves of a symmetric model alike; return the cells that they cover as well."""
+    bricks = lay_freely(run, shell)
+    # where parts differ in price or weight, their number does not say what a layout costs
+    if not run.settings.symmetric or run.parts.cheapest or run.parts.catalogue.cost is not None:
+        return bricks, shell
+    manner, burden = Manner(run.settings.layout, run.exchanges), partial(_parts_of_supports, run)
+    filler = _filler(run.palette, run.catalogue)
+    return Alike(shell, run.parts.catalogue, rng=run.rng, manner=manner, filler=filler, burden=burden).lay(
+        bricks, run.progress
+    )
+
+
+def _parts_of_supports(run: Run, bricks: Bricks) -> float:
+    """Return about how many parts supports of a layout take."""
+    if run.settings.supports == "none":
+        return 0.0
+    return parts_of_supports(Assembly(bricks, run.catalogue), deepest=run.settings.hanging)
 
 
 def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid, Floats | None]:

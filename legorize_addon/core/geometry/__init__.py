@@ -1,8 +1,9 @@
-"""Helpers on plain arrays, unaware of bricks: ranges, cuts at grid lines, support polygons, neighbourhoods."""
+"""Helpers on plain arrays, unaware of bricks: ranges, cuts at grid lines, support polygons, mirroring, neighbours."""
 
 from __future__ import annotations
 
 from .grid_lines import split_at_lattice
+from .mirroring import mirror_axis
 from .neighbourhoods import outer_air, visible
 from .ranges import ranges
 from .support_polygon import beyond, corners, hull, inside
@@ -12,6 +13,7 @@ __all__ = [
     "corners",
     "hull",
     "inside",
+    "mirror_axis",
     "outer_air",
     "ranges",
     "split_at_lattice",

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from .again import as_good, cells_of, lay_again
-from .lay import FILLER, lay
+from .alike import Alike
+from .lay import FILLER, Manner, lay
 from .recolour import recolour_visible
 
 __all__ = [
     "FILLER",
+    "Alike",
+    "Manner",
     "as_good",
     "cells_of",
     "lay",

@@ -40,6 +40,7 @@ from .problem import (
     with_margins,
 )
 from .solvers import exact, fewer_small, greedy, guessed_prices, linear
+from .symmetric import Fold
 
 FILLER: Final = 71
 """LDraw code of Light Bluish Gray, in which nearly every part is made: for hidden bricks."""
@@ -65,6 +66,28 @@ _PASSES: Final[Mapping[Tier, tuple[tuple[Way, float], ...]]] = MappingProxyType(
 """How the even sheets are laid, then the odd ones, and then the even ones again;
 and what lying across a seam saves then, in bricks: little across seams that do
 not stay, and for the fewest bricks less than a brick in most places."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Manner:
+    """How sheets are laid.
+
+    Attributes
+    ----------
+    tier : str
+        How much work goes into few bricks, see :func:`lay`.
+    exchanges : (4, 16, 16, 24) bool array, optional
+        What the fast tier exchanges, see :func:`lay`.
+    fold : Fold, optional
+        Where the grid is folded, if it is one half of a symmetric one.
+    beside : (n_plates + 2, n_y, n_x) int32 array, optional
+        Bricks that lie in other cells already, see :func:`~.problem.owners`.
+    """
+
+    tier: Tier
+    exchanges: Mask | None = None
+    fold: Fold | None = None
+    beside: Rows | None = None
 
 
 def lay(
@@ -111,8 +134,15 @@ def lay(
         There is nothing to build, or a required cell cannot be covered, because no part of one cell is made in its
         colour.
     """
-    work = _work(grid, catalogue, filler)
-    bricks = _cover(grid, work, rng, tier, exchanges, progress)
+    work = sheets_and_shapes(grid, catalogue, filler)
+    bricks = cover(grid, work, rng, Manner(tier, exchanges), progress)
+    return join_loose(bricks, grid, catalogue, work, rng, progress)
+
+
+def join_loose(
+    bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, work: Work, rng: np.random.Generator, progress: Progress
+) -> Bricks:
+    """Join what is loose, as far as other layouts can."""
     bricks = connect_loose(bricks, grid, work, catalogue, rng, progress)
     return join_by_windows(bricks, grid, work, catalogue, progress)
 
@@ -121,30 +151,29 @@ def lay_unjoined(
     grid: UnitGrid, catalogue: Catalogue, *, rng: np.random.Generator, tier: Tier = "standard", filler: int = FILLER
 ) -> Bricks:
     """Like :func:`lay`, but leave loose bricks where they are."""
-    return _cover(grid, _work(grid, catalogue, filler), rng, tier, None, silent)
+    return cover(grid, sheets_and_shapes(grid, catalogue, filler), rng, Manner(tier), silent)
 
 
-def _work(grid: UnitGrid, catalogue: Catalogue, filler: int) -> Work:
+def sheets_and_shapes(grid: UnitGrid, catalogue: Catalogue, filler: int) -> Work:
     """Return the sheets of each height, and the shapes that may lie there."""
     codes = np.unique(grid.colour[grid.colour >= 0])
     return [(each, shapes(catalogue, each.height, codes, filler)) for each in split(grid)]
 
 
-def _cover(
-    grid: UnitGrid, work: Work, rng: np.random.Generator, tier: Tier, exchanges: Mask | None, progress: Progress
-) -> Bricks:
+def cover(grid: UnitGrid, work: Work, rng: np.random.Generator, manner: Manner, progress: Progress) -> Bricks:
     """Cover the sheets of a model, a slab of layers after the other."""
     required = with_margins(grid.cover == Fill.REQUIRED, False)
     if not required.any():
         raise BuildError("The model has no cells to build: make it larger.")
-    owner = np.full(required.shape, NOBODY, dtype=np.int32)
-    owner[: ground_of(required)] = GROUND
+    owner = np.full(required.shape, NOBODY, dtype=np.int32) if manner.beside is None else manner.beside.copy()
+    owner[: ground_of(required | (owner != NOBODY))] = GROUND
     slab_of_layer = np.cumsum(grid.solid.any(axis=1).sum(axis=(1, 2))) // _SLAB
+    tier, exchanges = manner.tier, manner.exchanges
     worth = (shipped() if exchanges is None else exchanges) if tier == "fast" else None
     laid: list[Bricks] = []
     slabs = np.unique(slab_of_layer)
     for turn, slab in enumerate(slabs):
-        listed = _listed(work, slab_of_layer == slab, owner, required, tier)
+        listed = _listed(work, slab_of_layer == slab, owner, required, manner)
 
         def tell(share: float, turn: int = turn) -> None:
             progress("layout", (turn + share) / len(slabs))
@@ -155,29 +184,38 @@ def _cover(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Listed:
-    """Sheets of one height, their placements, and estimated prices of their cells."""
+    """Sheets of one height, their placements, where they are folded, and estimated prices of their cells."""
 
     sheets: Sheets
     among: Shapes
     found: Placements
-    price: Floats | None
+    fold: Fold | None
+    price: Floats | None = None
 
     def take(self, which: Index) -> _Listed:
         """Return some of the sheets."""
         sheet = np.repeat(np.arange(len(self.sheets)), self.sheets.n_cells)
         price = None if self.price is None else self.price[np.isin(sheet, which)]
-        return _Listed(self.sheets.take(which), self.among, self.found.on(which, self.sheets.n_cells), price)
+        found = self.found.on(which, self.sheets.n_cells)
+        return _Listed(self.sheets.take(which), self.among, found, self.fold, price)
+
+    def pose(self, owner: Rows, required: Mask, bridge: float = BRIDGE) -> Problem:
+        """Put costs on the placements."""
+        problem = replace(pose(self.sheets, self.among, self.found, owner, required, bridge), price=self.price)
+        return problem if self.fold is None else self.fold.priced(problem)
 
 
-def _listed(work: Work, layers: Mask, owner: Rows, required: Mask, tier: Tier) -> list[_Listed]:
+def _listed(work: Work, layers: Mask, owner: Rows, required: Mask, manner: Manner) -> list[_Listed]:
     """List what may lie on the sheets of some layers."""
     listed = []
     for sheets, among in work:
         inside = sheets.take(layers[sheets.level // PLATES_PER_BRICK])
         if len(inside):
             found = placements(inside, among)
-            price = guessed_prices(pose(inside, among, found, owner, required)) if tier == "standard" else None
-            listed.append(_Listed(inside, among, found, price))
+            found = found if manner.fold is None else manner.fold.possible(found, among)
+            each = _Listed(inside, among, found, manner.fold)
+            guessed = manner.tier == "standard"
+            listed.append(replace(each, price=guessed_prices(each.pose(owner, required))) if guessed else each)
     return listed
 
 
@@ -197,8 +235,7 @@ def _passed(
         halves[number % 2] = half = []
         for each in _batches(listed, number % 2, np.inf if way is greedy.cover else _BATCH):
             tell(number / len(passes))
-            problem = pose(each.sheets, each.among, each.found, owner, required, bridge)
-            half.append(_laid(replace(problem, price=each.price), owner, first, way, worth, rng))
+            half.append(_laid(each.pose(owner, required, bridge), owner, first, way, worth, rng))
             first += len(half[-1])
     return halves[0] + halves[1]
 

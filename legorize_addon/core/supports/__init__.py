@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .assembly_plan import AssemblyPlan, plan_as_given, plan_assembly
 from .bracing import add_bracing
+from .demand import parts_of_supports
 from .pillars import add_pillars
 from .segmentation import SAVING, Joint, segment
 from .stacks import SLIM, slim_stacks
@@ -16,6 +17,7 @@ __all__ = [
     "Joint",
     "add_bracing",
     "add_pillars",
+    "parts_of_supports",
     "plan_as_given",
     "plan_assembly",
     "segment",

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Ints
 from ..model import Assembly, Rows, middles, stud_columns
 from ..statics import GRAVITY
+from .boxes import TALL
 from .clearance import Clearance, clearance_around
 from .hanging import NOT_HELD, Hanging
 
@@ -117,6 +118,23 @@ def support_demand(assembly: Assembly, *, deepest: int, room: Clearance | None =
         enclosed=enclosed[carrying.depth[enclosed] == NOT_HELD],
         depth=depth,
     )
+
+
+def parts_of_supports(assembly: Assembly, *, deepest: int) -> float:
+    """Estimate how many parts the supports of a model take: tall bricks under each contact.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        One piece.
+    deepest : int
+        As for :func:`support_demand`.
+
+    Returns
+    -------
+    float
+    """
+    return float(support_demand(assembly, deepest=deepest).contacts[:, 2].sum()) / TALL
 
 
 def _chosen(carrying: Hanging, assembly: Assembly, candidates: Ints) -> tuple[Ints, Floats]:

@@ -33,6 +33,7 @@ from .facing import Facing
 from .longest_trajectory import Crossings, longest_colours
 from .plates import Detail, settle_colours, settle_plates
 from .surface_samples import SurfaceSamples, horizontal_samples, standing_pieces, surface_area, trajectory_samples
+from .symmetry import mirror_colours, mirror_shapes
 from .thin_features import thin_cells
 from .visibility import air_around
 
@@ -61,6 +62,9 @@ class Rules:
 
     Attributes
     ----------
+    symmetric : bool
+        Whether cells are made like their image in the middle of the grid where
+        the mesh is.
     keep_thin : bool
         Add cells where the surface would otherwise be lost: legs, ears, thin
         walls.
@@ -80,6 +84,7 @@ class Rules:
         How colours are mixed, after plates are decided; None leaves each cell its closest colour.
     """
 
+    symmetric: bool = False
     keep_thin: bool = True
     longest: bool = False
     closed: bool = True
@@ -130,6 +135,8 @@ def unit_bricks(
     if not rules.closed:
         share[air_around(samples, grid.shape, on_ground=True).fills(grid.shape)] = 0
     solid = _solid(share, samples, keep_thin=rules.keep_thin, detail=rules.detail, progress=part(progress, 0.2, 0.6))
+    if rules.symmetric:
+        solid = mirror_shapes(solid, share)
     progress("unit bricks", 0.6)
     air = outer_air(solid)
     progress("unit bricks", 0.65)
@@ -147,6 +154,8 @@ def unit_bricks(
     colour[seen] = ballot.winners(seen, grid.height)
     if rules.detail is not None:
         colour = settle_colours(colour, seen, ballot, rules.detail)
+    if rules.symmetric:
+        colour = mirror_colours(colour, seen, ballot, height=round(BRICK / grid.height))
     if rules.dithering is not None:
         light = light_in_the_open(mesh, samples, grid)
         colour = dither(colour, seen, air, light, rules.dithering, catalogue)

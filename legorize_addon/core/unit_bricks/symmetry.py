@@ -1,0 +1,119 @@
+"""Symmetric models of symmetric meshes: cells that differ from their image by next to nothing become like it.
+
+The two halves of a mesh are hardly ever equal to the last digit, and a cell that is half covered falls to one side on
+the left and to the other on the right. Where the mesh is not symmetric, as with a sword in one hand or a patch on one
+eye, the cells stay as they are.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from ..arrays import Floats, Mask
+from ..geometry import mirror_axis
+from ..model import COLOUR_EMPTY
+from .colour_votes import CLEAR, Ballot, Codes
+
+NEAR: Final = 0.1
+"""Share of a cell by which the mesh inside it may differ from that in its image."""
+
+CLOSE: Final = CLEAR / 2
+"""Mean CIEDE2000 difference from its surface by which a cell may get worse so that it is like its image: half of what
+is clear at a glance."""
+
+
+def mirror_shapes(solid: Mask, share: Floats) -> Mask:
+    """Fill cells whose image is filled, where the mesh in both is the same.
+
+    Parameters
+    ----------
+    solid : (n_levels, n_y, n_x) bool array
+        Filled cells of a grid whose middle is that of the mesh.
+    share : (n_levels, n_y, n_x) float64 array
+        Share of each cell inside the mesh.
+
+    Returns
+    -------
+    (n_levels, n_y, n_x) bool array
+        Nothing is taken away, so that nothing thin is lost. A model that is not
+        symmetric stays as it is.
+    """
+    axis = mirror_axis(solid)
+    if axis is None:
+        return solid
+    alike = np.abs(share - np.flip(share, axis)) <= NEAR
+    filled: Mask = solid | (np.flip(solid, axis) & alike)
+    return filled
+
+
+def mirror_colours(colour: Codes, seen: Mask, ballot: Ballot, *, height: int) -> Codes:
+    """Give columns and their images the same colours, where these hardly matter to the surface of both.
+
+    Parameters
+    ----------
+    colour : (n_levels, n_y, n_x) int16 array
+        LDraw codes, ``COLOUR_ANY`` or ``COLOUR_EMPTY``.
+    seen : (n_levels, n_y, n_x) bool array
+        Visible cells; others stay as they are.
+    ballot : Ballot
+        What the surface of each visible cell asks for.
+    height : int
+        Levels of a column that is decided about at once: those of a layer.
+
+    Returns
+    -------
+    (n_levels, n_y, n_x) int16 array
+        Of two colourings that mirrored columns have, both take the one that is
+        closer to the surface of both.
+    """
+    axis = mirror_axis(colour != COLOUR_EMPTY)
+    if axis is None or not len(ballot.codes):
+        return colour
+    cost = np.zeros((*colour.shape, len(ballot.codes)))
+    cost[seen] = ballot.cost
+    image, far = np.flip(colour, axis), np.flip(cost, axis)
+    decided = (colour >= 0) & (image >= 0) & seen & np.flip(seen, axis)
+    differs = _of_columns(decided & (colour != image), height).any(axis=1, keepdims=True)
+    # whole columns, so that no brick is torn into plates
+    differs = np.broadcast_to(differs, _of_columns(decided, height).shape).reshape(colour.shape) & decided
+    own, others = _price(cost, colour, ballot.codes, differs), _price(cost, image, ballot.codes, differs)
+    own_far, others_far = _price(far, image, ballot.codes, differs), _price(far, colour, ballot.codes, differs)
+    # what a column and its image lose if both look like the image, and if both look like the column
+    as_image, as_own = _sums(others - own, height), _sums(others_far - own_far, height)
+    takes = (as_image < as_own) | ((as_image == as_own) & _first(colour.shape, axis, height))
+    takes &= as_image <= CLOSE * _sums(differs.astype(np.float64), height)
+    found: Codes = np.where(_spread(takes, height) & differs, image, colour).astype(np.int16)
+    return found
+
+
+def _of_columns(cells: np.ndarray, height: int) -> np.ndarray:
+    """Return levels as those of layers, (n_layers, height, n_y, n_x)."""
+    return cells.reshape(-1, height, *cells.shape[1:])
+
+
+def _sums(amount: Floats, height: int) -> Floats:
+    """Return the sums over columns, (n_layers, n_y, n_x)."""
+    total: Floats = _of_columns(amount, height).sum(axis=1)
+    return np.round(total, 9)
+
+
+def _spread(columns: Mask, height: int) -> Mask:
+    """Return of each cell what holds for its column."""
+    return np.repeat(columns, height, axis=0)
+
+
+def _first(shape: tuple[int, ...], axis: int, height: int) -> Mask:
+    """Return the columns of the half with the lower numbers: they give way where nothing else decides."""
+    at = np.indices((shape[0] // height, *shape[1:]))[axis]
+    first: Mask = at < shape[axis] // 2
+    return first
+
+
+def _price(cost: Floats, colour: Codes, codes: Codes, which: Mask) -> Floats:
+    """Return what cells cost in a colour, 0 where nothing is asked."""
+    place = np.minimum(np.searchsorted(codes, colour), len(codes) - 1)
+    there = codes[place] == colour
+    found = np.take_along_axis(cost, place[..., None], axis=-1)[..., 0]
+    return np.where(which, np.where(there, found, np.inf), 0.0)
