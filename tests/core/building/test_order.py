@@ -15,6 +15,7 @@ from legorize_addon.core.building.items import MOST
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import _Writer, plan_steps
 from legorize_addon.core.building.steps import Kind
+from legorize_addon.core.building.tables import Put, Table
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.contacts import contact_graph
@@ -125,6 +126,14 @@ def test_the_mirror_image_of_a_submodel_is_found_among_others():
     rows = {1: [0, 1], 2: [2, 3], 3: [5, 4], 4: [4], 5: [6]}
     planner = SimpleNamespace(image=np.array([4, 5, NOBODY, 6, 0, 1, 3]), all_rows=rows.__getitem__)
     assert [_Writer(planner)._images(number, list(rows)) for number in rows] == [[3], [], [1], [], []]
+
+
+def test_a_step_is_mirrored_by_the_one_after_it():
+    """The images of what is put on come right after it, not before and not later."""
+    planner = SimpleNamespace(image=np.array([1, 0, NOBODY, 4, 3]))
+    steps = [[Put(row, NOBODY, pressed=False)] for row in range(5)]
+    found = [_Writer(planner)._mirrored(Table(steps, []), turn) for turn in range(4)]
+    assert found == [True, False, False, True]
 
 
 def test_floating_bricks_come_last():

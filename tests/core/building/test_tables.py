@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.building import tables
 from legorize_addon.core.building.contacts import building_contacts
+from legorize_addon.core.building.items import MOST
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.steps import Kind
@@ -72,6 +76,29 @@ def test_a_small_sub_assembly_is_one_step():
     _, steps = planned(comb(0))
     small = next(each.number for each in steps.submodels if each.kind == Kind.SUBASSEMBLY)
     assert sum(step.submodel == small for step in steps) == 1
+
+
+@pytest.mark.parametrize("n", [MOST, MOST + 1])
+def test_a_sub_assembly_of_as_many_bricks_as_a_step_has_is_one_step(n):
+    """A beam from which plates hang in a column is built in one picture up to that number."""
+    pillar = [("3003", 0, 0, 3 * k) for k in range(8)]
+    planner, _ = planned(table(*pillar, ("3008", 0, 0, 24), *(("3024", 5, 0, 23 - k) for k in range(n - 1))))
+    [small] = [each.number for each in planner.submodels if each.kind == Kind.SUBASSEMBLY]
+    assert (len(planner.tables[small].steps) == 1) == (n == MOST)
+
+
+def test_progress_goes_on_from_piece_to_piece():
+    """Pieces that need many steps, and then the model: what is told grows from 0 to no more than 1."""
+    rows = [("3003", 2 * x, 8 * piece, 3 * z) for piece in range(3) for x in range(8) for z in range(4)]
+    bricks = table(*rows)
+    bricks = replace(bricks, piece=np.repeat([0, 1, 2], 32).astype(np.int16))
+    pairs = building_contacts(Assembly(bricks, CATALOGUE), temporary=np.zeros(96, bool)).pairs
+    told = []
+    Planner(bricks, CATALOGUE, pairs, np.zeros(96, bool)).plan_pieces(lambda _, share: told.append(share))
+    assert told == sorted(told)
+    assert told[0] == 0
+    assert 0.8 < told[-1] <= 1
+    assert all(any(low < share < low + 0.25 for share in told) for low in (0, 0.25, 0.5))
 
 
 def told(bricks, monkeypatch):

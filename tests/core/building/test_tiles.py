@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from legorize_addon.core.building.tiles import tiles_of
 
@@ -29,3 +30,22 @@ def test_what_is_small_or_high_is_no_mosaic():
     assert not tiles_of(*squares(48, 8)).any()
     assert not tiles_of(*squares(48, 32, levels=range(0, 30, 3))).any()
     assert not tiles_of(np.zeros((0, 4), np.int64), np.zeros(0, np.int64)).any()
+
+
+@pytest.mark.parametrize(
+    ("wide", "deep", "high", "n_tiles"),
+    [(17, 16, 6, 2), (16, 17, 6, 2), (17, 15, 6, 0), (16, 16, 6, 0), (17, 16, 7, 0)],
+)
+def test_sides_and_height_from_which_on_there_are_tiles(wide, deep, high, n_tiles):
+    """More than one tile long, at least one wide, and less than six plates high, wherever it stands."""
+    box, level = squares(wide, deep, levels=range(20, 20 + high))
+    assert len(np.unique(tiles_of(box + 7, level))) == max(n_tiles, 1)
+    assert tiles_of(box + 7, level).any() == bool(n_tiles)
+
+
+def test_wide_parts_lie_in_the_tile_of_their_middle():
+    """Of a row of parts four studs long, those that reach over a tile's edge belong to where the most of them is."""
+    x = np.arange(-6, 44, 4)
+    box = np.stack([x, x + 3, 0 * x, 0 * x + 15], axis=1)
+    low = (x + 1 - x.min()) // 16
+    assert tiles_of(box, 0 * x).tolist() == (1 + low).tolist()
