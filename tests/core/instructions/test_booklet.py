@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 from xml.etree import ElementTree
 
 import pytest
 
+from legorize_addon.core.building import steps_of
 from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.instructions.booklet import Booklet
+from legorize_addon.core.instructions.layer_maps import layer_files, layer_pages
 from legorize_addon.core.instructions.paper import PAPERS
-from tests.core.any_bricks import CATALOGUE
+from legorize_addon.core.instructions.pdf import _written
+from legorize_addon.core.instructions.svg import svg
+from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.model.bricks import Role
+from tests.core.any_bricks import CATALOGUE, table
 from tests.core.instructions.built import arm, pair
 
 
@@ -69,3 +76,60 @@ def test_progress_goes_from_0_to_the_end():
     assert told == sorted(told)
     assert told[0] == 0.0
     assert told[-1] > 0.9
+
+
+LOOKS = {
+    "booklet": "e2c859204fea2df8",
+    "letter": "47fb10f562ea2f9f",
+    "print": "17dfcd0086002715",
+    "maps": "c1360cc3171cf3a3",
+    "actual size": "6eb469a0f58f283b",
+    "viewer": "f295b9ec911bb88e",
+}
+"""What the pages of a small model look like, as digests. Margins, sizes of texts and colours are choices: who changes
+one looks at the pages that the test below has written, and puts the new digest here."""
+
+
+def gate():
+    """Return a gate of many kinds of parts and colours: on supports, with what hangs, and a piece put on at the end."""
+    part = {part.number: row for row, part in enumerate(CATALOGUE.parts)}
+    corners = [(10 * x, 2 * y) for x in (0, 1) for y in (0, 1)]
+    rows = [
+        *((part["3003"], *corner, 3 * z, 0, (4, 0, 15)[z % 3], 0, 0, 0) for corner in corners for z in range(4)),
+        *((part["3007"], 0, 2 * y, 12, 0, 14, 0, 0, 0) for y in (0, 1)),
+        *((part["3010"], 8, y, 12, 0, 2, 0, 0, 0) for y in range(4)),
+        *((part["3024"], 5, 3 * y, 11, 0, 1, 0, 0, 0) for y in (0, 1)),
+        *((part["3005"], 7, 2 * y, 3 * z, 0, 72, int(Role.SUPPORT_OUTSIDE), 0, 0) for y in (0, 1) for z in range(4)),
+        *((part["3001"], 4 * x, 2 * y, 15, 0, 25, 0, 1, 0) for x in range(3) for y in (0, 1)),
+        *((part["3020"], 2 + 4 * x, 2 * y, 18, 0, 71, 0, 1, 0) for x in range(2) for y in (0, 1)),
+        (part["3024"], 0, 0, 18, 0, 19, 0, 1, 0),
+    ]  # fmt: skip
+    return table(rows)
+
+
+def test_pages_look_as_they_did(tmp_path):
+    """Booklet, layer maps and the page in three dimensions of a small model are drawn to the last number as before."""
+    bricks = gate()
+    temporary = bricks.role == Role.SUPPORT_OUTSIDE
+    steps = steps_of(Assembly(bricks, CATALOGUE))
+    made = [
+        Booklet(bricks, CATALOGUE, steps, temporary=temporary, title="Gate", paper=PAPERS[paper])
+        for paper in ("A4", "Letter")
+    ]
+    pages = list(made[0].pages())
+    maps = [
+        layer_pages(bricks, CATALOGUE, temporary=temporary, paper=PAPERS["A4"], actual_size=actual)
+        for actual in (False, True)
+    ]
+    texts = {
+        "booklet": "\n".join(map(svg, pages)),
+        "letter": "\n".join(map(svg, made[1].pages())),
+        "print": "\n".join(part.decode("latin-1") for page in pages for part in _written(page.items)),
+        "maps": "".join(text for _, text in layer_files(maps[0])),
+        "actual size": "".join(text for _, text in layer_files(maps[1])),
+        "viewer": made[0]._viewer(dict.fromkeys(range(len(steps)), 1)),
+    }
+    found = {name: hashlib.sha256(text.encode()).hexdigest()[:16] for name, text in texts.items()}
+    if found != LOOKS:
+        made[0].write(tmp_path / "gate.html", tmp_path / "gate.pdf")
+    assert found == LOOKS, f"pages look different: look at {tmp_path}, and if they shall, put these digests into LOOKS"

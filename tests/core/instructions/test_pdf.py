@@ -36,6 +36,14 @@ def test_a_page_has_its_size_and_operators():
     assert 30 - 5 * len("Größe") < float(start) < 30 - 5
 
 
+def test_a4_in_points():
+    """A page of A4 is 595 by 842 of the points of which an inch has 72."""
+    document = Document("Test")
+    document.add(Page(210, 297, []))
+    file = document.data()
+    assert b"/MediaBox [0 0 595.276 841.89]" in file + b"".join(streams(file))
+
+
 def test_pages_and_bookmarks_are_counted():
     """Pages with a title have a bookmark, others none."""
     document = Document("Test")
