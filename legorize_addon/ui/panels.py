@@ -20,6 +20,7 @@ from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_origin
 from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
 from .instructions import LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps
 from .learning import LEGORIZE_OT_forget, LEGORIZE_OT_learn
+from .looks import draw_looks
 from .progress_text import progress_text
 from .properties import current_build
 
@@ -61,6 +62,7 @@ class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
         if len(builds(context.scene)) > 1:
             self.layout.prop(context.scene.legorize, "build")
         self._draw_damage(context)
+        draw_looks(self.layout)
 
     def _draw_damage(self, context: bpy.types.Context) -> None:
         """Draw what was deleted in Blender's own way, and the button that repairs it."""
@@ -107,20 +109,32 @@ class _SettingsPanel(_Tab):
             self.layout.operator(button.bl_idname)
 
 
+class LEGORIZE_PT_advanced(_Tab, bpy.types.Panel):
+    """Holds the panels of all settings but the size."""
+
+    bl_parent_id = "LEGORIZE_PT_main"
+    bl_label = "Advanced"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw nothing but the panels inside."""
+
+
 def _settings_panels() -> tuple[type, ...]:
-    """Return one panel for each group of settings, in their order; the first one is open."""
+    """Return one panel for each group of settings, in their order; the first one is open, the others in Advanced."""
     groups: dict[str, list[Field[Any]]] = {}
     for entry in fields(Settings):
         groups.setdefault(entry.metadata["group"], []).append(entry)
-    return tuple(_settings_panel(group, entries, closed=i > 0) for i, (group, entries) in enumerate(groups.items()))
+    return tuple(_settings_panel(group, entries, advanced=i > 0) for i, (group, entries) in enumerate(groups.items()))
 
 
-def _settings_panel(group: str, entries: Sequence[Field[Any]], *, closed: bool) -> type:
+def _settings_panel(group: str, entries: Sequence[Field[Any]], *, advanced: bool) -> type:
     alternatives = {word: choice.name for choice in entries for word in choices(choice)}
     members = {
         "__doc__": f"The settings of the group {group}.",
         "bl_label": group,
-        "bl_options": {"DEFAULT_CLOSED"} if closed else set(),
+        "bl_parent_id": "LEGORIZE_PT_advanced" if advanced else "LEGORIZE_PT_main",
+        "bl_options": {"DEFAULT_CLOSED"} if advanced else set(),
         "names": tuple(entry.name for entry in entries),
         "alternatives": MappingProxyType(alternatives),
         "buttons": BUTTONS.get(group, ()),
@@ -278,12 +292,17 @@ def _building_figures(building: Mapping[str, Any] | None) -> tuple[str, ...]:
     return tuple(lines)
 
 
+_SIZE, *_OTHERS = _settings_panels()
+
+# what came out stands above the settings that few people change
 classes = (
     LEGORIZE_PT_main,
-    *_settings_panels(),
-    LEGORIZE_PT_layers,
+    _SIZE,
     LEGORIZE_PT_result,
     LEGORIZE_PT_stability,
+    LEGORIZE_PT_layers,
     LEGORIZE_PT_export,
+    LEGORIZE_PT_advanced,
+    *_OTHERS,
 )
 register, unregister = bpy.utils.register_classes_factory(classes)

@@ -87,6 +87,16 @@ def settings_of(group: bpy.types.PropertyGroup) -> Settings:
     return Settings(**{entry.name: _value(getattr(group, entry.name)) for entry in fields(Settings)})
 
 
+def set_settings(group: bpy.types.PropertyGroup, settings: Settings) -> None:
+    """Let the scene's settings be others; those at their default are as if they had never been set."""
+    for entry in fields(Settings):
+        value = getattr(settings, entry.name)
+        if value == entry.default:
+            group.property_unset(entry.name)
+        else:
+            setattr(group, entry.name, value)
+
+
 def _value(value: Any) -> Any:
     # Blender keeps 32 bits of a float: 3.2 comes back as 3.2000000477
     return float(str(np.float32(value))) if isinstance(value, float) else value

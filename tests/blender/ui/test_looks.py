@@ -1,0 +1,60 @@
+"""Looks set all settings at once; one's own come back from Blender's presets."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+import pytest
+
+from legorize_addon.core.presets import PRESETS, preset_values
+from legorize_addon.core.settings import Settings
+from legorize_addon.ui import panels
+from legorize_addon.ui.settings_properties import settings_of
+
+pytestmark = pytest.mark.usefixtures("addon")
+
+
+def chosen() -> Settings:
+    """Return the settings of the scene."""
+    return settings_of(bpy.context.scene.legorize.settings)
+
+
+@pytest.mark.parametrize("word", PRESETS)
+def test_a_look_sets_all_settings(word: str) -> None:
+    """What was chosen before is gone, and undone settings are not written into the file."""
+    group = bpy.context.scene.legorize.settings
+    group.plates, group.seed = "none", 7
+    assert bpy.ops.legorize.look(look=word) == {"FINISHED"}
+    assert chosen() == Settings(**preset_values(word))
+    assert not group.is_property_set("seed")
+
+
+def test_own_looks_come_back() -> None:
+    """All settings are saved under a name, and set again by it; a second click removes them."""
+    group = bpy.context.scene.legorize.settings
+    group.width, group.plates, group.cusp = 33, "none", 1.7
+    mine = chosen()
+    assert bpy.ops.legorize.save_look(name="My own") == {"FINISHED"}
+    [file] = [
+        Path(folder) / "My_own.py"
+        for folder in bpy.utils.preset_paths("legorize")
+        if (Path(folder) / "My_own.py").exists()
+    ]
+    bpy.ops.legorize.look(look="desk")
+    assert chosen() != mine
+    bpy.ops.script.execute_preset(filepath=str(file), menu_idname="LEGORIZE_MT_looks")
+    assert chosen() == mine
+    assert bpy.ops.legorize.save_look(remove_name=True, name="My own") == {"FINISHED"}
+    assert not file.exists()
+
+
+def test_results_stand_above_the_settings() -> None:
+    """The button, the size, what came out, and then all that few people change, closed."""
+    names = [panel.bl_label for panel in panels.classes]
+    assert names[:2] == ["Legorize", "Size"]
+    assert names.index("Result") < names.index("Advanced") < names.index("Colours")
+    inside = {
+        panel.bl_label for panel in panels.classes if getattr(panel, "bl_parent_id", "") == "LEGORIZE_PT_advanced"
+    }
+    assert {"Colours", "Supports", "Learning"} <= inside
