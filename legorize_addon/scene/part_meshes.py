@@ -38,6 +38,7 @@ GAP: Final = 0.1
 """Play on every side of a body, which also tells neighbours apart in pictures."""
 
 BEVEL: Final = 0.18
+GROOVE: Final = 0.4
 SIDES: Final[dict[Detail, int]] = {"low": 8, "high": 16}
 MESH_KEY: Final = "legorize_mesh"
 PART_KEY: Final = "legorize_part"
@@ -80,13 +81,15 @@ def part_loft(part: Part, detail: Detail) -> Loft:
     Returns
     -------
     Loft
-        All faces, with the origin in the middle of the bounding box's lower face.
+        All faces, with the origin in the middle of the bounding box's lower face. A
+        baseplate fills the upper half of its box, and is closed from below.
     """
     height = part.height * PLATE
+    rings = _stud_rings(height, "low" if part.use == "base" else detail)
     middle = np.array([part.length, part.width, 0.0]) * STUD / 2
     lofts = [_body(part, height, detail)]
-    lofts += [_round(_stud_rings(height, detail), centre, detail, lid=True) for centre in _stud_centres(part)]
-    if detail == "high":
+    lofts += [_round(rings, centre, detail, lid=True) for centre in _stud_centres(part)]
+    if detail == "high" and part.sockets:
         lofts += [_tube(part, height, centre) for centre in _tube_centres(part)]
     whole = _join(lofts)
     return Loft(whole.vertices - middle, whole.corners, whole.starts, whole.smooth)
@@ -210,13 +213,15 @@ def _to_mesh(loft: Loft, name: str) -> bpy.types.Mesh:
 
 def _body(part: Part, height: float, detail: Detail) -> Loft:
     outline = _outline(part)
-    if detail == "low":
-        return _loft([_inset(outline, GAP, 0.0, z) for z in (0.0, height - GAP)], floor=True, lid=True)
+    if detail == "low" or not part.sockets:
+        low = 0.0 if part.sockets else height / 2
+        return _loft([_inset(outline, GAP, 0.0, z) for z in (low, height - GAP)], floor=True, lid=True)
+    # tiles have a groove around their lower edge, to lift them off by
+    edge = [(GAP + BEVEL, 0.0), (GAP, BEVEL)] if part.studs else [(GROOVE, 0.0), (GROOVE, GROOVE), (GAP, GROOVE)]
     rings: list[Ring] = [
         (WALL, height - ROOF),
         (WALL, 0.0),
-        (GAP + BEVEL, 0.0),
-        (GAP, BEVEL),
+        *edge,
         (GAP, height - GAP - BEVEL),
         (GAP + BEVEL, height - GAP),
     ]
@@ -247,14 +252,14 @@ def _tube(part: Part, height: float, centre: Floats) -> Loft:
 
 
 def _stud_centres(part: Part) -> Floats:
-    """Return the middles of the studs in mm from the box's corner, shape (n, 2)."""
-    return (footprint(part, 0) + 0.5) * STUD
+    """Return the middles of the studs in mm from the box's corner, shape (n, 2); none for a tile."""
+    return (footprint(part, 0)[: None if part.studs else 0] + 0.5) * STUD
 
 
 def _tube_centres(part: Part) -> Floats:
     """Return the middles of the tubes (wide parts) or pins (narrow ones) in mm, shape (n, 2)."""
-    x = np.arange(1, part.length)
-    y = np.full(len(x), min(part.width, 2) / 2)
+    across = np.arange(1, part.width) if part.width > 1 else np.array([0.5])
+    y, x = (each.ravel() for each in np.meshgrid(across, np.arange(1, part.length), indexing="ij"))
     # the tube of a corner part would stand in its missing cell
     return np.stack([x, y], axis=1)[: 0 if part.corner else None] * STUD
 

@@ -98,7 +98,7 @@ def _picture(part: int, rgb: Rgb, catalogue: Catalogue) -> Picture:
         np.zeros(1, np.uint8), np.zeros(1, np.int16), np.zeros(1, np.int32),
     )  # fmt: skip
     colour, new = np.array([rgb], dtype=np.int64), np.ones(1, dtype=bool)
-    return draw(look(Cells.of(one, catalogue, FRONT), 1), Look(colour, new))
+    return draw(look(Cells.of(one, catalogue, FRONT), 1), Look(colour, new, smooth=~catalogue.studs[one.part]))
 
 
 def placed(picture: Picture, x: float, y: float, scale: float) -> Item:
@@ -163,6 +163,9 @@ def _row(entries: Sequence[Callout], top: float) -> Iterator[Item]:
         x += each.width + _GAP
 
 
+_WIDEST: Final = 40.0
+"""mm of a picture at most: baseplates are drawn smaller than their neighbours."""
+
 _GAP: Final = 3.5
 _LETTERS: Final = 3.6
 _SMALL: Final = 2.5
@@ -170,6 +173,7 @@ _SMALL: Final = 2.5
 
 def _entry(lot: Lot, tint: Rgb | None, catalogue: Catalogue, scale: float) -> Callout:
     picture = picture_of(lot, catalogue, tint)
+    scale = min(scale, _WIDEST / (picture.size[0] * MM))
     wide, high = picture.size * scale * MM
     count, size = f"{lot.count}x", size_of(catalogue.parts[lot.part])
     step = width(count, _LETTERS, bold=True) + 1.2

@@ -77,6 +77,7 @@ class Panels:
     def __init__(self, bricks: Bricks, catalogue: Catalogue, steps: Steps, temporary: Mask, tint: Rgb) -> None:
         self.bricks, self.catalogue, self.steps, self.temporary, self.tint = bricks, catalogue, steps, temporary, tint
         self.stage = Stage(bricks, catalogue)
+        self._smooth = ~catalogue.studs[bricks.part]
         self.shots = list(shots(steps, temporary=temporary))
         self._own = own = shown_rgb(bricks, catalogue, temporary, tint)
         self._pale = np.array([pale(_rgb(row)) for row in own], dtype=np.int64).reshape(-1, 3)
@@ -121,7 +122,7 @@ class Panels:
         new[panel.new] = True
         colour = np.where(new[:, None], self._own, self._pale)
         sight = self.stage.sight(np.concatenate([panel.stays, panel.new]), panel.view)
-        made = draw(sight, Look(colour, new, studs=not panel.view.below))
+        made = draw(sight, Look(colour, new, studs=not panel.view.below, smooth=self._smooth))
         if not len(panel.left_out):
             return made
         ghost = _outline(self.stage.sight(panel.left_out, panel.view))
@@ -132,7 +133,8 @@ class Panels:
     def whole(self, view: View, rows: Ints) -> Picture:
         """Draw bricks in their own colours, as they are in the end."""
         sight = self.stage.sight(rows, view)
-        look = Look(rgb_of(self.bricks, self.catalogue), np.ones(len(self.bricks), dtype=bool), studs=not view.below)
+        new = np.ones(len(self.bricks), dtype=bool)
+        look = Look(rgb_of(self.bricks, self.catalogue), new, studs=not view.below, smooth=self._smooth)
         return draw(sight, look)
 
 

@@ -57,11 +57,14 @@ class Look:
         Which bricks have strong lines.
     studs : bool
         Whether tops have studs; undersides have sockets.
+    smooth : (n_bricks,) bool array, optional
+        Which bricks have neither on top.
     """
 
     colour: Ints
     new: Mask
     studs: bool = True
+    smooth: Mask | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -103,7 +106,7 @@ def draw(sight: Sight, look: Look) -> Picture:
     styles, style = np.unique(np.column_stack([look.colour, look.new]), axis=0, return_inverse=True)
     style = style.reshape(-1)
     items: list[Item] = [*_fills(sight, styles, style), *_lines(sight, look)]
-    items += _stud_items(sight, styles, style, look.studs)
+    items += _stud_items(sight, styles, style, look)
     low, high = extent(sight)
     return Picture(tuple(items), low, high)
 
@@ -184,12 +187,14 @@ def _kinds(left: Ints, right: Ints, brick: Ints, side: Ints, look: Look) -> Ints
     return np.where(same & (side[left] == side[right]), NOBODY, kind)
 
 
-def _stud_items(sight: Sight, styles: Ints, style: Ints, studs: bool) -> Iterator[Item]:
+def _stud_items(sight: Sight, styles: Ints, style: Ints, look: Look) -> Iterator[Item]:
     """Yield the studs, whole ones by colour, others cut off by what stands before them."""
     seen = sight.per_face
     tops = sight.faces.side == TOP
+    if look.studs and look.smooth is not None:
+        tops &= ~look.smooth[sight.faces.brick]
     whole = np.flatnonzero(tops & (seen == PER_TOP))
-    yield from _stud_paths(sight, whole, styles, style, studs)
+    yield from _stud_paths(sight, whole, styles, style, look.studs)
     partly = np.flatnonzero(tops & (seen > 0) & (seen < PER_TOP))
     # tops of one level never lie one over the other
     level = np.full(len(sight.faces) + 1, NOBODY)
@@ -201,7 +206,7 @@ def _stud_items(sight: Sight, styles: Ints, style: Ints, studs: bool) -> Iterato
         mine = np.flatnonzero(loops.of == number)
         rows = slice(ends[mine[0]] - loops.count[mine[0]], ends[mine[-1]])
         clip = Path(points[rows], loops.count[mine], True, ())
-        yield Group(tuple(_stud_paths(sight, partly[level[partly] == number], styles, style, studs)), clip=clip)
+        yield Group(tuple(_stud_paths(sight, partly[level[partly] == number], styles, style, look.studs)), clip=clip)
 
 
 def _stud_paths(sight: Sight, tops: Ints, styles: Ints, style: Ints, studs: bool) -> Iterator[Item]:

@@ -54,7 +54,7 @@ def plan_outlines(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
 
 def plan_studs(bricks: Bricks, catalogue: Catalogue, *paints: Paint) -> Path:
     """Return the studs of bricks as dots; the paints' lines are as wide as the dots."""
-    middle = stud_columns(bricks, catalogue)[1][:, :2] + 0.5
+    middle = stud_columns(bricks.take(catalogue.studs[bricks.part]), catalogue)[1][:, :2] + 0.5
     dots = np.stack([middle, middle], axis=1)
     # a line without any length is not drawn everywhere
     dots[:, 1, 0] += 0.001

@@ -59,10 +59,7 @@ def viewer_data(
         Tables of numbers in base 64, little end first.
     """
     boxes, box_brick = _boxes(bricks, catalogue)
-    stud_brick, columns = stud_columns(bricks, catalogue)
-    height = catalogue.height[bricks.part]
-    studs = columns.astype(np.int64)
-    studs[:, 2] += height[stud_brick]
+    studs, stud_brick = _studs(bricks, catalogue)
     colour = shown_rgb(bricks, catalogue, temporary, tint)
     moves, count = steps.moves, len(steps.submodels)
     removed = np.full(len(bricks), NEVER)
@@ -94,6 +91,15 @@ def _known(rows: NDArray[np.int32]) -> Ints:
 
 def _packed(numbers: NDArray[np.integer], kind: str) -> str:
     return b64encode(np.ascontiguousarray(numbers).astype(kind).tobytes()).decode()
+
+
+def _studs(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:
+    """Return where the studs begin, (n, 3) cells; and the brick of each."""
+    brick, columns = stud_columns(bricks, catalogue)
+    studded = catalogue.studs[bricks.part[brick]]
+    brick, studs = brick[studded].astype(np.int64), columns[studded].astype(np.int64)
+    studs[:, 2] += catalogue.height[bricks.part[brick]]
+    return studs, brick
 
 
 def _boxes(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:

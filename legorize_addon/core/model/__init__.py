@@ -7,19 +7,28 @@ from typing import TYPE_CHECKING
 from ..on_demand import on_demand
 from .brick_columns import Touching, agree, brick_columns, every_plate
 from .bricks import NOBODY, SUPPORTS, Bricks, Role, concatenate
-from .catalogue import ASSETS, MISSING_CELL, Catalogue, Colour, Part, footprint, load_catalogue
+from .catalogue import ASSETS, MISSING_CELL, Catalogue, Colour, Part, Use, footprint, load_catalogue
 from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
 from .verdict import UNSUPPORTED, Verdict
 
 if TYPE_CHECKING:
     from .assembly import Assembly
-    from .contacts import ContactGraph, Rows, components, contact_graph, middles, stacked, stud_columns
+    from .contacts import ContactGraph, Rows, clutches, components, contact_graph, middles, stacked, stud_columns
 else:
     # the graphs of scipy
     __getattr__ = on_demand(
         __name__,
         assembly=("Assembly",),
-        contacts=("ContactGraph", "Rows", "components", "contact_graph", "middles", "stacked", "stud_columns"),
+        contacts=(
+            "ContactGraph",
+            "Rows",
+            "clutches",
+            "components",
+            "contact_graph",
+            "middles",
+            "stacked",
+            "stud_columns",
+        ),
     )
 
 __all__ = [
@@ -42,9 +51,11 @@ __all__ = [
     "Rows",
     "Touching",
     "UnitGrid",
+    "Use",
     "Verdict",
     "agree",
     "brick_columns",
+    "clutches",
     "components",
     "concatenate",
     "contact_graph",

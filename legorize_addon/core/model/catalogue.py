@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Final, TypeVar
+from typing import Any, Final, Literal, TypeVar, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,6 +26,13 @@ ASSETS: Final = Path(__file__).parents[3] / "assets"
 
 MISSING_CELL: Final = ((1, 1), (0, 1), (0, 0), (1, 0))
 """Cell (x, y) of the 2 x 2 bounding box that a corner part leaves free, by quarter turn."""
+
+Profile = Literal["box", "corner", "tile", "baseplate"]
+"""What a part looks like: a box with studs on top; the same as a 2 x 2 corner, which lacks one cell of its bounding
+box; smooth on top; or flat below and half as thick as a plate, in the upper half of its cells."""
+
+Use = Literal["model", "tiles", "plates", "base"]
+"""What a part is laid for: models of all kinds; mosaics of tiles; mosaics of plates, and bases; bases alone."""
 
 _Row = TypeVar("_Row")
 
@@ -44,8 +51,10 @@ class Part:
         Studs along x and y at turn 0; the length is the longer side.
     height : int
         Plates: 1 a plate, 3 a brick, 9 a tall brick.
-    corner : bool
-        Whether it is a 2 x 2 corner part, which lacks one cell of its bounding box.
+    profile : {"box", "corner", "tile", "baseplate"}
+        See ``Profile``.
+    use : {"model", "tiles", "plates", "base"}
+        See ``Use``.
     mass : float
         Grams.
     mass_source : str
@@ -59,10 +68,26 @@ class Part:
     length: int
     width: int
     height: int
-    corner: bool
+    profile: Profile
+    use: Use
     mass: float
     mass_source: str
     aliases: tuple[str, ...]
+
+    @property
+    def corner(self) -> bool:
+        """Whether it is a corner part."""
+        return self.profile == "corner"
+
+    @property
+    def studs(self) -> bool:
+        """Whether it has studs on top, for other parts to clutch."""
+        return self.profile != "tile"
+
+    @property
+    def sockets(self) -> bool:
+        """Whether it clutches studs below."""
+        return self.profile != "baseplate"
 
     @property
     def turns(self) -> int:
@@ -103,7 +128,7 @@ class Catalogue:
     Attributes
     ----------
     parts : tuple of Part
-        In the order of the table: bricks, plates, tall bricks.
+        In the order of the table: bricks, plates, tall bricks, and what only mosaics use.
     colours : tuple of Colour
         By ascending LDraw code.
     exists : (n_parts, n_colours) bool array
@@ -143,6 +168,20 @@ class Catalogue:
     def height(self) -> Ints:
         """Height of each part in plates, shape (n_parts,)."""
         return np.array([part.height for part in self.parts])
+
+    @property
+    def studs(self) -> Mask:
+        """Whether each part has studs on top, shape (n_parts,)."""
+        return np.array([part.studs for part in self.parts])
+
+    @property
+    def sockets(self) -> Mask:
+        """Whether each part clutches studs below, shape (n_parts,)."""
+        return np.array([part.sockets for part in self.parts])
+
+    def used_for(self, use: Use) -> Mask:
+        """Return which parts are laid for something, shape (n_parts,)."""
+        return np.array([part.use == use for part in self.parts])
 
     def part_row(self, number: str) -> int:
         """Return the row of the part with an LDraw number or alias.
@@ -299,11 +338,18 @@ def _part(cells: dict[str, str]) -> Part:
         length=length,
         width=width,
         height=int(cells["height"]),
-        corner=bool(int(cells["corner"])),
+        profile=_word(cells["profile"], Profile),
+        use=_word(cells["use"], Use),
         mass=float(cells["mass_g"]),
         mass_source=cells["mass_source"],
         aliases=tuple(cells["aliases"].split()),
     )
+
+
+def _word(text: str, choice: Any) -> Any:
+    if text not in get_args(choice):
+        raise ValueError(f"{text!r} is not one of {', '.join(get_args(choice))}")
+    return text
 
 
 def _colour(cells: dict[str, str]) -> Colour:

@@ -1,7 +1,8 @@
 """How the bricks are connected: cells, collisions, stud contacts, components.
 
 A brick sits on another one when a cell of its underside lies on a cell of the
-other's top. Bricks that are connected by such contacts form a component; a
+other's top, and there are studs to clutch: none sits on a tile, and no baseplate
+sits on anything. Bricks that are connected by such contacts form a component; a
 component that stands on the lowest plate is grounded, every other one floats.
 """
 
@@ -87,7 +88,8 @@ def contact_graph(bricks: Bricks, catalogue: Catalogue) -> ContactGraph:
     owner, collisions = _owners(brick, columns - low, heights[brick])
     tops = columns - low
     tops[:, 2] += heights[brick]
-    pairs, studs = _contacts(brick, owner[tops[:, 2], tops[:, 1], tops[:, 0]], len(bricks))
+    above = owner[tops[:, 2], tops[:, 1], tops[:, 0]]
+    pairs, studs = _contacts(brick, np.where(clutches(bricks, catalogue, brick, above), above, NOBODY), len(bricks))
     component = components(pairs, len(bricks))
     return ContactGraph(owner[:-1], low, collisions, pairs, studs, component, _grounded(component, bricks.corner[:, 2]))
 
@@ -117,6 +119,26 @@ def stud_columns(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, Rows]:
     columns = bricks.corner[brick]
     columns[:, :2] += squares[kind[brick], nth]
     return brick, columns
+
+
+def clutches(bricks: Bricks, catalogue: Catalogue, lower: Rows, upper: Rows) -> Mask:
+    """Return whether the stud squares of a brick would hold another one that lies on it.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The model.
+    catalogue : Catalogue
+        Whose parts the bricks are.
+    lower, upper : (k,) int32 arrays
+        Rows of bricks; what ``NOBODY`` gets has no meaning.
+
+    Returns
+    -------
+    (k,) bool array
+    """
+    held: Mask = catalogue.studs[bricks.part][lower] & catalogue.sockets[bricks.part][upper]
+    return held
 
 
 def middles(bricks: Bricks, catalogue: Catalogue) -> Floats:

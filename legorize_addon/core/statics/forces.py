@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from ..arrays import Floats, Ints, Mask
-from ..model import NOBODY, Assembly, Bricks, Catalogue, ContactGraph, Rows, middles, stud_columns
+from ..model import NOBODY, Assembly, Bricks, Catalogue, ContactGraph, Rows, clutches, middles, stud_columns
 from ..units import PLATE, STUD
 
 GRAVITY: Final = 9.81
@@ -155,7 +155,7 @@ def statics(
     standing = squares[1][:, 2] == squares[1][:, 2].min(initial=np.iinfo(np.int32).max)
     feet = squares[0][standing], squares[1][standing]
     contacts = _joined(
-        _studs(assembly.graph, *squares, narrow, clutch),
+        _studs(assembly, *squares, narrow, clutch),
         *(_sides(assembly.graph) if neighbours else ()),
         (_table(*feet) if ground is Ground.TABLE else _baseplate(*feet, narrow, clutch)),
     )
@@ -173,12 +173,13 @@ def _centres(bricks: Bricks, catalogue: Catalogue) -> Floats:
     return np.column_stack([middles(bricks, catalogue), (bricks.corner[:, 2] + height / 2) * (PLATE / STUD)])
 
 
-def _studs(graph: ContactGraph, brick: Rows, columns: Rows, narrow: Mask, clutch: float) -> ContactForces:
+def _studs(assembly: Assembly, brick: Rows, columns: Rows, narrow: Mask, clutch: float) -> ContactForces:
     """Return the forces at the contact points round all studs."""
+    graph = assembly.graph
     x, y, z = (columns - graph.low).T
     # below the lowest plate the look-up would start again at the top
     lower = np.where(z > 0, graph.owner[z - 1, y, x], NOBODY)
-    held = (lower != NOBODY) & (lower != brick)
+    held = (lower != NOBODY) & (lower != brick) & clutches(assembly.bricks, assembly.catalogue, lower, brick)
     return _grips(brick[held], lower[held], columns[held], narrow, clutch)
 
 

@@ -47,7 +47,7 @@ def sizes_in(catalogue: Catalogue, colour: int) -> dict[tuple[int, int, int], in
     return {
         (part.length, part.width, part.height): row
         for row, part in enumerate(catalogue.parts)
-        if made[row] and not part.corner
+        if made[row] and part.use == "model" and not part.corner
     }
 
 

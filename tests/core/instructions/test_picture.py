@@ -136,3 +136,15 @@ def test_nothing_is_an_empty_picture():
     made = picture(table([]))
     assert made.items == ()
     assert made.size.tolist() == [0.0, 0.0]
+
+
+def test_tiles_are_drawn_without_studs():
+    """A plate shows its two studs, a tile of the same size everything but these; from below both show sockets."""
+    tops = []
+    for number in ("3023", "3069b"):
+        bricks = table([brick(number)])
+        sight, smooth = look(Cells.of(bricks, CATALOGUE, FRONT), 1), ~CATALOGUE.studs[bricks.part]
+        colours, new = np.array([RED]), np.ones(1, dtype=bool)
+        made = {studs: draw(sight, Look(colours, new, studs=studs, smooth=smooth)) for studs in (True, False)}
+        tops.append({studs: sum(isinstance(item, Group) for item in each.items) for studs, each in made.items()})
+    assert tops == [{True: 1, False: 1}, {True: 0, False: 1}]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 
 from legorize_addon.core.instructions.canvas import Paint
@@ -29,18 +31,21 @@ def test_outlines_hold_the_cells_of_the_parts():
     for row, (low, high) in enumerate(zip(ends - count, ends, strict=True)):
         cells = {tuple(cell) for cell in footprint(CATALOGUE.parts[bricks.part[row]], int(bricks.turn[row])).tolist()}
         x, y, _ = bricks.corner[row].tolist()
-        shown = {(i, j) for i in range(9) for j in range(9) if inside(points[low:high], x + i + 0.5, y + j + 0.5)}
+        longest = CATALOGUE.parts[bricks.part[row]].length
+        box = product(range(longest + 1), repeat=2)
+        shown = {(i, j) for i, j in box if inside(points[low:high], x + i + 0.5, y + j + 0.5)}
         assert shown == cells
 
 
 def test_a_dot_for_each_stud():
-    """Studs lie in the middles of the squares."""
+    """Studs lie in the middles of the squares; tiles have none."""
     bricks = everything()
     dots = plan_studs(bricks, CATALOGUE, INK).points[::2]
     expected = [
         (x + i + 0.5, y + j + 0.5)
         for (x, y, _), part, turn in zip(bricks.corner.tolist(), bricks.part, bricks.turn, strict=True)
         for i, j in footprint(CATALOGUE.parts[part], int(turn)).tolist()
+        if CATALOGUE.parts[part].studs
     ]
     assert sorted(map(tuple, dots.tolist())) == sorted(expected)
 

@@ -11,7 +11,7 @@ import pytest
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.instructions.panels import submodel_names
 from legorize_addon.core.instructions.shots import shots
-from legorize_addon.core.instructions.viewer import NEVER, _boxes, viewer_data
+from legorize_addon.core.instructions.viewer import NEVER, _boxes, _studs, viewer_data
 from legorize_addon.core.model.catalogue import footprint
 from tests.core.any_bricks import CATALOGUE, everything
 from tests.core.instructions.built import arm, pair
@@ -69,6 +69,14 @@ def test_parts_become_boxes():
         }
         assert cells == {tuple(cell) for cell in footprint(part, int(bricks.turn[row])).tolist()}
         assert (boxes[owner == row, 5] == part.height).all()
+
+
+def test_studs_of_the_page_are_those_of_the_parts():
+    """Each square of a part with studs has one; tiles have none."""
+    bricks = everything()
+    plan = [(int(part), int(turn)) for part, turn in zip(bricks.part, bricks.turn, strict=True)]
+    expected = sum(len(footprint(CATALOGUE.parts[part], turn)) for part, turn in plan if CATALOGUE.parts[part].studs)
+    assert len(_studs(bricks, CATALOGUE)[0]) == expected
 
 
 def test_tables_fit_together():

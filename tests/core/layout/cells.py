@@ -23,7 +23,7 @@ RED, WHITE = 4, 15
 def with_part(catalogue, length, width, height=3):
     """Return a catalogue with a further part, made in all colours."""
     part = replace(
-        catalogue.parts[0], number=f"made-{length}x{width}", length=length, width=width, height=height, corner=False
+        catalogue.parts[0], number=f"made-{length}x{width}", length=length, width=width, height=height, profile="box"
     )
     return replace(
         catalogue,

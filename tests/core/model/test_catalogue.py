@@ -13,6 +13,9 @@ CATALOGUE = load_catalogue()
 BRICKS = ["3005", "3004", "3622", "3010", "3009", "3008", "2357", "3003", "3002", "3001", "2456", "3007"]
 PLATES = ["3024", "3023", "3623", "3710", "3666", "3460", "2420", "3022", "3021", "3020", "3795", "3034"]
 TALL = ["14716", "22886", "30145", "30144"]
+TILES = ["3070b", "3069b", "63864", "2431", "6636", "4162", "3068b", "26603", "87079"]
+LARGE_PLATES = ["3031", "3032", "3035", "3958", "3036", "41539"]
+BASES = ["91405", "3867", "3811", "4186"]
 TABLES = ("parts.csv", "colours.csv", "availability.csv")
 
 
@@ -25,11 +28,33 @@ def copied_assets(tmp_path):
 
 
 def test_parts_are_the_bricks_the_plates_and_the_tall_ones():
-    """The catalogue lists 12 bricks, 12 plates of the same footprints and 4 tall bricks, in this order."""
-    assert [part.number for part in CATALOGUE.parts] == BRICKS + PLATES + TALL
-    assert [part.height for part in CATALOGUE.parts] == [3] * 12 + [1] * 12 + [9] * 4
+    """The catalogue lists 12 bricks, 12 plates of the same footprints and 4 tall bricks, in this order; then others."""
+    assert [part.number for part in CATALOGUE.parts] == BRICKS + PLATES + TALL + TILES + LARGE_PLATES + BASES
+    assert [part.height for part in CATALOGUE.parts] == [3] * 12 + [1] * 12 + [9] * 4 + [1] * 19
     for brick, plate in zip(CATALOGUE.parts[:12], CATALOGUE.parts[12:24], strict=True):
         assert (brick.length, brick.width, brick.corner) == (plate.length, plate.width, plate.corner)
+
+
+def test_what_parts_are_laid_for():
+    """Models are built of bricks and plates alone; tiles cover mosaics, large plates and baseplates bear them."""
+    number = np.array([part.number for part in CATALOGUE.parts])
+    assert number[CATALOGUE.used_for("model")].tolist() == BRICKS + PLATES + TALL
+    assert number[CATALOGUE.used_for("tiles")].tolist() == TILES
+    assert number[CATALOGUE.used_for("plates")].tolist() == LARGE_PLATES
+    assert number[CATALOGUE.used_for("base")].tolist() == BASES
+
+
+def test_tiles_are_smooth_and_baseplates_flat_below():
+    """A tile has no studs on top, a baseplate does not clutch what is below; everything else does both."""
+    number = np.array([part.number for part in CATALOGUE.parts])
+    assert number[~CATALOGUE.studs].tolist() == TILES
+    assert number[~CATALOGUE.sockets].tolist() == ["3867", "3811", "4186"]
+
+
+def test_tiles_are_made_wherever_one_and_two_studs_are():
+    """Every colour of the catalogue has tiles of one stud and of two: any picture can be laid in any palette."""
+    for tile in ("3070b", "3069b"):
+        assert CATALOGUE.exists[CATALOGUE.part_row(tile)].all()
 
 
 @pytest.mark.parametrize("rows", [slice(0, 12), slice(12, 24)])
@@ -68,7 +93,10 @@ def test_footprint_areas_follow_from_the_titles():
         assert len(footprint(part, 0)) == (3 if part.corner else sides[0] * sides[1])
         assert sorted(sides[:2]) == [part.width, part.length]
         assert part.corner == part.title.endswith("Corner")
-        assert part.height == (1 if part.title.startswith("Plate") else 3 * (sides[2] if len(sides) > 2 else 1))
+        brick = 3 * (sides[2] if len(sides) > 2 else 1)
+        assert part.height == (brick if part.title.startswith("Brick") else 1)
+        words = {"tile": "Tile", "baseplate": "Baseplate"}
+        assert part.title.split()[0] in words.get(part.profile, "Brick Plate")
 
 
 def test_masses_grow_with_the_parts():
@@ -77,7 +105,7 @@ def test_masses_grow_with_the_parts():
         assert part.mass > 0
         assert part.mass_source
         for other in CATALOGUE.parts:
-            same_series = (other.width, other.height, other.corner) == (part.width, part.height, part.corner)
+            same_series = (other.width, other.height, other.profile) == (part.width, part.height, part.profile)
             assert not same_series or (part.mass > other.mass) == (part.length > other.length)
 
 
@@ -87,7 +115,7 @@ def test_every_colour_can_build_a_model():
         assert CATALOGUE.exists[CATALOGUE.part_row(number)].all()
     height = np.array([part.height for part in CATALOGUE.parts])
     assert (CATALOGUE.exists[height == 3].sum(axis=0) >= 6).all()
-    assert (CATALOGUE.exists[height <= 3].sum(axis=0) >= 16).all()
+    assert (CATALOGUE.exists[(height <= 3) & CATALOGUE.used_for("model")].sum(axis=0) >= 16).all()
 
 
 def test_colours_are_sorted_and_unique():
@@ -162,8 +190,10 @@ def test_missing_table_is_named(copied_assets, name):
 @pytest.mark.parametrize(
     ("name", "line"),
     [
-        ("parts.csv", "9999,Brick 1 x 2,1,2,3,0,1.0,somebody,"),
-        ("parts.csv", "9999,Brick 1 x 2,two,1,3,0,1.0,somebody,"),
+        ("parts.csv", "9999,Brick 1 x 2,1,2,3,box,model,1.0,somebody,"),
+        ("parts.csv", "9999,Brick 1 x 2,two,1,3,box,model,1.0,somebody,"),
+        ("parts.csv", "9999,Brick 1 x 2,2,1,3,round,model,1.0,somebody,"),
+        ("parts.csv", "9999,Brick 1 x 2,2,1,3,box,vehicles,1.0,somebody,"),
         ("parts.csv", "9999,Brick 1 x 2"),
         ("colours.csv", "900,Wrong,#12345,1,2,3"),
         ("colours.csv", "900,Wrong,#123456,,2,3"),

@@ -168,3 +168,21 @@ def test_stud_columns_are_sorted_by_brick():
     brick, columns = stud_columns(table(("3001", 0, 0, 0), ("2357", 5, 5, 3, 1), ("3005", 9, 9, 0)), CATALOGUE)
     assert brick.tolist() == [0] * 8 + [1] * 3 + [2]
     assert columns[-1].tolist() == [9, 9, 0]
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "holds"),
+    [
+        ("3023", "3069b", True),
+        ("3069b", "3023", False),
+        ("3069b", "3069b", False),
+        ("3867", "3023", True),
+        ("3023", "3867", False),
+    ],
+)
+def test_nothing_clutches_on_a_tile_or_under_a_baseplate(lower, upper, holds):
+    """What lies on a tile, or a baseplate on studs, shares no stud with it: it floats."""
+    links = contact_graph(table((lower, 0, 0, 0), (upper, 0, 0, 1)), CATALOGUE)
+    assert links.collisions == 0
+    assert links.pairs.tolist() == ([[0, 1]] if holds else [])
+    assert links.grounded.tolist() == [True, holds]

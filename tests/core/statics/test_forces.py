@@ -138,3 +138,12 @@ def test_inner_forces_cancel() -> None:
     assert inner.sum() > 30
     for sums in (*columns[:, :3].sum(axis=0), torque_x, torque_y, torque_z):
         np.testing.assert_allclose(sums[inner], 0, atol=1e-12)
+
+
+@pytest.mark.parametrize(("lower", "upper", "held"), [("3023", "3069b", True), ("3069b", "3023", False)])
+def test_tiles_hold_below_and_nothing_above(lower: str, upper: str, held: bool) -> None:
+    """Forces go between a plate and a tile on it, none between a tile and a plate on it."""
+    bricks = table((lower, 0, 0, 0), (upper, 0, 0, 1))
+    found = equations(bricks)
+    assert len(found.rows) == 1 + held
+    assert bool((found.contacts.by != NOBODY).any()) == held

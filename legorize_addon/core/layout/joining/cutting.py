@@ -9,7 +9,7 @@ well.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,9 +19,6 @@ from ..problem import Rows
 
 Square = tuple[int, int]
 """Stud square: x and y."""
-
-_OTHER_FORMS: Final = 2
-"""Turns of a part after which it covers the same squares again, unless it is a corner."""
 
 
 class Form(NamedTuple):
@@ -70,8 +67,7 @@ class Forms:
         different = [
             form
             for (row, turn), form in self.of.items()
-            if catalogue.parts[row].corner
-            or turn < _OTHER_FORMS - (catalogue.parts[row].length == catalogue.parts[row].width)
+            if catalogue.parts[row].use == "model" and turn < catalogue.parts[row].turns
         ]
         self._sorted = sorted(different, key=lambda form: -len(form.squares))
         self._made: dict[tuple[int, int], list[Form]] = {}

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Floats, Mask
-from ...model import Catalogue, Part, footprint
+from ...model import Catalogue, Part, Use, footprint
 
 Plane = NDArray[np.int16]
 Rows = NDArray[np.int32]
@@ -90,7 +90,7 @@ class Shapes:
         return np.searchsorted(known, part.astype(np.intp) * 4 + turn)
 
 
-def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shapes:
+def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int, uses: tuple[Use, ...] = ("model",)) -> Shapes:
     """List the parts of one height in all their orientations.
 
     Parameters
@@ -104,13 +104,15 @@ def shapes(catalogue: Catalogue, height: int, codes: Plane, filler: int) -> Shap
     filler : int
         LDraw code for hidden bricks; a part that is not made in it gets the first colour of the catalogue in which it
         is made. Where the catalogue says what parts cost, hidden ones get the cheapest colour.
+    uses : tuple of {"model", "tiles", "plates", "base"}, optional
+        What the parts are laid for.
 
     Returns
     -------
     Shapes
         In the order of the catalogue, then by quarter turn.
     """
-    forms = _forms(catalogue.parts, height)
+    forms = _forms(catalogue.parts, height, uses)
     codes = np.unique(codes)
     made = np.column_stack([catalogue.exists_in(forms.part[:, None], codes), catalogue.exists[forms.part].any(axis=1)])
     cost = np.ones(catalogue.exists.shape) if catalogue.cost is None else catalogue.cost
@@ -134,9 +136,10 @@ def _hidden(cost: Floats, exists: Mask, filler: Mask) -> Index:
 
 
 @lru_cache
-def _forms(parts: tuple[Part, ...], height: int) -> Shapes:
-    """Return the parts of one height in all their orientations, without any colour."""
-    oriented = [(row, turn) for row, part in enumerate(parts) if part.height == height for turn in range(part.turns)]
+def _forms(parts: tuple[Part, ...], height: int, uses: tuple[Use, ...]) -> Shapes:
+    """Return the parts of one height and some uses in all their orientations, without any colour."""
+    chosen = [row for row, part in enumerate(parts) if part.height == height and part.use in uses]
+    oriented = [(row, turn) for row in chosen for turn in range(parts[row].turns)]
     cells = tuple(footprint(parts[row], turn) for row, turn in oriented)
     extent = np.array([covered.max(axis=0) + 1 for covered in cells], dtype=np.intp)
     side = int(extent.max())
