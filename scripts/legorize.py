@@ -8,8 +8,8 @@
 IN is a .blend, .obj, .glb, .gltf, .ply, .stl or .fbx file. The script reads what
 a render would show: a .blend at the frame at which it was saved, any other file
 in its rest pose, without animation. IN may also be a brick model, .ldr or .mpd,
-which is judged as our own, or laid again. Every setting is a flag; ``--help``
-lists them.
+which is judged as our own, or laid again; or an image, .png or .jpg, which
+becomes a mosaic. Every setting is a flag; ``--help`` lists them.
 
 Exit status: 0 written; 2 written, but a check failed and ``report.json`` says
 which; 1 nothing written, the folder is as it was, one sentence says why (or a
@@ -53,11 +53,12 @@ try:
     from legorize_addon.core.files.folder import new_folder, temporary_of, writing
     from legorize_addon.core.files.manifest import changed
     from legorize_addon.core.files.paths import named, readable
+    from legorize_addon.core.files.sources.pictures import PICTURES
     from legorize_addon.core.instructions import PAPERS, Booklet, layer_files, layer_pages
     from legorize_addon.core.ldraw.reader import SUFFIXES, read_file
     from legorize_addon.core.model.bricks import Role
     from legorize_addon.core.model.catalogue import load_catalogue
-    from legorize_addon.core.pipeline import legorize
+    from legorize_addon.core.pipeline import legorize, legorize_image
     from legorize_addon.core.presets import PRESETS, preset_values
     from legorize_addon.core.progress import Meter, Overall, Progress, duration, part
     from legorize_addon.core.report.checks import failed_checks
@@ -69,6 +70,7 @@ try:
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.reading.importers import load
     from legorize_addon.reading.objects import read_rendered
+    from legorize_addon.reading.pictures import load_picture
     from legorize_addon.reading.quiet import quiet
     from legorize_addon.render.contact_sheet import render_contact_sheet
     from legorize_addon.render.film import Cut, make_film, render_frames
@@ -90,7 +92,7 @@ except ModuleNotFoundError as missing:
 Timed = Callable[[str], AbstractContextManager[None]]
 """Announces a stage before the build, and notes its time."""
 
-SIZES: Final = ("size_by", "width", "height", "scale", "parts", "budget")
+SIZES: Final = ("size_by", "width", "height", "scale", "cm", "parts", "budget")
 """Settings that exclude each other; each of the others also chooses itself in the first."""
 
 IN_PICTURE: Final = ("view", "section", "outlines", "heat_map", "explode", "show_supports")
@@ -121,8 +123,15 @@ class Taken(NamedTuple):
         """Whether the file is a brick model."""
         return self.source is not None and self.source.suffix.lower() in SUFFIXES
 
+    @property
+    def is_picture(self) -> bool:
+        """Whether the file is an image."""
+        return self.source is not None and self.source.suffix.lower() in PICTURES
+
     def check(self) -> None:
         """Refuse flags without effect."""
+        if self.is_picture and (self.object or self.frame is not None):
+            raise SettingsError("An image has no animation and no objects: leave --frame and --object out.")
         if self.is_bricks and (self.object or self.frame is not None):
             raise SettingsError("--object and --frame choose from meshes: leave them out for a brick model.")
         if not self.is_bricks and (self.again or self.steps):
@@ -205,6 +214,8 @@ def main(arguments: Sequence[str]) -> int:
         wanted = Wanted(**{name: options.pop(name) for name in Wanted._fields})
         wanted.check()
         taken.check()
+        if wanted.bound and taken.is_picture:
+            raise SettingsError("There is no bound for mosaics: leave --bound out.")
         settings = settings_of(options)
         if only_settings:
             print(settings_text(settings), end="")
@@ -224,7 +235,7 @@ def parser() -> Parser:
     """Return the parser, whose flags for settings are generated."""
     made = Parser(prog="legorize.py", description="Turn a textured mesh into a brick model.", allow_abbrev=False)
     made.add_argument(
-        "source", metavar="IN", nargs="?", type=lambda text: named(text, "file"), help="file with the mesh"
+        "source", metavar="IN", nargs="?", type=lambda text: named(text, "file"), help="file with the mesh, or an image"
     )
     made.add_argument(
         "--out", metavar="DIR", type=lambda text: named(text, "folder"),
@@ -456,7 +467,7 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
     source, seconds = readable(taken.source), dict[str, float]()
     # before there is a folder to clear away: a crash of an importer leaves nothing behind
     with Line(sys.stdout) as line, ExitStack() as stack:
-        read = work_on_bricks if taken.is_bricks else work_on_mesh
+        read = work_on_picture if taken.is_picture else work_on_bricks if taken.is_bricks else work_on_mesh
         objects, make = read(source, taken, settings, partial(timed, seconds, progress=line))
         folder = stack.enter_context(new_folder(out, names=CERTAIN))
         stop.temporary = temporary_of(folder)
@@ -522,6 +533,21 @@ def work_on_bricks(source: Path, taken: Taken, settings: Settings, timed: Timed)
 
 def _judged(given: Existing, settings: Settings, taken: Taken, progress: Progress) -> Finished:
     return judge(given, settings, again=taken.again, steps=taken.steps or "file", progress=progress)
+
+
+def work_on_picture(source: Path, taken: Taken, settings: Settings, timed: Timed) -> Work:
+    """Read an image, to become a mosaic."""
+    with timed("import"):
+        picture, remarks = load_picture(source)
+        with quiet():
+            bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+
+    def build(progress: Progress) -> Finished:
+        """Legorize it."""
+        made = legorize_image(picture, settings, progress)
+        return replace(made, notes=(*remarks, *made.notes))
+
+    return Work((), build)
 
 
 def described(build: Finished, rest: Overall, *, with_bound: bool) -> dict[str, Any]:

@@ -14,6 +14,11 @@ from statistics import median, quantiles
 
 ROOT = Path(__file__).resolve().parents[1]
 CORE = ROOT / "legorize_addon" / "core"
+READERS = (
+    *("pipeline", "existing", "stages", "mosaic_stages", "mosaic_estimate", "build", "estimate"),
+    *("part_choice", "fitting", "settings_file"),
+)
+"""Modules of the core that know the settings."""
 PACKAGE = sorted((ROOT / "legorize_addon").rglob("*.py"))
 SOURCES = [*PACKAGE, *(path for name in ("docs", "scripts", "tests") for path in sorted((ROOT / name).rglob("*.py")))]
 FOLDERS = (".ci", ".github", "assets", "docs", "legorize_addon", "scripts", "tests")
@@ -125,8 +130,7 @@ def test_only_the_pipeline_knows_the_order() -> None:
     for name, tree in trees(sorted(CORE.rglob("*.py"))):
         used = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level}
         assert "pipeline" not in used, name
-        names = ("pipeline", "existing", "stages", "build", "estimate", "part_choice", "fitting", "settings_file")
-        readers = tuple(f"core/{each}.py" for each in names)
+        readers = tuple(f"core/{each}.py" for each in READERS)
         assert "settings" not in used or name.endswith(readers), name
 
 
@@ -134,10 +138,7 @@ def test_every_setting_is_used() -> None:
     """No setting that neither the stages nor the estimate before them read."""
     [(_, settings)] = trees([CORE / "settings.py"])
     readers = [
-        tree
-        for _, tree in trees(
-            [CORE / f"{name}.py" for name in ("pipeline", "stages", "part_choice", "fitting", "estimate")]
-        )
+        tree for _, tree in trees([CORE / f"{name}.py" for name in READERS if name not in ("build", "settings_file")])
     ]
     [fields] = [node.body for node in settings.body if isinstance(node, ast.ClassDef) and node.name == "Settings"]
     names = {node.target.id for node in fields if isinstance(node, ast.AnnAssign)}

@@ -13,12 +13,14 @@ from .building import Proof
 from .colours import SurfaceColours
 from .mesh import Repairs, TriangleMesh
 from .model import Assembly, Bricks, ContactGraph, UnitGrid
+from .mosaic import Canvas, Covered, Goal
 from .settings import Settings
 from .slicing import Marks, Slices, Trajectories
 from .statics import Stability
 from .stock import Prices
 from .supports import AssemblyPlan, Joint
 from .unit_bricks import Offsets
+from .units import STUD
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,3 +140,34 @@ class Build(Finished):
     def origin(self) -> Floats:
         """Corner of cell [0, 0, 0, 0] of the grid in mm, in the coordinates of the scaled mesh."""
         return self.grid.origin
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Mosaic(Finished):
+    """A mosaic of an image: the result of every stage.
+
+    Attributes
+    ----------
+    pixels : (int, int)
+        Width and height of the image.
+    canvas : Canvas
+        Studs of the image and its border.
+    goal : Goal
+        What the studs of the image should look like.
+    colour : (rows, columns) int16 array
+        LDraw code of each stud of the image, before the base was joined.
+    covered : Covered
+        Base and surface as they were laid.
+    """
+
+    pixels: tuple[int, int]
+    canvas: Canvas
+    goal: Goal
+    colour: NDArray[np.int16]
+    covered: Covered
+
+    @property
+    def origin(self) -> Floats:
+        """Corner of the mosaic in mm, (3,): it lies around the origin."""
+        across, deep = self.canvas.size
+        return np.array([-across * STUD / 2, -deep * STUD / 2, 0.0])

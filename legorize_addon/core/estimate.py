@@ -22,7 +22,7 @@ from .mesh import TriangleMesh, checked_vertices, scale_of_extent, turn_mesh
 from .progress import duration
 from .settings import Settings
 from .slicing import ALPHA
-from .units import BRICK, PLATES_PER_BRICK, STUD
+from .units import BRICK, MM_PER_CM, PLATES_PER_BRICK, STUD
 
 AGAIN: Final = " again"
 """End of the name of a stage that runs a second time."""
@@ -32,8 +32,6 @@ _FACE: Final = np.array([STUD * BRICK, STUD * BRICK, STUD * STUD])
 
 _FLAT: Final = 0.999
 """Cosine from which a triangle counts as perpendicular to an axis: large bricks cover it."""
-
-_MM_PER_CM: Final = 10.0
 
 COUNTED: Final = ("parts", "budget")
 """Ways to set the size by what a model comes to."""
@@ -134,7 +132,12 @@ def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
         settings = counted_size(mesh, replace(settings, up="auto"))
     extent = np.ptp(checked_vertices(mesh), axis=0)
     scale = scale_of_extent(
-        extent, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale
+        extent,
+        size_by=settings.size_by,
+        width=settings.width,
+        height=settings.height,
+        scale=settings.scale,
+        cm=settings.cm,
     )
     size = extent * scale
     flat, curved, volume = _faces_and_volume(mesh, scale)
@@ -154,7 +157,7 @@ def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
     return Estimate(
         studs=(float(size[0] / STUD), float(size[1] / STUD)),
         layers=bricks_high,
-        cm=(float(size[0] / _MM_PER_CM), float(size[1] / _MM_PER_CM), float(size[2] / _MM_PER_CM)),
+        cm=(float(size[0] / MM_PER_CM), float(size[1] / MM_PER_CM), float(size[2] / MM_PER_CM)),
         cells=of_build.cells,
         bricks=round(bricks),
         megabytes=_MEGABYTES.of(of_build),
@@ -261,6 +264,8 @@ def _smaller(settings: Settings, passed: Mapping[str, float]) -> str:
     share = min(1 / ratio ** (1.0 if name == "limit_size" else 0.5) for name, ratio in passed.items())
     name = settings.size_by
     fitting = getattr(settings, name) * share
+    if name == "cm":
+        return f"{fitting:.3g} cm or less"
     if name == "scale":
         step = 10.0 ** (math.floor(math.log10(fitting)) - 1)
         return f"a scale of {math.floor(fitting / step) * step:g} or less"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from .build import Build
+from .build import Build, Mosaic
 from .building import Proof, prove_steps
 from .errors import enough_memory
 from .estimate import COUNTED, check_limits, estimate
@@ -13,6 +13,9 @@ from .layout import recolour_visible
 from .layout.joining import add_ties
 from .mesh import TriangleMesh
 from .model import Assembly, contact_graph
+from .mosaic import Picture
+from .mosaic_estimate import estimate_mosaic
+from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic
 from .native import watched
 from .progress import Overall, Progress, silent
 from .report import remarks, remarks_on_building, remarks_on_prices, remarks_on_proof, remarks_on_split
@@ -119,11 +122,64 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     )  # fmt: skip
 
 
-def _notes(run: Run, mesh: TriangleMesh, found: Stability, plan: AssemblyPlan, proof: Proof | None) -> tuple[str, ...]:
+@enough_memory()
+def legorize_image(picture: Picture, settings: Settings, progress: Progress = silent) -> Mosaic:
+    """Turn an image into a mosaic.
+
+    Parameters
+    ----------
+    picture : Picture
+    settings : Settings
+    progress : Progress
+        As for :func:`legorize`.
+
+    Returns
+    -------
+    Mosaic
+
+    Raises
+    ------
+    LegorizeError
+        The image or the settings cannot be used, in one sentence.
+    """
+    return watched(partial(_legorize_image, picture, settings), progress)
+
+
+def _legorize_image(picture: Picture, settings: Settings, progress: Progress) -> Mosaic:
+    """Go through the stages of a mosaic."""
+    canvas = mosaic_canvas(picture, settings)
+    expected = estimate_mosaic(canvas.size, settings)
+    check_limits(expected, settings)
+    run = Run.of(settings, Overall(expected.stages, progress))
+    with run.stage("colours"):
+        goal, colour = mosaic_colours(run, picture, canvas)
+    with run.stage("layout"):
+        covered = lay_mosaic(run, canvas, colour)
+    with run.stage("stability"):
+        assembly = Assembly(covered.bricks, run.catalogue)
+        found = check_stability(run, assembly, None)
+    with run.stage("supports"):
+        plan = make_plan(run, assembly)
+    proof = None
+    if settings.prove_steps:
+        with run.stage("proof"):
+            proof = prove_steps(plan.steps, plan.assembly, clutch=settings.clutch, progress=run.progress)
+    run.progress.finish()
+    notes = (*remarks_on_mosaic(picture, canvas, covered), *_notes(run, None, found, plan, proof))
+    return Mosaic(
+        settings=settings, scale=1.0, pixels=picture.size, canvas=canvas, goal=goal, colour=colour, covered=covered,
+        assembly=plan.final, stability=found, supports=plan, joints=(), prices=run.parts.prices, proof=proof,
+        notes=notes, timings=run.timings,
+    )  # fmt: skip
+
+
+def _notes(
+    run: Run, mesh: TriangleMesh | None, found: Stability, plan: AssemblyPlan, proof: Proof | None
+) -> tuple[str, ...]:
     """Return what a user must know about bricks and building, one sentence each."""
     assembly = plan.final
     return (
-        *remarks_on_dithering(mesh, run.settings.dithering),
+        *(() if mesh is None else remarks_on_dithering(mesh, run.settings.dithering)),
         *remarks(assembly, found, spare=run.settings.spare),
         *remarks_on_building(plan),
         *remarks_on_split(plan, most=run.settings.split),

@@ -60,15 +60,17 @@ class Settings:
     """What a user can choose. Wrong values are refused with one sentence."""
 
     # fmt: off
-    size_by: Literal["width", "height", "scale", "parts", "budget"] = setting(
+    size_by: Literal["width", "height", "scale", "cm", "parts", "budget"] = setting(
         "width", "Which of the numbers below sets the size of the model.", group="Size")
     width: int = setting(
-        48, "Studs along the longer horizontal side.", group="Size", low=1, high=1000)
+        48, "Studs along the longer horizontal side; of a mosaic with its border.", group="Size", low=1, high=1000)
     height: int = setting(
         40, "Height of the model in bricks.", group="Size", low=1, high=1000)
     scale: float = setting(
         10.0, "Scale factor: 10 keeps the object's own size, 5 halves it (k in section 3 of the paper).",
         group="Size", low=1e-4, high=1e6)
+    cm: float = setting(
+        38.4, "Longest side of the model in cm; of a mosaic with its border.", group="Size", low=0.8, high=800.0)
     parts: int = setting(
         1000, "Largest number of parts: the model becomes as large as it can, which takes several builds; temporary "
         "supports do not count.", group="Size", low=1, high=1_000_000)
@@ -130,6 +132,21 @@ class Settings:
     backing: int = setting(
         0, "Layers or rows of bricks that hold a flat picture or relief together from behind.", group="Detail",
         low=0, high=16)
+
+    mosaic: Literal["tiles", "plates", "bricks"] = setting(
+        "tiles", "What a mosaic of an image is made of: smooth tiles, plates, or bricks.", group="Mosaic")
+    mosaic_base: Literal["auto", "baseplates", "plates"] = setting(
+        "auto", "What a mosaic lies on: baseplates of 16, 32 or 48 studs, large plates of any size, or baseplates "
+        "where they fit exactly.", group="Mosaic")
+    base_colour: int = setting(
+        71, "LDraw code of the base's colour.", group="Mosaic", low=0, high=32767)
+    border: int = setting(
+        0, "Width in studs of a border around a mosaic.", group="Mosaic", low=0, high=100)
+    border_colour: int = setting(
+        0, "LDraw code of the border's colour.", group="Mosaic", low=0, high=32767)
+    background: int = setting(
+        -1, "LDraw code of the colour behind the clear parts of an image; -1 leaves the base bare there.",
+        group="Mosaic", low=-1, high=32767)
 
     keep_thin: bool = setting(
         True, "Keep legs, ears and walls that cover less than half a stud.", group="Bricks")

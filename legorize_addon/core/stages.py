@@ -111,7 +111,12 @@ def prepare_mesh(run: Run, mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs, F
 
 def _scale(mesh: TriangleMesh, settings: Settings) -> float:
     return model_scale(
-        mesh, size_by=settings.size_by, width=settings.width, height=settings.height, scale=settings.scale
+        mesh,
+        size_by=settings.size_by,
+        width=settings.width,
+        height=settings.height,
+        scale=settings.scale,
+        cm=settings.cm,
     )
 
 
@@ -312,5 +317,5 @@ def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:
     """Return the colour of hidden bricks: the usual one, or the colour of the palette in which most parts exist."""
     if FILLER in palette:
         return FILLER
-    made = catalogue.exists_in(np.arange(len(catalogue.parts))[:, None], palette).sum(axis=0)
+    made = catalogue.exists_in(np.flatnonzero(catalogue.used_for("model"))[:, None], palette).sum(axis=0)
     return int(palette[made.argmax()])

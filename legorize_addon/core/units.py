@@ -28,6 +28,8 @@ BRICK: Final = 9.6
 CELL_AREA: Final = STUD * STUD
 """Area of a grid cell in mm^2."""
 
+MM_PER_CM: Final = 10.0
+
 MM_PER_METRE: Final = 1000.0
 """A Blender unit is a metre times the scene's unit scale."""
 

@@ -9,11 +9,19 @@ from .shown import has_surface
 
 if TYPE_CHECKING:
     from .objects import read_objects
+    from .pictures import image_of, load_picture, picture_from
 else:
     # the panel only asks what has a surface
-    __getattr__ = on_demand(__name__, objects=("read_objects",))
+    __getattr__ = on_demand(
+        __name__,
+        objects=("read_objects",),
+        pictures=("image_of", "load_picture", "picture_from"),
+    )
 
 __all__ = [
     "has_surface",
+    "image_of",
+    "load_picture",
+    "picture_from",
     "read_objects",
 ]

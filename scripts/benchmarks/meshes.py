@@ -60,7 +60,7 @@ def models_in(folder: Path) -> list[Path]:
 def prepared(path: Path, settings: Settings) -> Model:
     """Read, repair and scale a mesh and find its colours, as the pipeline does."""
     mesh, repairs = repair(read_mesh(path))
-    size = {name: getattr(settings, name) for name in ("size_by", "width", "height", "scale")}
+    size = {name: getattr(settings, name) for name in ("size_by", "width", "height", "scale", "cm")}
     mesh = scale_mesh(mesh, model_scale(mesh, **size))
     return Model(path.stem, mesh, textured(mesh, settings), repairs)
 

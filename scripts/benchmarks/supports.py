@@ -200,7 +200,7 @@ def _against(found: Sequence[Supported], facts: Sequence[list[Row]]) -> list[Row
 def _parts(found: Sequence[Supported], catalogue: Catalogue) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
     """Return the number of each size of brick by model and kind, and its percentage of the volume."""
     # no support is a corner, which has the same sides as a square
-    rows = [row for row, part in enumerate(catalogue.parts) if not part.corner]
+    rows = [row for row, part in enumerate(catalogue.parts) if part.use == "model" and not part.corner]
     sizes = np.array([(part.width, part.length, part.height) for part in catalogue.parts])[rows]
     volume, names = sizes.prod(axis=1), ["x".join(map(str, size)) for size in sizes.tolist()]
     counts: list[Row] = []

@@ -13,6 +13,7 @@ from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.scene.collections import show_build
 from legorize_addon.scene.model import Model, Source
+from tests.core.any_bricks import SMALL
 
 
 def table(rows: Sequence[Sequence[int]]) -> Bricks:
@@ -34,7 +35,7 @@ def random_table(n: int, seed: int = 0) -> Bricks:
     rng = np.random.default_rng(seed)
     catalogue = load_catalogue()
     columns = [
-        rng.integers(0, len(catalogue.parts), n),
+        rng.choice(SMALL, n),
         *rng.integers(0, 300, (2, n)),
         rng.integers(0, 90, n),
         rng.integers(0, 4, n),

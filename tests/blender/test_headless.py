@@ -1040,3 +1040,27 @@ def test_wrong_use_of_brick_models(
 def rows(bricks: Bricks) -> list[tuple[int, ...]]:
     """Return part, place, turn and colour of each brick, sorted."""
     return sorted(map(tuple, np.column_stack([bricks.part, bricks.corner, bricks.turn, bricks.colour]).tolist()))
+
+
+def test_an_image_becomes_a_mosaic(script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A file with an image gives the files of a mosaic; flags of meshes are refused in one sentence."""
+    image = bpy.data.images.new("picture", 8, 4)
+    pixels = np.zeros((4, 8, 4), dtype=np.float32)
+    pixels[..., 3], pixels[:2, :, 0], pixels[2:, :, 2] = 1, 1, 1
+    image.pixels.foreach_set(pixels.ravel())
+    image.file_format, image.filepath_raw = "PNG", str(tmp_path / "picture.png")
+    image.save()
+    arguments = [str(tmp_path / "picture.png"), "--out", str(tmp_path / "out"), "--width", "8", "--palette", "1,4"]
+    assert script.main([*arguments, "--layers", "--save-blend"]) == 0
+    made = contents(tmp_path / "out")
+    assert {"model.ldr", "tiles.csv", "layers/001.svg", "build.blend", "report.json"} <= set(made)
+    facts = report(tmp_path / "out")
+    assert facts["grid"] == {"x": 8, "y": 4, "layers": 1}
+    assert facts["input"] == {"pixels": [8, 4]}
+    lines = [line.split() for line in made["model.ldr"].decode().splitlines() if line.startswith("1 ")]
+    rows = {colour: {float(z) for _, code, _, _, z, *_ in lines if code == colour} for colour in ("1", "4")}
+    # the front of the model, which has the smaller z in LDraw, is the lower edge of the image
+    assert max(rows["4"]) < min(rows["1"])
+    for flags in (["--frame", "3"], ["--object", "A"], ["--bound"]):
+        assert script.main([*arguments, *flags]) == 1
+        assert "leave --" in capsys.readouterr().err

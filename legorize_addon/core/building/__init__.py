@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .given import given_steps
     from .order import plan_steps, steps_of
     from .proof import Proof, prove_steps
+    from .tiles import SIDE, tile_places
     from .towers import STEADY, Tipping, no_prop, tipping
     from .units import presses
     from .views import quarter_turns
@@ -30,6 +31,7 @@ else:
         given=("given_steps",),
         order=("plan_steps", "steps_of"),
         proof=("Proof", "prove_steps"),
+        tiles=("SIDE", "tile_places"),
         towers=("STEADY", "Tipping", "no_prop", "tipping"),
         units=("presses",),
         views=("quarter_turns",),
@@ -37,6 +39,7 @@ else:
 
 __all__ = [
     "MAIN",
+    "SIDE",
     "STEADY",
     "Action",
     "BuildingContacts",
@@ -59,6 +62,7 @@ __all__ = [
     "steps_alone",
     "steps_of",
     "tangled",
+    "tile_places",
     "tipping",
     "walk",
 ]

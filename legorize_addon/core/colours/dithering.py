@@ -71,6 +71,11 @@ class PaletteMixer:
         self._lab = lab_from_srgb(self._rgb)
         self._nearest = np.full(_LEVELS**3, -1, dtype=np.int16)
 
+    def nearest(self, light: Floats) -> Codes:
+        """Return the LDraw codes, (...), of the colours nearest to light, (..., 3)."""
+        found: Codes = self._codes[self._choice(light)]
+        return found
+
     def ordered(self, goal: Floats, row: Ints, column: Ints) -> Codes:
         """Return the colours of places in a fixed pattern.
 

@@ -8,6 +8,7 @@ from .ldraw import MAIN_COLOUR, MATRICES, ldraw_matrix, part_origin, write_ldr
 from .ldraw_mpd import write_mpd
 from .paths import named
 from .single import replacing, write_whole
+from .tiles_csv import tiles_csv
 
 __all__ = [
     "MAIN_COLOUR",
@@ -18,6 +19,7 @@ __all__ = [
     "new_folder",
     "part_origin",
     "replacing",
+    "tiles_csv",
     "write_ldr",
     "write_mpd",
     "write_whole",

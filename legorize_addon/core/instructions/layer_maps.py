@@ -8,11 +8,12 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Ints, Mask
+from ..building import tile_places
 from ..model import Bricks, Catalogue, stud_columns
 from ..progress import Progress, silent
-from .canvas import WHITE, Group, Item, Page, Paint, Path, Rgb, Text, lines, moved
+from .canvas import WHITE, Group, Item, Page, Paint, Path, Rgb, Text, lines, moved, rectangle
 from .fonts import width
-from .layers import Layer, layers_of
+from .layers import Layer, by_tiles, layers_of
 from .legend import Legend, lettered
 from .lots import GREY, lots_of, rgb_of
 from .map_frame import LABELS, TITLE, Frame
@@ -70,13 +71,16 @@ def layer_pages(
     """
     # the tint of the supports in the booklet, as the model is the same
     tint = tint_for(rgb_of(bricks.take(~temporary), catalogue))
-    layers = layers_of(bricks, catalogue)
+    layers = _mapped(bricks, catalogue)
     counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers]
     legends = _legends(counts, paper)
-    frame = Frame.of(bricks, catalogue, _widest(legends), paper, actual_size=actual_size)
+    whole = Frame.of(bricks, catalogue, _widest(legends), paper, actual_size=actual_size)
+    tiles = sorted({layer.tile for layer in layers if layer.tile})
     for number, (layer, legend) in enumerate(zip(layers, legends, strict=True)):
         progress("layer maps", number / len(layers))
-        new = bricks.take(layer.new)
+        new, frame = bricks.take(layer.new), whole
+        if layer.tile:
+            frame = Frame.of_tile(plan_outlines(new, catalogue)[0], layer.tile, whole, _widest(legends), paper)
         lots, lot = lots_of(new, catalogue)
         items = (
             *_heading(layer, f"{number + 1} of {len(layers)}", frame, actual_size=actual_size),
@@ -84,8 +88,28 @@ def layer_pages(
             Group(tuple(_plan(bricks, catalogue, layer, temporary, tint, frame)), frame.matrix),
             *_marks(new, lot, catalogue, frame),
             moved(tuple(legend.items(lots, catalogue)), frame.width - MARGIN - legend.width, MARGIN + TITLE),
+            *(_where(layer.tile, tiles, frame) if layer.tile else ()),
         )
         yield Page(frame.width, frame.height, items, layer.title)
+
+
+def _mapped(bricks: Bricks, catalogue: Catalogue) -> list[Layer]:
+    """Return what gets a map each."""
+    return by_tiles(layers_of(bricks, catalogue), tile_places(bricks, catalogue))
+
+
+def _where(tile: tuple[int, int], tiles: Sequence[tuple[int, int]], frame: Frame) -> Iterator[Item]:
+    """Yield a small picture of all tiles at the head of the page, with one of them filled."""
+    rows, columns = (max(each) + 1 for each in zip(*tiles, strict=True))
+    side = min(_HEAD / rows, 2 * _HEAD / columns)
+    left = frame.width - MARGIN - 24 - columns * side
+    for row, column in tiles:
+        paint = Paint(fill=GREY if (row, column) == tile else WHITE, stroke=_GHOST, width=0.2)
+        yield rectangle(left + column * side, MARGIN - 2 + (rows - 1 - row) * side, side, side, paint)
+
+
+_HEAD: Final = 11.0
+"""mm of the picture of all tiles."""
 
 
 def _legends(counts: Sequence[int], paper: Paper) -> list[Legend]:
@@ -111,7 +135,9 @@ def _labels(frame: Frame) -> Iterator[Item]:
     every = next(step for step in (1, 2, 5, 10, 20, 50, 100, 1000) if step * frame.stud >= 3.5)
     (x_low, y_low), (x_high, y_high) = frame.low.tolist(), frame.high.tolist()
     for axis, ends in enumerate(((y_low, y_high), (x_low, x_high))):
-        names = [lettered(each) if axis else str(each + 1) for each in range((x_high - x_low, y_high - y_low)[axis])]
+        start = int((frame.low - frame.first)[axis])
+        numbers = range(start, start + (x_high - x_low, y_high - y_low)[axis])
+        names = [lettered(each) if axis else str(each + 1) for each in numbers]
         # and so small that the longest has room
         size = min(2.8, 0.75 * frame.stud * every, 0.85 * frame.stud * every / width(names[-1], 1))
         for number in range(0, len(names), every):
@@ -151,13 +177,20 @@ def _plan(
     yield _grid(frame)
     if len(layer.through):
         points, count = plan_outlines(bricks.take(layer.through), catalogue)
-        yield Path(points, count, True, (Paint(_THROUGH, _GHOST, line),))
+        between = Path(points, count, True, (Paint(_THROUGH, _GHOST, line),))
+        yield Group((between,), clip=_box(frame)) if layer.tile else between
     if len(layer.below):
         below = bricks.take(layer.below)
         points, count = plan_outlines(below, catalogue)
         yield plan_studs(below, catalogue, Paint(stroke=_GHOST, width=STUD), Paint(stroke=WHITE, width=STUD - 2 * line))
         yield Path(points, count, True, (Paint(stroke=_GHOST, width=line, dash=(0.18, 0.12)),))
     yield from _new(bricks.take(layer.new), catalogue, temporary[layer.new], tint, line)
+
+
+def _box(frame: Frame) -> Path:
+    (left, bottom), (right, top) = frame.low.tolist(), frame.high.tolist()
+    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)], dtype=np.float64)
+    return Path(corners, np.array([4]), True, ())
 
 
 def _grid(frame: Frame) -> Item:
@@ -212,7 +245,7 @@ def map_pages(
     first : int
         Number of the first page.
     """
-    counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers_of(bricks, catalogue)]
+    counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in _mapped(bricks, catalogue)]
 
     def stud(strip: Paper) -> float:
         """Return the mm of a stud on maps of a size."""

@@ -6,7 +6,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from ..arrays import Ints
+from ..arrays import Floats, Ints
+from ..building import SIDE
 from ..model import Bricks, Catalogue
 from ..units import STUD as STUD_MM
 from .paper import MARGIN, Paper
@@ -40,6 +41,8 @@ class Frame(NamedTuple):
         Upper left corner of the maps in mm.
     width, height : float
         Size of the pages in mm.
+    first : (2,) int64 array
+        Stud from which columns and rows are counted.
     """
 
     low: Ints
@@ -50,11 +53,24 @@ class Frame(NamedTuple):
     top: float
     width: float
     height: float
+    first: Ints
 
     @classmethod
     def of(cls, bricks: Bricks, catalogue: Catalogue, legend: float, paper: Paper, *, actual_size: bool) -> Frame:
         """Return the frame for a model and the width of its widest legend."""
         points, _ = plan_outlines(bricks, catalogue)
+        return cls._around(points, legend, paper, actual_size=actual_size)
+
+    @classmethod
+    def of_tile(cls, outlines: Floats, tile: tuple[int, int], whole: Frame, legend: float, paper: Paper) -> Frame:
+        """Return the frame for a tile of a mosaic, with what lies across its borders, at most as large as the whole."""
+        low = whole.low + np.array(tile[::-1]) * SIDE
+        box = np.stack([low, np.minimum(low + SIDE, whole.high)])
+        found = cls._around(np.concatenate([box, outlines]), legend, paper, actual_size=whole.stud == STUD_MM)
+        return found._replace(first=whole.low)
+
+    @classmethod
+    def _around(cls, points: Floats, legend: float, paper: Paper, *, actual_size: bool) -> Frame:
         low, high = points.min(axis=0).astype(np.int64), points.max(axis=0).astype(np.int64)
         turned = bool((high - low)[1] > (high - low)[0]) and not actual_size
         across, up = (high - low)[:: -1 if turned else 1].tolist()
@@ -66,7 +82,7 @@ class Frame(NamedTuple):
         width, height = max(paper.width, across * stud + beside), max(paper.height, up * stud + above)
         left = MARGIN + LABELS + (width - beside - across * stud) / 2
         top = MARGIN + TITLE + LABELS + (height - above - up * stud) / 2
-        return cls(low, high, turned, stud, left, top, width, height)
+        return cls(low, high, turned, stud, left, top, width, height, low)
 
     @property
     def matrix(self) -> tuple[float, float, float, float, float, float]:

@@ -95,9 +95,9 @@ def _packed(numbers: NDArray[np.integer], kind: str) -> str:
 
 def _studs(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:
     """Return where the studs begin, (n, 3) cells; and the brick of each."""
-    brick, columns = stud_columns(bricks, catalogue)
-    studded = catalogue.studs[bricks.part[brick]]
-    brick, studs = brick[studded].astype(np.int64), columns[studded].astype(np.int64)
+    owner, columns = stud_columns(bricks, catalogue)
+    studded = catalogue.studs[bricks.part[owner]]
+    brick, studs = owner[studded].astype(np.int64), columns[studded].astype(np.int64)
     studs[:, 2] += catalogue.height[bricks.part[brick]]
     return studs, brick
 

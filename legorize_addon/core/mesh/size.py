@@ -9,21 +9,21 @@ import numpy as np
 from ..arrays import Floats
 from ..errors import SettingsError
 from ..model import UnitGrid
-from ..units import BRICK, STUD
+from ..units import BRICK, MM_PER_CM, STUD
 from .triangle_mesh import TriangleMesh
 
 _ORIGINAL_SCALE: Final = 10.0
 """Scale factor k at which an object keeps its size (paper, section 3)."""
 
 
-def model_scale(mesh: TriangleMesh, *, size_by: str, width: int, height: int, scale: float) -> float:
+def model_scale(mesh: TriangleMesh, *, size_by: str, width: int, height: int, scale: float, cm: float) -> float:
     """Return the factor from the size of the mesh to that of the model.
 
     Parameters
     ----------
     mesh : TriangleMesh
         In world mm.
-    size_by : {"width", "height", "scale"}
+    size_by : {"width", "height", "scale", "cm"}
         Which of the following numbers sets the size.
     width : int
         Studs along the longer horizontal side.
@@ -31,6 +31,8 @@ def model_scale(mesh: TriangleMesh, *, size_by: str, width: int, height: int, sc
         Bricks.
     scale : float
         Scale factor k of the paper.
+    cm : float
+        Longest side.
 
     Returns
     -------
@@ -47,14 +49,16 @@ def model_scale(mesh: TriangleMesh, *, size_by: str, width: int, height: int, sc
     Paper, section 3: a factor k of 10 keeps the size.
     """
     extent = np.ptp(mesh.vertices, axis=0)
-    return scale_of_extent(extent, size_by=size_by, width=width, height=height, scale=scale)
+    return scale_of_extent(extent, size_by=size_by, width=width, height=height, scale=scale, cm=cm)
 
 
-def scale_of_extent(extent: Floats, *, size_by: str, width: int, height: int, scale: float) -> float:
+def scale_of_extent(extent: Floats, *, size_by: str, width: int, height: int, scale: float, cm: float) -> float:
     """Return :func:`model_scale` of a mesh whose extent along x, y and z in mm is known."""
     if size_by == "scale":
         return scale / _ORIGINAL_SCALE
-    if size_by == "width":
+    if size_by == "cm":
+        wanted, along, word = cm * MM_PER_CM, extent.max(), "size"
+    elif size_by == "width":
         wanted, along, word = width * STUD, extent[:2].max(), "width"
     else:
         wanted, along, word = height * BRICK, extent[2], "height"

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from ..on_demand import on_demand
 from .brick_columns import Touching, agree, brick_columns, every_plate
 from .bricks import NOBODY, SUPPORTS, Bricks, Role, concatenate
-from .catalogue import ASSETS, MISSING_CELL, Catalogue, Colour, Part, Use, footprint, load_catalogue
+from .catalogue import ASSETS, Catalogue, Colour, load_catalogue
+from .parts import MISSING_CELL, Part, Use, footprint
 from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
 from .verdict import UNSUPPORTED, Verdict
 

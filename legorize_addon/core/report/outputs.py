@@ -6,9 +6,9 @@ import json
 from dataclasses import replace
 from typing import Any, Final
 
-from ..build import Build, Finished
+from ..build import Build, Finished, Mosaic
 from ..errors import enough_memory
-from ..files import build_order_csv, write_ldr, write_mpd
+from ..files import build_order_csv, tiles_csv, write_ldr, write_mpd
 from ..model import Assembly, Catalogue
 from ..shopping import ShoppingList, list_texts, shopping_list
 from .money import with_prices
@@ -23,7 +23,8 @@ def output_texts(build: Finished, catalogue: Catalogue, facts: dict[str, Any], t
     """Return the contents of the text files by name.
 
     Lists of supports are there only if there are supports to buy, and a list
-    that a shop reads only if it has something in it.
+    that a shop reads only if it has something in it. The paper's tables are of
+    models of meshes alone, the parts by tiles of mosaics alone.
     """
     everything = Assembly(build.supports.bricks, catalogue)
     return {
@@ -33,6 +34,7 @@ def output_texts(build: Finished, catalogue: Catalogue, facts: dict[str, Any], t
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
         **list_texts(*wanted_lists(build, catalogue, title)),
         **(_tables(build, catalogue, title) if isinstance(build, Build) else {}),
+        **({"tiles.csv": tiles_csv(Assembly(build.bricks, catalogue))} if isinstance(build, Mosaic) else {}),
     }
 
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..build import Build, Finished
+from ..build import Build, Finished, Mosaic
 from ..building import Kind
 from ..errors import enough_memory
 from ..measures import lower_bound
@@ -20,6 +20,7 @@ from ..supports import AssemblyPlan
 from ..units import PLATES_PER_BRICK
 from .mesh_facts import facts_of_mesh
 from .money import price_facts
+from .mosaic_facts import facts_of_mosaic
 from .remarks import remarks
 
 SCHEMA: Final = 2
@@ -41,8 +42,8 @@ def report(
     Parameters
     ----------
     build : Finished
-        A model; one of a mesh, a ``Build``, has all keys, and one that was read
-        as bricks those about bricks.
+        A model; one of a mesh, a ``Build``, has all keys, one that was read as
+        bricks those about bricks, and a ``Mosaic`` some of its own.
     catalogue : Catalogue
         Its parts and colours.
     version : str
@@ -82,6 +83,7 @@ def report(
         "settings": asdict(build.settings),
         "grid": _grid(wanted),
         **(facts_of_mesh(build, mm_per_unit) if isinstance(build, Build) else {}),
+        **(facts_of_mosaic(build, catalogue) if isinstance(build, Mosaic) else {}),
         "counts": _counts(build, catalogue, wanted.lots),
         "mass_g": round(wanted.mass, 2),
         "size": _size(wanted),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from .box_means import box_means
 from .cutouts import remarks_on_unseen, seen_part
 from .reduced_images import reduce_images
 
 __all__ = [
+    "box_means",
     "reduce_images",
     "remarks_on_unseen",
     "seen_part",

@@ -158,5 +158,5 @@ def test_parts_collection_is_in_order_of_names() -> None:
         assert [(variant["legorize_part"], variant.active_material.name.split()[1]) for variant in by_name] == [
             (part.number, str(colour.code)) for part, colour in kinds
         ]
-    assert len(bpy.data.meshes) == len(PARTS)
+    assert len(bpy.data.meshes) == len(catalogue.parts)
     assert len(bpy.data.materials) == 12

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.building.tiles import tiles_of
+from legorize_addon.core.building.tiles import tile_places, tiles_of
+from tests.core.any_bricks import CATALOGUE, table
 
 
 def squares(wide, deep, levels=(0,)):
@@ -49,3 +50,12 @@ def test_wide_parts_lie_in_the_tile_of_their_middle():
     box = np.stack([x, x + 3, 0 * x, 0 * x + 15], axis=1)
     low = (x + 1 - x.min()) // 16
     assert tiles_of(box, 0 * x).tolist() == (1 + low).tolist()
+
+
+def test_places_of_bricks():
+    """A brick belongs to the tile in which its middle lies; a model that is no mosaic has no tiles."""
+    plate = CATALOGUE.part_row("3023")
+    rows = [(plate, x, y, 0, 0, 4, 0, 0, 0) for x, y in ((0, 0), (14, 0), (15, 0), (16, 0), (46, 31), (0, 16))]
+    assert tile_places(table(rows), CATALOGUE).tolist() == [[0, 0], [0, 0], [0, 0], [0, 1], [1, 2], [1, 0]]
+    assert (tile_places(table(rows[:3]), CATALOGUE) == -1).all()
+    assert tile_places(table([]), CATALOGUE).shape == (0, 2)

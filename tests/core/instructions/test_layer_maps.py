@@ -117,3 +117,16 @@ def test_small_maps_share_a_page(across, deep, rows):
     shown = [text for page in pages for text in texts(page.items)]
     assert [text for text in shown if text.startswith("Layer ")] == [f"Layer {number}" for number in range(1, 5)]
     assert "9" in shown
+
+
+def test_a_mosaic_has_a_map_for_each_tile():
+    """Its own bricks, numbers of the whole, and a small picture of where it lies; the base has one map."""
+    tops = [(PART["3005"], x, y, 1, 0, 4 if x < 16 else 15, 0, 0, 0) for x in range(0, 32, 4) for y in range(0, 16, 4)]
+    bricks = table([(PART["3811"], 0, 0, 0, 0, 71, 0, 0, 0), *tops])
+    temporary = np.zeros(len(bricks), dtype=bool)
+    base, first, second = layer_pages(bricks, CATALOGUE, temporary=temporary, paper=PAPERS["A4"])
+    assert "Baseplate 32 x 32" in set(texts(base.items))
+    assert {"16x", "Red", "1", "16"} <= set(texts(first.items))
+    assert {"16x", "White", "17", "32"} <= set(texts(second.items))
+    assert "Red" not in set(texts(second.items))
+    assert len(list(map_pages(bricks, CATALOGUE, temporary=temporary, paper=PAPERS["A4"], first=1))) >= 1

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given, settings
 
-from legorize_addon.core.instructions.layers import layers_of
+from legorize_addon.core.building.tiles import tile_places
+from legorize_addon.core.instructions.layers import by_tiles, layers_of
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.contacts import contact_graph
 from tests.core.any_bricks import CATALOGUE, any_bricks, table
@@ -55,3 +56,17 @@ def test_titles_tell_layers_and_plates():
     assert [layer.title for layer in layers_of(tower(), CATALOGUE)] == ["Layer 1", "Layer 2", "Layer 2, 1 plate up"]
     pieces = table([(BRICK, 0, 0, 0, 0, 4, 0, 0, 0), (BRICK, 0, 0, 30, 0, 4, 0, 3, 0)])
     assert [layer.title for layer in layers_of(pieces, CATALOGUE)] == ["Piece 1, Layer 1", "Piece 2, Layer 1"]
+
+
+def test_layers_of_a_mosaic_are_divided_into_tiles():
+    """Each tile has its own bricks, and the others to lie between; a layer of few bricks stays whole."""
+    brick = PART["3005"]
+    tops = [(brick, x, y, 1, 0, 4, 0, 0, 0) for x in range(0, 32, 4) for y in range(0, 16, 4)]
+    bricks = table([(PART["3811"], 0, 0, 0, 0, 71, 0, 0, 0), *tops])
+    base, *tiles = by_tiles(layers_of(bricks, CATALOGUE), tile_places(bricks, CATALOGUE))
+    assert (base.title, base.tile) == ("Layer 1", None)
+    assert [each.tile for each in tiles] == [(0, 0), (0, 1)]
+    assert tiles[1].title == "Layer 1, 1 plate up, tile 2 of row 1"
+    for each in tiles:
+        assert (bricks.corner[each.new, 0] // 16 == each.tile[1]).all()
+        assert sorted([*each.new, *each.through]) == list(range(1, 33))

@@ -8,9 +8,12 @@ read in full is refused. Remarks say what will be missing. Nothing here needs Bl
 from __future__ import annotations
 
 from .lost_places import is_lost, without_lost_places
-from .preflight import check_source, unchanged
+from .pictures import check_picture
+from .preflight import check_file, check_source, unchanged
 
 __all__ = [
+    "check_file",
+    "check_picture",
     "check_source",
     "is_lost",
     "unchanged",

@@ -11,6 +11,7 @@ from ...errors import MeshError
 from .blend import check_blend
 from .fbx import check_fbx
 from .gltf import check_gltf
+from .pictures import PICTURES
 from .ply import check_ply
 from .stl import check_stl
 from .wavefront import check_obj
@@ -36,7 +37,7 @@ def check_source(source: Path, extensions: Collection[str]) -> tuple[str, ...]:
     MeshError
         If there is no such file, or it is certain that it cannot be read.
     """
-    _check_file(source)
+    check_file(source)
     kind = source.suffix.lower()
     checks: dict[str, Callable[[Path], tuple[str, ...]]] = {
         ".blend": check_blend,
@@ -48,14 +49,18 @@ def check_source(source: Path, extensions: Collection[str]) -> tuple[str, ...]:
         ".stl": check_stl,
     }
     if kind not in checks:
-        raise MeshError(f"{source.name} is not a kind of file that can be read: use one of {', '.join(checks)}.")
+        raise MeshError(
+            f"{source.name} is not a kind of file that can be read: use one of {', '.join(checks)}, or for a mosaic "
+            f"{', '.join(PICTURES)}."
+        )
     try:
         return checks[kind](source)
     except OSError as error:
         raise MeshError(f"{source.name} cannot be read ({error.strerror}): check its access rights.") from error
 
 
-def _check_file(source: Path) -> None:
+def check_file(source: Path) -> None:
+    """Refuse what is no file with something in it."""
     if not source.exists():
         raise MeshError(f"There is no file {source}: name one that exists.")
     if not source.is_file():

@@ -1,0 +1,101 @@
+"""The parts: their sizes and profiles, and the cells that they cover."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+MISSING_CELL: Final = ((1, 1), (0, 1), (0, 0), (1, 0))
+"""Cell (x, y) of the 2 x 2 bounding box that a corner part leaves free, by quarter turn."""
+
+Profile = Literal["box", "corner", "tile", "baseplate"]
+"""What a part looks like: a box with studs on top; the same as a 2 x 2 corner, which lacks one cell of its bounding
+box; smooth on top; or flat below and half as thick as a plate, in the upper half of its cells."""
+
+Use = Literal["model", "tiles", "plates", "base"]
+"""What a part is laid for: models of all kinds; mosaics of tiles; mosaics of plates, and bases; bases alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A part that stands upright on the grid.
+
+    Attributes
+    ----------
+    number : str
+        LDraw number, the same at BrickLink and Rebrickable.
+    title : str
+        Name for people, "Brick 2 x 4".
+    length, width : int
+        Studs along x and y at turn 0; the length is the longer side.
+    height : int
+        Plates: 1 a plate, 3 a brick, 9 a tall brick.
+    profile : {"box", "corner", "tile", "baseplate"}
+        See ``Profile``.
+    use : {"model", "tiles", "plates", "base"}
+        See ``Use``.
+    mass : float
+        Grams.
+    mass_source : str
+        Who weighed it, or how it was estimated.
+    aliases : tuple of str
+        Other numbers that LDraw files use for the same part.
+    """
+
+    number: str
+    title: str
+    length: int
+    width: int
+    height: int
+    profile: Profile
+    use: Use
+    mass: float
+    mass_source: str
+    aliases: tuple[str, ...]
+
+    @property
+    def corner(self) -> bool:
+        """Whether it is a corner part."""
+        return self.profile == "corner"
+
+    @property
+    def studs(self) -> bool:
+        """Whether it has studs on top, for other parts to clutch."""
+        return self.profile != "tile"
+
+    @property
+    def sockets(self) -> bool:
+        """Whether it clutches studs below."""
+        return self.profile != "baseplate"
+
+    @property
+    def turns(self) -> int:
+        """Number of different orientations: 1, 2 or 4 quarter turns."""
+        if self.corner:
+            return 4
+        return 1 if self.length == self.width else 2
+
+
+def footprint(part: Part, turn: int) -> NDArray[np.int32]:
+    """Return the cells that a part covers, seen from above.
+
+    Parameters
+    ----------
+    part : Part
+        The part.
+    turn : int
+        Quarter turns, counter-clockwise as seen from above.
+
+    Returns
+    -------
+    (k, 2) int32 array
+        Cells (x, y) as offsets from the lowest corner of the turned bounding
+        box, by ascending x, then y.
+    """
+    covered = np.ones((part.width, part.length) if turn % 2 else (part.length, part.width), bool)
+    if part.corner:
+        covered[MISSING_CELL[turn % 4]] = False
+    return np.argwhere(covered).astype(np.int32)

@@ -1,0 +1,58 @@
+"""An estimate of a mosaic before it is made."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import Final
+
+from .estimate import Estimate
+from .settings import Settings
+from .units import MM_PER_CM, PLATE, PLATES_PER_BRICK, STUD
+
+_BRICKS: Final = 0.6
+"""Parts to a stud of a photograph in mixed colours."""
+
+_SECONDS: Final = MappingProxyType(
+    {"colours": (0.2, 1e-5), "layout": (0.1, 1e-4), "stability": (0.05, 4e-5), "supports": (0.1, 3e-4)}
+)
+"""CPU seconds of the stages, and more for each stud."""
+
+_TIERS: Final = MappingProxyType({"fast": 0.3, "standard": 1.0, "exact": 6.0})
+"""Time of each tier of the layout, as a multiple of the standard one."""
+
+_MEGABYTES: Final = (130.0, 0.02)
+"""Peak of the resident memory of a process, and more for each stud."""
+
+_PROOF: Final = 3.0
+"""Time of the proof of all steps, as a multiple of everything else."""
+
+
+def estimate_mosaic(studs: tuple[int, int], settings: Settings) -> Estimate:
+    """Estimate a mosaic of an image.
+
+    Parameters
+    ----------
+    studs : (int, int)
+        Along x and y, with the border.
+    settings : Settings
+
+    Returns
+    -------
+    Estimate
+        If the image is so rich in colours that most parts have one or two studs.
+    """
+    cells = studs[0] * studs[1]
+    seconds = {name: constant + each * cells for name, (constant, each) in _SECONDS.items()}
+    seconds["layout"] *= _TIERS[settings.layout]
+    if settings.prove_steps:
+        seconds["proof"] = _PROOF * sum(seconds.values())
+    plates = 1 + (PLATES_PER_BRICK if settings.mosaic == "bricks" else 1)
+    return Estimate(
+        studs=(float(studs[0]), float(studs[1])),
+        layers=-(-plates // PLATES_PER_BRICK),
+        cm=(studs[0] * STUD / MM_PER_CM, studs[1] * STUD / MM_PER_CM, plates * PLATE / MM_PER_CM),
+        cells=float(cells),
+        bricks=round(_BRICKS * cells),
+        megabytes=_MEGABYTES[0] + _MEGABYTES[1] * cells,
+        stages=seconds,
+    )

@@ -1,0 +1,79 @@
+"""Images for mosaics: from files, and from those of the open scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import bpy
+
+from ..core.errors import MeshError
+from ..core.files.sources import check_file, check_picture, unchanged
+from ..core.mosaic import Picture, picture_of
+from .images import LARGEST_SIDE, is_missing, is_readable, read_pixels, step_of
+from .quiet import quiet
+
+
+def load_picture(source: Path) -> tuple[Picture, tuple[str, ...]]:
+    """Read an image file as it is seen, turned as its camera was held.
+
+    Parameters
+    ----------
+    source : pathlib.Path
+        A .png or .jpg file.
+
+    Returns
+    -------
+    Picture
+    tuple of str
+        What could not be taken literally.
+
+    Raises
+    ------
+    MeshError
+        The file cannot be read, or its colours are inks.
+    """
+    check_file(source)
+    with unchanged(source):
+        head = check_picture(source)
+        try:
+            with quiet():
+                image = bpy.data.images.load(str(source.resolve()))
+        except RuntimeError as error:
+            raise MeshError(f"{source.name} cannot be read ({error}): save it again.") from error
+        try:
+            if is_missing(image):
+                raise MeshError(f"{source.name} is incomplete or damaged: export or download it again.")
+            remarks = remarks_on(image)
+            colours, alpha = read_pixels(image)
+        finally:
+            bpy.data.images.remove(image)
+    return picture_of(head.upright(colours), head.upright(alpha)), remarks
+
+
+def picture_from(image: bpy.types.Image) -> tuple[Picture, tuple[str, ...]]:
+    """Read an image of the open file; see :func:`load_picture`."""
+    if is_missing(image):
+        raise MeshError(f"The image {image.name!r} has no pixels: choose another one, or find its file.")
+    if not is_readable(image):
+        raise MeshError(
+            f"The image {image.name!r} has the colour space {image.colorspace_settings.name!r}, which only Cycles can "
+            "read: save it as sRGB."
+        )
+    return picture_of(*read_pixels(image)), remarks_on(image)
+
+
+def remarks_on(image: bpy.types.Image) -> tuple[str, ...]:
+    """Return a sentence if an image is used at less than its size."""
+    step = step_of(image)
+    if step == 1:
+        return ()
+    return (f"The image {image.name!r} is larger than {LARGEST_SIDE} pixels: it was used at 1/{step} of its size.",)
+
+
+def image_of(things: Iterable[bpy.types.Object]) -> bpy.types.Image | None:
+    """Return the image of the first empty among some objects that shows one."""
+    for thing in things:
+        if thing.type == "EMPTY" and thing.empty_display_type == "IMAGE" and thing.data is not None:
+            return thing.data
+    return None
