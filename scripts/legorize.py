@@ -173,6 +173,7 @@ class Wanted(NamedTuple):
     layers: bool
     actual_size: bool
     paper: str
+    tag: str
 
     @property
     def any_picture(self) -> bool:
@@ -251,6 +252,7 @@ def parser() -> Parser:
         help=("prove for the report how many bricks any layout of the model needs at least; takes longer than the "
              "layout itself"),
     )  # fmt: skip
+    made.add_argument("--tag", metavar="TEXT", default="", help="text to keep in the report, to find it again by")
     made.add_argument("--save-blend", action="store_true", help="write the scene with the bricks, build.blend")
     add_sets(made)
     sizes = made.add_mutually_exclusive_group()
@@ -480,6 +482,7 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         build = replace(build, timings={**seconds, **build.timings})
         rest = Overall(later, part(line, built, 1.0))
         facts = described(build, rest, with_bound=wanted.bound)
+        facts |= {"tag": wanted.tag} if wanted.tag else {}
         with rest.stage("files"), writing(out):
             for name, text in output_texts(build, load_catalogue(), facts, source.stem).items():
                 (folder / name).parent.mkdir(exist_ok=True)
