@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..core.errors import MeshError
-from ..core.files.sources import check_file, check_picture, unchanged
+from ..core.files.sources import PICTURES, PictureHead, check_file, check_picture, unchanged
 from ..core.mosaic import Picture, picture_of
 from .images import LARGEST_SIDE, is_missing, is_readable, read_pixels, step_of
 from .quiet import quiet
@@ -60,7 +60,18 @@ def picture_from(image: bpy.types.Image) -> tuple[Picture, tuple[str, ...]]:
             f"The image {image.name!r} has the colour space {image.colorspace_settings.name!r}, which only Cycles can "
             "read: save it as sRGB."
         )
-    return picture_of(*read_pixels(image)), remarks_on(image)
+    colours, alpha = read_pixels(image)
+    head = _head_of(image)
+    if head is not None:
+        colours, alpha = head.upright(colours), head.upright(alpha)
+    return picture_of(colours, alpha), remarks_on(image)
+
+
+def _head_of(image: bpy.types.Image) -> PictureHead | None:
+    """Return what the file of an image says of it; None if its pixels are not those of a file that can be asked."""
+    path = Path(bpy.path.abspath(image.filepath, library=image.library))
+    asked = image.source == "FILE" and not image.is_dirty and not image.packed_file
+    return check_picture(path) if asked and path.suffix.lower() in PICTURES and path.is_file() else None
 
 
 def remarks_on(image: bpy.types.Image) -> tuple[str, ...]:

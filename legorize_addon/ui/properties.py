@@ -210,6 +210,7 @@ class LegorizeView(bpy.types.PropertyGroup):
     """What the scene shows of which build, and the settings of the next one."""
 
     settings: PointerProperty(type=LegorizeSettings)
+    image: PointerProperty(type=bpy.types.Image, name="Image", description="The image that becomes a mosaic")
     build: PointerProperty(
         type=bpy.types.Collection, poll=_is_build, name="Model", description="The brick model that these panels show"
     )

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from . import animation, build, build_larger, export, instructions, learning, looks, panels, properties
+from . import animation, build, build_larger, export, instructions, learning, looks, mosaic, panels, properties
 
-_PARTS = (properties, build, build_larger, export, instructions, animation, learning, looks, panels)
+_PARTS = (properties, build, build_larger, export, instructions, animation, learning, looks, panels, mosaic)
 
 
 def register() -> None:

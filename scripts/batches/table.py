@@ -11,13 +11,13 @@ from typing import Any, Final
 import numpy as np
 
 from legorize_addon.core.errors import BuildError
-from legorize_addon.core.files.ldraw import read_ldr
 from legorize_addon.core.files.single import replacing
 from legorize_addon.core.instructions.canvas import Page
 from legorize_addon.core.instructions.lattice import FRONT, Cells, look
 from legorize_addon.core.instructions.lots import placed, rgb_of
 from legorize_addon.core.instructions.picture import MM, Look, draw
 from legorize_addon.core.instructions.svg import svg
+from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.safe_text import csv_text
 
@@ -96,7 +96,7 @@ def _picture(task: Task) -> str:
 def drawing_of(text: str) -> str:
     """Return a picture of an LDraw model as SVG."""
     catalogue = load_catalogue()
-    bricks = read_ldr(text, catalogue)
+    bricks = read_ldraw(text, catalogue).bricks
     n = len(bricks)
     seen = look(Cells.of(bricks, catalogue, FRONT), n)
     smooth = ~catalogue.studs[bricks.part]

@@ -8,10 +8,12 @@ read in full is refused. Remarks say what will be missing. Nothing here needs Bl
 from __future__ import annotations
 
 from .lost_places import is_lost, without_lost_places
-from .pictures import check_picture
+from .pictures import PICTURES, PictureHead, check_picture
 from .preflight import check_file, check_source, unchanged
 
 __all__ = [
+    "PICTURES",
+    "PictureHead",
     "check_file",
     "check_picture",
     "check_source",
