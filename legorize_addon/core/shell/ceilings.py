@@ -30,7 +30,7 @@ _REACH: Final = 2
 """Studs that bricks reach out from a cell that stands on something: a brick of
 three lies with one stud on the support."""
 
-_NOWHERE: Final = 16_000
+_NOWHERE: Final = np.iinfo(np.int16).max // 2
 """Price of a path that cannot be built; twice that is still an int16."""
 
 _PRECISION: Final = 4096

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -269,3 +270,67 @@ def test_steps_are_those_of_the_plain_rules(seed):
     grouping = _Grouping(atoms)
     grouping.steps(silent)
     assert grouping.found == Plain(atoms).steps()
+
+
+def first_step(places, **columns):
+    """Return the first step of parts of one stud, given where they lie in x."""
+    x = np.array(places)
+    made = items(np.stack([x, x, 0 * x, 0 * x], axis=1), columns.pop("level", 0 * x), **columns)
+    grouping = _Grouping(Atoms(made, NONE))
+    grouping.steps(silent)
+    return grouping.found[0]
+
+
+def test_a_step_has_ten_bricks_of_six_kinds():
+    """Of one kind there are ten; of kinds that all differ, six."""
+    assert first_step(range(15)) == list(range(10))
+    assert first_step(range(15), lot=range(15)) == list(range(6))
+
+
+@pytest.mark.parametrize(("gap", "taken"), [(5, True), (6, False)])
+def test_with_five_bricks_a_step_reaches_five_studs_on(gap, taken):
+    """What is farther belongs to another step, though a picture of four bricks would take it."""
+    assert (5 in first_step([0, 1, 2, 3, 4, 5 + gap])) == taken
+    assert 4 in first_step([0, 1, 2, 3, 4 + gap])
+
+
+@pytest.mark.parametrize(
+    ("studs", "other", "nearer"),
+    [
+        (2, {"lot": [0, 1, 0]}, True),
+        (4, {"lot": [0, 1, 0]}, False),
+        (1, {"level": [0, 1, 0]}, True),
+        (2, {"level": [0, 1, 0]}, False),
+        (5, {"image": [NOBODY, 3, NOBODY, 1]}, True),
+        (7, {"image": [NOBODY, 3, NOBODY, 1]}, False),
+    ],
+    ids=["kind near", "kind far", "level near", "level far", "image near", "image far"],
+)
+def test_what_a_new_kind_a_plate_and_an_image_are_worth(studs, other, nearer):
+    """A part of a new kind beside the first costs 3 studs of way, one a plate higher 1.5, one whose image waits 6."""
+    places = [0, 1, 1 + studs] + [40] * ("image" in other)
+    columns = dict(other)
+    if "image" in other:
+        # the image is ready when what is far away is in place
+        columns["level"] = [0, 0, 0, 0]
+        atoms = Atoms(items([[x, x, 0, 0] for x in (*places, 60)], [0] * 5, image=[*other["image"], NOBODY]),
+                      np.array([[4, 3]], np.int32))  # fmt: skip
+        grouping = _Grouping(atoms)
+        grouping.steps(silent)
+        found = grouping.found[0]
+    else:
+        found = first_step(places, **columns)
+    assert found[1] == (2 if nearer else 1)
+
+
+@pytest.mark.parametrize(("n", "high"), [(1, 9), (2, 3), (4, 3), (5, 2)])
+def test_layers_of_a_step(n, high):
+    """The more bricks a step has, the less they differ in height: 9 plates beside one brick, 3, then 2 from five on."""
+    for more, taken in ((high, True), (high + 1, False)):
+        assert (n in first_step(range(n + 1), level=[0] * n + [more])) == taken
+
+
+def test_supports_for_six_plates_ahead_are_built_together():
+    """One that is wanted a plate later than that comes later."""
+    found = first_step(range(3), temporary=[True] * 3, level=[0] * 3, due=[1, 7, 8])
+    assert found == [0, 1]

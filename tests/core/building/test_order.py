@@ -13,7 +13,7 @@ from legorize_addon.core.building.check import walk
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.items import MOST
 from legorize_addon.core.building.moves import Action
-from legorize_addon.core.building.order import _Writer, plan_steps
+from legorize_addon.core.building.order import _next, _Writer, plan_steps
 from legorize_addon.core.building.steps import Kind
 from legorize_addon.core.building.tables import Put, Table
 from legorize_addon.core.model.assembly import Assembly
@@ -126,6 +126,13 @@ def test_the_mirror_image_of_a_submodel_is_found_among_others():
     rows = {1: [0, 1], 2: [2, 3], 3: [5, 4], 4: [4], 5: [6]}
     planner = SimpleNamespace(image=np.array([4, 5, NOBODY, 6, 0, 1, 3]), all_rows=rows.__getitem__)
     assert [_Writer(planner)._images(number, list(rows)) for number in rows] == [[3], [], [1], [], []]
+
+
+def test_equal_submodels_are_looked_for_in_twelve_steps():
+    """The step itself and eleven more, as far as there are any."""
+    table_of = Table([[]] * 30, [])
+    assert list(_next([table_of], 5)) == list(range(5, 17))
+    assert list(_next([table_of], 25)) == list(range(25, 30))
 
 
 def test_a_step_is_mirrored_by_the_one_after_it():

@@ -139,3 +139,24 @@ def test_small_rasters(shape):
     goal = np.full((*shape, 3), 0.3)
     assert by("diffusion", mixer(), goal).shape == shape
     assert by("ordered", mixer(), goal).shape == shape
+
+
+def test_the_pattern_is_that_of_the_plain_rules():
+    """Sixteen candidates, each for half of the error so far, by brightness; Bayer's matrix chooses among them."""
+    ranks = np.zeros((1, 1), int)
+    for _ in range(2):
+        ranks = np.block([[4 * ranks, 4 * ranks + 2], [4 * ranks + 3, 4 * ranks + 1]])
+    # the luminance of light, from the primaries and the white of sRGB (IEC 61966-2-1)
+    x, y = np.array([[0.64, 0.30, 0.15], [0.33, 0.60, 0.06]])
+    primaries, white = np.stack([x / y, np.ones(3), (1 - x - y) / y]), np.array([0.3127, 0.329, 0.3583]) / 0.329
+    luminance = np.linalg.solve(primaries, white)
+    goal = np.random.default_rng(1).random((60, 3))
+    mix = mixer([0, 4, 15, 14, 1])
+    found = mix.ordered(goal, ROW[:60], COLUMN[:60] * 5)
+    for wanted, row, column, code in zip(goal, ROW, COLUMN * 5, found, strict=False):
+        error, picked = np.zeros(3), []
+        for _ in range(16):
+            picked.append(int(mix._choice(wanted + 0.5 * error)))
+            error += wanted - mix._light[picked[-1]]
+        picked.sort(key=lambda each: (mix._light[each] @ luminance, each))
+        assert mix._codes[picked[ranks[row % 4, column % 4]]] == code

@@ -77,3 +77,13 @@ def test_colour_must_exist_for_the_part():
     assert coloured([("3007", 1, 1, 1), ("3034", 1, 1, 0)], [never, 0], [False, True]) == [never, FILLER]
     rows = [("3002", 1, 1, 1), ("3001", 4, 1, 1), ("3005", 8, 1, 1), ("3034", 1, 1, 0)]
     assert coloured(rows, [never, never, RED, 0], [False, False, False, True])[3] == RED
+
+
+@pytest.mark.parametrize("step", [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 3), (0, 0, -3)])
+def test_a_colour_comes_from_each_side(step):
+    """A free brick has one coloured neighbour: before, behind, beside, above or below it."""
+    place = [2 + step[0], 2 + step[1], 3 + step[2]]
+    assert coloured([("3005", 2, 2, 3), ("3005", *place)], [0, RED], [True, False]) == [RED, RED]
+    apart = [2 + 2 * step[0], 2 + 2 * step[1], 3 + step[2]]
+    if not step[2]:
+        assert coloured([("3005", 2, 2, 3), ("3005", *apart)], [0, RED], [True, False]) == [FILLER, RED]

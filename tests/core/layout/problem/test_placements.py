@@ -133,3 +133,12 @@ def test_only_parts_that_exist():
     found = placements(split(grid)[0], among)
     assert len(found) > 0
     assert part not in among.part[found.shape]
+
+
+def test_placements_are_found_on_many_sheets():
+    """Three hundred sheets of one cell: each placement has a key of its own, in their order."""
+    grid = brick_grid(np.full((300, 1, 1), RED))
+    found = placements(split(grid)[0], shapes_for(grid))
+    assert len(found) == 300
+    assert (np.diff(found.key) > 0).all()
+    np.testing.assert_array_equal(found.find(found.shape, found.corner), np.arange(300))
