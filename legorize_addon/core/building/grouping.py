@@ -150,8 +150,13 @@ class _Grouping:
 
     def _mirrored(self, step: list[int]) -> list[int]:
         """Build the image of a step next, as far as it can be built."""
-        images = self.image[step]
-        found = [image for image in images.tolist() if image != NOBODY and self.ready[image]]
+        found: list[int] = []
+        for image in self.image[step].tolist():
+            # what rests on images of the same step can follow them
+            if image != NOBODY and not self.done[image]:
+                below = [each for each in self.atoms.below[image] if not self.done[each]]
+                if set(below) <= set(found):
+                    found.append(image)
         return self._filled(found, FEW, unpaired=True) if found else found
 
 

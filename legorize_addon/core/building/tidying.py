@@ -27,6 +27,8 @@ class Tidying:
             for number in range(len(self.found)):
                 if 0 < self.g.size[self.found[number]].sum() <= few:
                     self._dissolve(number)
+        for number in range(len(self.found)):
+            self._pair(number)
         return [in_turn(step, self.g.below, self.g.box, self.g.level) for step in self.found if step]
 
     def _dissolve(self, number: int) -> None:
@@ -41,6 +43,25 @@ class Tidying:
             self._move(atom, target)
             moved.append(atom)
 
+    def _pair(self, number: int) -> None:
+        """Let a brick that is left alone join its image, if that is alone as well, however far away it is."""
+        if len(self.found[number]) != 1:
+            return
+        [atom] = self.found[number]
+        image = int(self.g.image[atom])
+        if image == NOBODY or self.g.size[[atom, image]].max() > 1 or self.found[self.step_of[image]] != [image]:
+            return
+        first, last = self._bounds(atom)
+        if first <= self.step_of[image] <= last and self.g.tile[atom] == self.g.tile[image]:
+            self._move(atom, int(self.step_of[image]))
+
+    def _bounds(self, atom: int) -> tuple[int, int]:
+        """Return the first and the last step that a part may be in."""
+        g = self.g
+        first = max((int(self.step_of[each]) for each in g.below[atom]), default=0)
+        last = min((int(self.step_of[each]) for each in g.above[atom]), default=len(self.found) - 1)
+        return first, last
+
     def _move(self, atom: int, target: int) -> None:
         self.found[int(self.step_of[atom])].remove(atom)
         self.found[target].append(atom)
@@ -49,8 +70,7 @@ class Tidying:
     def _target(self, atom: int, number: int) -> int | None:
         """Return the step nearest in order that a part may move into."""
         g = self.g
-        first = max((int(self.step_of[each]) for each in g.below[atom]), default=0)
-        last = min((int(self.step_of[each]) for each in g.above[atom]), default=len(self.found) - 1)
+        first, last = self._bounds(atom)
         image = int(g.image[atom])
         if image != NOBODY:
             beside = int(self.step_of[image])

@@ -136,6 +136,15 @@ def test_mosaics_go_tile_by_tile():
     assert [min(each) for each in order] == sorted(min(each) for each in order)
 
 
+def test_what_rests_on_images_follows_in_their_step():
+    """Of two stacks that mirror each other far apart, steps follow each other; the last two bricks are one."""
+    box = np.repeat([[0, 1, 0, 1], [60, 61, 0, 1]], 5, axis=0)
+    level = np.tile(np.arange(5) * 2, 2)
+    before = np.array([(k, k + 1) for k in (0, 1, 2, 3, 5, 6, 7, 8)], np.int32)
+    found = group(items(box, level, image=(np.arange(10) + 5) % 10), before)
+    assert found == [[0, 1], [5, 6], [7, 8], [2, 3], [4, 9]]
+
+
 def test_nothing_gives_no_steps():
     """No items, no steps."""
     assert group(items([], []), NONE) == []
@@ -173,8 +182,10 @@ class Plain:
         """Return the steps before the small ones are given up."""
         while len(self.done) < len(self.a):
             step = self.filled([self.seed()], MANY)
-            ready = self.ready()
-            images = [int(self.a.image[k]) for k in step if self.a.image[k] in ready]
+            images = []
+            for image in self.a.image[step].tolist():
+                if image not in {NOBODY, *self.done} and self.done.union(images).issuperset(self.a.below[image]):
+                    images.append(image)
             if images:
                 self.filled(images, FEW, unpaired=True)
         return self.found

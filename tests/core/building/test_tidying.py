@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from legorize_addon.core.building.items import REACH, Atoms, Items, in_turn, span
 from legorize_addon.core.building.tidying import Tidying
 from legorize_addon.core.model.bricks import NOBODY
+from tests.core.building.test_grouping import NONE, items
 
 
 def row(n, before=()):
@@ -87,6 +88,17 @@ def plain(atoms, found):
                     break
                 found[own].remove(atom)
                 found[to].append(atom)
+    for own in range(len(found)):
+        if len(found[own]) == 1:
+            [atom] = found[own]
+            image = int(atoms.image[atom])
+            if image != NOBODY and atoms.size[atom] == atoms.size[image] == 1 and [image] in found:
+                to = number(image)
+                in_order = all(number(each) <= to for each in atoms.below[atom])
+                in_order = in_order and all(number(each) >= to for each in atoms.above[atom])
+                if in_order and atoms.tile[atom] == atoms.tile[image]:
+                    found[own].remove(atom)
+                    found[to].append(atom)
     return [set(step) for step in found if step]
 
 
@@ -120,3 +132,13 @@ def test_small_steps_are_given_up_by_the_plain_rules(seed):
     found = Tidying(atoms, [each for each in begun if each]).steps()
     assert [set(each) for each in found] == plain(atoms, [each for each in begun if each])
     assert found == [in_turn(each, atoms.below, atoms.box, atoms.level) for each in found]
+
+
+def test_lonely_bricks_join_their_image():
+    """Two mirrored bricks far apart become one step if both are alone and the order lets them, and else stay two."""
+    box = [[0, 1, 0, 1], [60, 61, 0, 1], [30, 31, 30, 31]]
+    lonely = items(box, [0, 0, 3], image=[1, 0, NOBODY])
+    assert sorted(map(sorted, Tidying(Atoms(lonely, NONE), [[0], [1], [2]]).steps())) == [[0, 1], [2]]
+    assert Tidying(Atoms(lonely, np.array([[0, 2], [2, 1]], np.int32)), [[0], [2], [1]]).steps() == [[0], [2], [1]]
+    unlike = items(box, [0, 0, 3])
+    assert Tidying(Atoms(unlike, NONE), [[0], [1], [2]]).steps() == [[0], [1], [2]]
