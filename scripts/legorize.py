@@ -65,7 +65,7 @@ try:
     from legorize_addon.core.report.outputs import CERTAIN, output_texts
     from legorize_addon.core.report.report import report
     from legorize_addon.core.report.summary import summary
-    from legorize_addon.core.settings import Settings, choices, renamed, setting_type
+    from legorize_addon.core.settings import SEPARATOR, Settings, choices, renamed, setting_type
     from legorize_addon.core.settings_file import read_settings, settings_text
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.reading.importers import load
@@ -367,6 +367,8 @@ def add_flag(group: Any, entry: Field[Any]) -> None:
         options["action"] = argparse.BooleanOptionalAction
     elif words:
         options["choices"] = words
+    elif entry.metadata["files"] > 1:
+        options.update(action="append", metavar="FILE", help=f"{text} The flag can also be given several times.")
     else:
         options.update(type=whole if kind is int else kind, metavar=kind.__name__.upper())
     group.add_argument(f"--{entry.name.replace('_', '-')}", **options)
@@ -446,6 +448,8 @@ def settings_of(options: dict[str, Any]) -> Settings:
         layers.append(values)
         print(*remarks, sep="\n", end="\n" if remarks else "", file=sys.stderr)
     for entry in fields(Settings):
+        if isinstance(options.get(entry.name), list):
+            options[entry.name] = SEPARATOR.join(options[entry.name])
         if entry.metadata["was"] in options:
             options[entry.name] = options.pop(entry.metadata["was"])
             print(renamed(entry), file=sys.stderr)

@@ -17,7 +17,7 @@ from .mosaic import Canvas, Covered, Goal
 from .settings import Settings
 from .slicing import Marks, Slices, Trajectories
 from .statics import Stability
-from .stock import Prices
+from .stock import Owned, Prices
 from .supports import AssemblyPlan, Joint
 from .unit_bricks import Offsets
 from .units import STUD
@@ -65,6 +65,8 @@ class Finished:
         Between the pieces of a split model.
     prices : Prices or None
         What parts cost, where a price file was given.
+    owned : Owned or None
+        Which parts the user has, where inventories were given.
     proof : Proof or None
         Whether every building step stands by forces, where that was asked for.
     notes : tuple of str
@@ -80,6 +82,7 @@ class Finished:
     supports: AssemblyPlan
     joints: tuple[Joint, ...]
     prices: Prices | None
+    owned: Owned | None
     proof: Proof | None
     notes: tuple[str, ...]
     timings: Mapping[str, float]

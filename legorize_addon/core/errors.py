@@ -13,6 +13,7 @@ traceback.
     ├── SettingsError    a setting, or a combination of settings, is impossible
     │   └── LimitError   the model would be larger than a limit that the user can raise
     └── BuildError       the model cannot be built or written
+        └── PartsError   the owned parts do not suffice for it
     Cancelled            the user asked to stop (not a failure)
 """
 
@@ -40,6 +41,10 @@ class LimitError(SettingsError):
 
 class BuildError(LegorizeError):
     """The model cannot be built, or its files cannot be written."""
+
+
+class PartsError(BuildError):
+    """The owned parts do not suffice, and nothing can be bought."""
 
 
 class Cancelled(Exception):  # noqa: N818 - a request, not an error

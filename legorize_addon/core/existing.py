@@ -16,8 +16,9 @@ from .estimate import megabytes
 from .layout import as_good, cells_of, lay_again
 from .model import Assembly, Bricks, Catalogue, Role, contact_graph, load_catalogue, stud_columns
 from .native import watched
+from .part_choice import PartChoice
 from .progress import Overall, Progress, silent
-from .report import remarks, remarks_on_building, remarks_on_prices, remarks_on_proof
+from .report import remarks, remarks_on_building, remarks_on_owned, remarks_on_prices, remarks_on_proof
 from .settings import Settings
 from .shopping import shopping_list
 from .stages import Run, lay_freely, strengthen_joints
@@ -100,7 +101,9 @@ def _judge(
 ) -> Finished:
     """Go through the stages."""
     check_size(given.bricks, settings)
-    run = Run.of(settings, Overall(EXPECTED, progress))
+    # somebody else's colours stay: what is not owned is listed
+    run = Run.of(replace(settings, owned=""), Overall(EXPECTED, progress))
+    owned = PartChoice.of(settings, run.catalogue).owned
     bricks, notes = without_overlaps(moved_up(given.bricks), run.catalogue)
     if again:
         bricks, more = _laid_again(run, bricks)
@@ -124,11 +127,12 @@ def _judge(
         *remarks(final, found, spare=settings.spare),
         *remarks_on_building(plan),
         *remarks_on_proof(proof),
+        *remarks_on_owned(owned, plan.assembly),
         *remarks_on_prices(prices, final.bricks, plan.removed, run.catalogue),
     )
     return Finished(
         settings=settings, scale=scale, assembly=final, stability=found, supports=plan, joints=(), prices=prices,
-        proof=proof, notes=(*given.notes, *notes, *told), timings=run.timings,
+        owned=owned, proof=proof, notes=(*given.notes, *notes, *told), timings=run.timings,
     )  # fmt: skip
 
 

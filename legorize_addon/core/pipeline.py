@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from .build import Build, Mosaic
@@ -18,9 +19,17 @@ from .mosaic_estimate import estimate_mosaic
 from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic
 from .native import watched
 from .progress import Overall, Progress, silent
-from .report import remarks, remarks_on_building, remarks_on_prices, remarks_on_proof, remarks_on_split
+from .report import (
+    remarks,
+    remarks_on_building,
+    remarks_on_owned,
+    remarks_on_prices,
+    remarks_on_proof,
+    remarks_on_split,
+)
 from .settings import Settings
 from .shell import make_cohesive
+from .shortage import with_enough_parts
 from .slicing import fit_grid, link_loops
 from .stages import (
     Run,
@@ -64,9 +73,10 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     LegorizeError
         The mesh or the settings cannot be used, in one sentence.
     """
+    make = partial(with_enough_parts, _legorize)
     if settings.size_by in COUNTED:
-        return watched(partial(fit, mesh, settings, _legorize), progress)
-    return watched(partial(_legorize, mesh, settings), progress)
+        return watched(partial(fit, mesh, settings, make), progress)
+    return watched(partial(make, mesh, settings), progress)
 
 
 def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Build:
@@ -93,7 +103,7 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     with run.stage("layout"):
         bricks, shell = lay_bricks(run, shell)
     with run.stage("ties"):
-        bricks, shell = add_ties(bricks, shell, run.catalogue, plates=plates)
+        bricks, shell = add_ties(bricks, shell, run.parts.joining, plates=plates)
     with run.stage("strengthening"):
         bricks, shell, forces = strengthen_joints(run, bricks, shell)
         bricks = recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue)
@@ -118,7 +128,7 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     return Build(
         settings=settings, mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut,
         trajectories=trajectories, offsets=offsets, grid=grid, hollow=shell, assembly=plan.final, stability=found,
-        supports=plan, joints=joints, prices=run.parts.prices, proof=proof, notes=notes, timings=run.timings,
+        supports=plan, joints=joints, **run.parts.files, proof=proof, notes=notes, timings=run.timings,
     )  # fmt: skip
 
 
@@ -150,7 +160,8 @@ def _legorize_image(picture: Picture, settings: Settings, progress: Progress) ->
     canvas = mosaic_canvas(picture, settings)
     expected = estimate_mosaic(canvas.size, settings)
     check_limits(expected, settings)
-    run = Run.of(settings, Overall(expected.stages, progress))
+    # a picture keeps its colours: what is not owned is listed
+    run = Run.of(replace(settings, owned_use="first"), Overall(expected.stages, progress))
     with run.stage("colours"):
         goal, colour = mosaic_colours(run, picture, canvas)
     with run.stage("layout"):
@@ -168,7 +179,7 @@ def _legorize_image(picture: Picture, settings: Settings, progress: Progress) ->
     notes = (*remarks_on_mosaic(picture, canvas, covered), *_notes(run, None, found, plan, proof))
     return Mosaic(
         settings=settings, scale=1.0, pixels=picture.size, canvas=canvas, goal=goal, colour=colour, covered=covered,
-        assembly=plan.final, stability=found, supports=plan, joints=(), prices=run.parts.prices, proof=proof,
+        assembly=plan.final, stability=found, supports=plan, joints=(), **run.parts.files, proof=proof,
         notes=notes, timings=run.timings,
     )  # fmt: skip
 
@@ -184,5 +195,6 @@ def _notes(
         *remarks_on_building(plan),
         *remarks_on_split(plan, most=run.settings.split),
         *remarks_on_proof(proof),
+        *remarks_on_owned(run.parts.owned, plan.assembly),
         *remarks_on_prices(run.parts.prices, assembly.bricks, plan.removed, run.catalogue),
     )

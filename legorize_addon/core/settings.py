@@ -178,6 +178,12 @@ class Settings:
     unpriced: Literal["estimate", "exclude"] = setting(
         "estimate", "What to do with parts that the price file does not have in a colour: use the median price of the "
         "part in other colours, or of its mass, or do not build with them.", group="Parts")
+    owned: str = setting(
+        "", "Inventories of parts that you own, separated by semicolons: lists of Rebrickable or BrickLink, CSV or "
+        "XML.", group="Parts", files=2)
+    owned_use: Literal["only", "first"] = setting(
+        "only", "Whether to build with owned parts only, if need be in other colours, or to use them first and list "
+        "what is missing.", group="Parts")
     mass_weight: float = setting(
         0.0, "How many bricks the layout may add to save one gram; 0 counts bricks alone.", group="Parts",
         low=0.0, high=10.0)

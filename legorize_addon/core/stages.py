@@ -19,14 +19,14 @@ from .estimate import AGAIN
 from .layout import FILLER, Alike, Manner, lay
 from .layout.learning import NO_EXCHANGES, learned_table, samples_text
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
-from .model import Assembly, Bricks, Catalogue, UnitGrid, load_catalogue
+from .model import Assembly, Bricks, Catalogue, Fill, UnitGrid, load_catalogue
 from .part_choice import PartChoice
 from .progress import Overall
 from .settings import Settings
 from .shell import hollow
 from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_layers, levels_of, slice_mesh
 from .statics import Effort, Stability, stability
-from .supports import AssemblyPlan, add_bracing, add_pillars, parts_of_supports, plan_assembly, strengthen
+from .supports import AssemblyPlan, Wish, add_bracing, add_pillars, parts_of_supports, plan_assembly, strengthen
 from .texturing import reduce_images, remarks_on_unseen, seen_part
 from .unit_bricks import (
     Detail,
@@ -241,9 +241,10 @@ def lay_freely(run: Run, shell: UnitGrid) -> Bricks:
 
 def lay_bricks(run: Run, shell: UnitGrid) -> tuple[Bricks, UnitGrid]:
     """Lay the bricks, and the halves of a symmetric model alike; return the cells that they cover as well."""
+    run.parts.check_volume(int(np.count_nonzero(shell.cover == Fill.REQUIRED)))
     bricks = lay_freely(run, shell)
-    # where parts differ in price or weight, their number does not say what a layout costs
-    if not run.settings.symmetric or run.parts.cheapest or run.parts.catalogue.cost is not None:
+    # where parts differ in price or weight, or few are owned, their number does not say what a layout costs
+    if not run.settings.symmetric or run.parts.minds_lots:
         return bricks, shell
     manner, burden = Manner(run.settings.layout, run.exchanges), partial(_parts_of_supports, run)
     filler = _filler(run.palette, run.catalogue)
@@ -264,7 +265,7 @@ def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks
     return strengthen(
         bricks,
         shell,
-        run.catalogue,
+        run.parts.joining,
         clutch=(1 - run.settings.spare) * run.settings.clutch,
         plates=run.settings.plates != "none",
         progress=run.progress,
@@ -286,21 +287,27 @@ def check_stability(run: Run, assembly: Assembly, forces: Floats | None) -> Stab
 
 
 def brace(run: Run, assembly: Assembly, found: Stability) -> tuple[Assembly, Stability]:
-    """Put pillars under what studs do not bear, if there may be supports."""
-    if run.settings.supports == "none":
+    """Put pillars under what studs do not bear, if there may be supports, and keep to the owned parts."""
+    settings = run.settings
+    if settings.supports != "none":
+        options = {"clutch": settings.clutch, "spare": settings.spare}
+        assembly, found = add_bracing(assembly, found, **options, progress=run.progress)
+    settled = run.parts.settled(assembly)
+    if settled is assembly:
         return assembly, found
-    return add_bracing(assembly, found, clutch=run.settings.clutch, spare=run.settings.spare, progress=run.progress)
+    return settled, stability(settled, clutch=settings.clutch, progress=run.progress)
 
 
 def make_plan(run: Run, assembly: Assembly) -> AssemblyPlan:
-    """Put supports under the pieces, and find the building order."""
-    return plan_assembly(
-        assembly,
-        wish=run.settings.supports,
-        deepest=run.settings.hanging,
-        clutch=run.settings.clutch,
-        progress=run.progress,
-    )
+    """Put supports under the pieces, find the building order, and take the parts from those that are owned."""
+    settings = run.settings
+
+    def plan(catalogue: Catalogue | None, wish: Wish) -> AssemblyPlan:
+        """Plan with supports of a kind, and of the parts of a catalogue if there is one."""
+        model = assembly if catalogue is None else Assembly(assembly.bricks, catalogue)
+        return plan_assembly(model, wish=wish, deepest=settings.hanging, clutch=settings.clutch, progress=run.progress)
+
+    return run.parts.supplied(plan, settings.supports)
 
 
 def _exchanges(settings: Settings) -> Mask | None:

@@ -10,8 +10,9 @@ from ..build import Build, Finished, Mosaic
 from ..errors import enough_memory
 from ..files import build_order_csv, tiles_csv, write_ldr, write_mpd
 from ..model import Assembly, Catalogue
-from ..shopping import ShoppingList, list_texts, shopping_list
+from ..shopping import FORMATS, ShoppingList, list_texts, shopping_list
 from .money import with_prices
+from .ownership import missing_list
 from .paper_tables import paper_tables
 
 CERTAIN: Final = ("model.ldr", "model.mpd", "build_order.csv", "parts.csv", "report.json")
@@ -33,6 +34,7 @@ def output_texts(build: Finished, catalogue: Catalogue, facts: dict[str, Any], t
         "build_order.csv": _order(build, catalogue),
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
         **list_texts(*wanted_lists(build, catalogue, title)),
+        **missing_texts(build, catalogue, title),
         **(_tables(build, catalogue, title) if isinstance(build, Build) else {}),
         **({"tiles.csv": tiles_csv(Assembly(build.bricks, catalogue))} if isinstance(build, Mosaic) else {}),
     }
@@ -56,3 +58,13 @@ def wanted_lists(build: Finished, catalogue: Catalogue, title: str) -> tuple[Sho
     )
     one, other = (replace(each, lots=with_prices(each.lots, build.prices, catalogue)) for each in lists)
     return one, other
+
+
+def missing_texts(build: Finished, catalogue: Catalogue, title: str) -> dict[str, str]:
+    """Return the lists of what is built but not owned, ``missing-parts.csv`` and so on; none if nothing is missing."""
+    if build.owned is None:
+        return {}
+    everything = shopping_list(Assembly(build.supports.bricks, catalogue), title=f"{title}, missing", moves=0)
+    wanted = missing_list(everything, build.owned, catalogue)
+    wanted = replace(wanted, lots=with_prices(wanted.lots, build.prices, catalogue))
+    return {f"missing-{kind.file}": kind.text(wanted) for kind in FORMATS if kind.has_any(wanted)}

@@ -21,6 +21,7 @@ from ..units import PLATES_PER_BRICK
 from .mesh_facts import facts_of_mesh
 from .money import price_facts
 from .mosaic_facts import facts_of_mosaic
+from .ownership import owned_facts
 from .remarks import remarks
 
 SCHEMA: Final = 2
@@ -89,6 +90,7 @@ def report(
         "size": _size(wanted),
         "building_time_s": round(wanted.seconds),
         "layout": _layout(build, catalogue, progress if with_bound else None),
+        "owned": owned_facts(build, catalogue),
         "price": price_facts(build, catalogue, progress if with_bound else None),
         "connection": _connection(build.graph),
         "stability": _stability(build, catalogue),

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from .inventory import Owned, read_owned
 from .prices import Prices, read_prices
 
 __all__ = [
+    "Owned",
     "Prices",
+    "read_owned",
     "read_prices",
 ]

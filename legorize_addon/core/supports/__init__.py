@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .assembly_plan import AssemblyPlan, plan_as_given, plan_assembly
+from .assembly_plan import KINDS, AssemblyPlan, Wish, plan_as_given, plan_assembly
 from .bracing import add_bracing
 from .demand import parts_of_supports
 from .pillars import add_pillars
@@ -11,10 +11,12 @@ from .stacks import SLIM, slim_stacks
 from .strengthening import strengthen
 
 __all__ = [
+    "KINDS",
     "SAVING",
     "SLIM",
     "AssemblyPlan",
     "Joint",
+    "Wish",
     "add_bracing",
     "add_pillars",
     "parts_of_supports",

@@ -35,7 +35,7 @@ from .plan import Plan, Way, plan_supports
 
 Wish = Literal["best", Way]
 
-WAYS: Final[tuple[Way, ...]] = ("tree", "columns", "beams")
+KINDS: Final[tuple[Way, ...]] = ("tree", "columns", "beams")
 """Kinds of supports, the one that is mostly best first."""
 
 LOW: Final = 36
@@ -257,7 +257,7 @@ def _unsteady(steps: Steps, assembly: Assembly, contacts: BuildingContacts) -> t
 def _worth_trying(need: Demand) -> tuple[Way, ...]:
     """Return the kinds of supports that can be the lightest: beams only where they are low, as in the paper."""
     low = len(need.cells) > 0 and float(np.median(need.cells[:, 2])) <= LOW
-    return WAYS if low else WAYS[:2]
+    return KINDS if low else KINDS[:2]
 
 
 def _numbered(bricks: Bricks, number: int) -> Bricks:

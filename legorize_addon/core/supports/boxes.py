@@ -6,7 +6,7 @@ corner in studs and plates, and its size in the same.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Final
 
 import numpy as np
@@ -49,6 +49,37 @@ def sizes_in(catalogue: Catalogue, colour: int) -> dict[tuple[int, int, int], in
         for row, part in enumerate(catalogue.parts)
         if made[row] and part.use == "model" and not part.corner
     }
+
+
+def split_missing(boxes: Boxes, sizes: Collection[tuple[int, int, int]]) -> Boxes:
+    """Put smaller boxes in place of those for which there is no part.
+
+    Parameters
+    ----------
+    boxes : (n, 6) int32 array
+    sizes : collection of (int, int, int)
+        Longer side, shorter side and height of the parts there are, 1 x 1 bricks among them.
+
+    Returns
+    -------
+    (m, 6) int32 array
+        The same array if every box has its part. A tall box becomes three, another one two halves of its longer side,
+        again and again.
+    """
+    if all((max(a, b), min(a, b), height) in sizes for _, _, _, a, b, height in boxes.tolist()):
+        return boxes
+    done, left = [], boxes.tolist()[::-1]
+    while left:
+        x, y, z, a, b, height = box = left.pop()
+        if (max(a, b), min(a, b), height) in sizes or (a == b == 1 and height != TALL):
+            done.append(tuple(box))
+        elif height == TALL:
+            left += [[x, y, z + PLATES_PER_BRICK * step, a, b, PLATES_PER_BRICK] for step in (2, 1, 0)]
+        elif a >= b:
+            left += [[x + a // 2, y, z, a - a // 2, b, height], [x, y, z, a // 2, b, height]]
+        else:
+            left += [[x, y + b // 2, z, a, b - b // 2, height], [x, y, z, a, b // 2, height]]
+    return boxes_of(done)
 
 
 def merge_upwards(boxes: Boxes, catalogue: Catalogue, colour: int) -> Boxes:

@@ -19,7 +19,7 @@ from ..model import Assembly, Bricks, Catalogue, ContactGraph, Role, Rows, Verdi
 from ..progress import Progress, part, silent
 from ..statics import Effort, stability
 from .beams import beams
-from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, merge_upwards, sizes_in
+from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, merge_upwards, sizes_in, split_missing
 from .columns import columns
 from .demand import Demand
 from .stacks import widen
@@ -220,7 +220,8 @@ def _laid(contacts: SupportContacts, need: Demand, catalogue: Catalogue, way: Wa
         boxes = columns(contacts.cells.tolist(), need.room)
     else:
         boxes = beams(np.unique(np.concatenate([need.cells, contacts.cells]), axis=0), need.room)
-    boxes = widen(boxes, need.room.open, sizes_in(catalogue, OUTSIDE_COLOUR))
+    boxes = split_missing(boxes, sizes := sizes_in(catalogue, OUTSIDE_COLOUR))
+    boxes = widen(boxes, need.room.open, sizes)
     boxes = merge_upwards(boxes, catalogue, OUTSIDE_COLOUR)
     boxes[:, :3] += need.room.low
     return bricks_of_boxes(boxes, catalogue, colour=OUTSIDE_COLOUR, role=Role.SUPPORT_OUTSIDE)

@@ -87,6 +87,7 @@ def build_of(rows):
         supports=supports,
         joints=(),
         prices=None,
+        owned=None,
         proof=None,
         notes=("A remark.",),
         timings={"slicing": 0.25},

@@ -8,7 +8,7 @@ from hypothesis import given
 
 from legorize_addon.core.model.bricks import NOBODY, Role
 from legorize_addon.core.model.contacts import contact_graph
-from legorize_addon.core.supports.boxes import boxes_of, bricks_of_boxes, merge_upwards, sizes_in
+from legorize_addon.core.supports.boxes import boxes_of, bricks_of_boxes, merge_upwards, sizes_in, split_missing
 from legorize_addon.core.supports.columns import pillars
 from scripts.research.full_columns import full_columns
 from tests.core.supports.places import CATALOGUE, WHITE, ceilings, owners, triples
@@ -88,3 +88,21 @@ def test_corners_are_no_boxes():
     """The size of 2 x 2 studs is the square part, not the corner."""
     for row in sizes_in(CATALOGUE, WHITE).values():
         assert not CATALOGUE.parts[row].corner
+
+
+def test_boxes_without_a_part_become_smaller_ones():
+    """A tall box becomes three, a long one halves, and the same cells are filled; what has a part stays."""
+    sizes = {(2, 1, 3), (1, 1, 3), (2, 2, 3)}
+    boxes = boxes_of([(0, 0, 0, 2, 2, 9), (5, 0, 0, 1, 5, 3), (9, 9, 9, 2, 1, 3)])
+    split = split_missing(boxes, sizes)
+    assert {(max(a, b), min(a, b), height) for *_, a, b, height in split.tolist()} <= sizes
+
+    def cells(boxes):
+        return sorted(
+            (x + i, y + j, z + k)
+            for x, y, z, a, b, height in boxes.tolist()
+            for i in range(a) for j in range(b) for k in range(height)
+        )  # fmt: skip
+
+    assert cells(split) == cells(boxes)
+    assert split_missing(boxes[2:], sizes).tolist() == boxes[2:].tolist()

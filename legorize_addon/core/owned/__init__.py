@@ -1,0 +1,15 @@
+"""Building with the parts that a user owns: prices on scarce lots, an exact repair, and colours for what is left."""
+
+from __future__ import annotations
+
+from .assignment import assign, visible_cells
+from .laying import lay_owned, usable
+from .repair import repair_parts
+
+__all__ = [
+    "assign",
+    "lay_owned",
+    "repair_parts",
+    "usable",
+    "visible_cells",
+]
