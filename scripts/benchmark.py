@@ -15,6 +15,7 @@
     python scripts/benchmark.py building  [MESH ...] [--out DIR]   building orders, followed from their files
     python scripts/benchmark.py steps     [MESH ...] [--out DIR]   whether hands can follow the building steps
     python scripts/benchmark.py judge     [MESH ...] --judge DIR   an external judge, on our bricks and on a peer's
+    python scripts/benchmark.py mosaics   [IMAGE ...] [--out DIR]  likeness from afar, against a plain mosaic
     python scripts/benchmark.py kills    [MESH] [--runs N] [--out DIR] killed runs: old or new results, nothing left
     python scripts/benchmark.py fuzz     [--cases N] [--seed S]    random bodies with random settings, within limits
     python scripts/benchmark.py sliders  [--bricks N] [--out DIR] what Blender takes to show layers and sections
@@ -51,6 +52,7 @@ from scripts.benchmarks import (  # noqa: E402
     hollowing,
     judge,
     kills,
+    mosaics,
     mutation,
     pipeline,
     slicing,
@@ -185,6 +187,14 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
             "an external judge", judge.measure, number("--width", 48, "studs"),
             folder("--judge", "folder with judge.py and peer_voxels.py", required=True),
             folder("--ldr-dir", "folder with NAME/model.ldr made by scripts/legorize.py"), needs_out=True,
+        ),
+        "mosaics": Benchmark(
+            "mosaics of a photograph and a logo", mosaics.measure,
+            (
+                ("images", {"metavar": "IMAGE", "type": Path, "nargs": "*", "help": "image file"}),
+                numbers("--widths", [48, 96], "studs"),
+                ("--kind", {"choices": ("tiles", "plates", "bricks"), "default": "tiles", "help": "of the parts"}),
+            ),
         ),
         "kills": of_models(
             "killed runs", kill, number("--runs", 200, "whole runs to kill"),

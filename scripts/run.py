@@ -10,7 +10,7 @@
     python3 scripts/run.py window     set up what the tests in a window need (root on Debian, once, 1.3 GB)
     python3 scripts/run.py release    check that a release can be made, and build it
     python3 scripts/run.py python     run the environment's Python (more arguments: a script, or -m and a module)
-    python3 scripts/run.py setup      only make the environment
+    python3 scripts/run.py setup      only make the environment (--dask: with Dask, for scripts/batch.py)
 
 The first use makes an environment in ``.venv`` with the packages pinned in
 pyproject.toml, Blender among them, and later uses find it there. ``--blender``
@@ -78,6 +78,8 @@ def main() -> int:
         own = _environment(blender, python)
         if chosen.command == "window":
             _make_tree()
+        if chosen.command == "setup" and "--dask" in rest:
+            _install(own, _pins("dask"))
         return max((_run([str(own), *line]) for line in _lines(chosen.command, rest or python_words)), default=0)
     except Missing as missing:
         print(missing, file=sys.stderr)

@@ -475,3 +475,14 @@ def test_mirrored_parts_far_apart_in_the_order_are_found() -> None:
     bricks = placed([("3003", x, 0, z, 0) for x in (0, 8) for z in (0, 3)], load_catalogue())
     assert steps.mirrored(bricks, np.array([0, 1, 1, 5], np.int32)) == 0.5
     assert steps.mirrored(bricks.take(np.array([0, 3])), np.array([0, 1], np.int32)) is None
+
+
+def test_mosaics_are_nearer_than_a_plain_one(tmp_path: Path) -> None:
+    """Each image has a plain row and four of ours, which are one piece; mixed colours are the nearest from afar."""
+    ramp = np.broadcast_to(np.linspace(0, 255, 60), (40, 60)).astype(np.uint8)
+    Image.fromarray(np.stack([ramp, ramp[:, ::-1], ramp], axis=-1)).save(tmp_path / "ramp.png")
+    rows = run(tmp_path, "mosaics", tmp_path / "ramp.png", "--widths", 24)["mosaics"]
+    difference = {row["way"]: row["difference"] for row in rows}
+    assert list(difference) == ["plain", "nearest", "texels", "ordered", "diffusion"]
+    assert difference["diffusion"] < difference["nearest"] < difference["plain"]
+    assert all(row["met"] for row in rows[1:])

@@ -78,3 +78,17 @@ def test_command_that_hangs_is_killed(tmp_path: Path, monkeypatch: pytest.Monkey
     assert beats > 0
     time.sleep(0.5)
     assert len(pulse.read_text()) == beats
+
+
+def test_dask_is_installed_where_it_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its pins are a group of their own, and go into the environment that is there."""
+    installed = []
+    monkeypatch.setattr(run, "_find", lambda blender: ("5.2", sys.executable))
+    monkeypatch.setattr(run, "_environment", lambda blender, python: Path("own"))
+    monkeypatch.setattr(run, "_install", lambda own, pins: installed.append((own, pins)))
+    for words in (["setup"], ["setup", "--dask"]):
+        monkeypatch.setattr(sys, "argv", ["run.py", *words])
+        assert run.main() == 0
+    [(own, pins)] = installed
+    assert own == Path("own")
+    assert {pin.split("==")[0] for pin in pins} >= {"dask", "distributed"}

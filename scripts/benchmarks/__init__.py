@@ -18,6 +18,7 @@
 ``layout_figures``  what is counted on a layout
 ``supports``      trees, columns and beams against full columns: Tables 2 and 4
 ``building``      building orders of every model, whole and in pieces
+``mosaics``       mosaics of images, against a plain one
 ``kills``         killed runs
 ``fuzz``          random bodies with random settings
 ``mutation``      changes of the core that no test notices
