@@ -104,6 +104,24 @@ class Finished:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Judged(Finished):
+    """A model whose bricks lay already.
+
+    Attributes
+    ----------
+    corner : (3,) float64 array
+        Of cell 0 in mm of the model.
+    """
+
+    corner: Floats
+
+    @property
+    def origin(self) -> Floats:
+        """Corner of cell 0 in mm of the model, (3,)."""
+        return self.corner
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Build(Finished):
     """A model of a mesh: the result of every stage.
 

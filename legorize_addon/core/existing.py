@@ -9,7 +9,7 @@ from typing import Final, Literal
 
 import numpy as np
 
-from .build import Finished
+from .build import Judged
 from .building import prove_steps
 from .errors import BuildError, LimitError, enough_memory
 from .estimate import megabytes
@@ -63,7 +63,7 @@ def judge(
     steps: StepsFrom = "file",
     scale: float = SHOWN,
     progress: Progress = silent,
-) -> Finished:
+) -> Judged:
     """Find out whether a brick model stands and how it is built, and lay it again if that is wanted.
 
     Parameters
@@ -84,7 +84,7 @@ def judge(
 
     Returns
     -------
-    Finished
+    Judged
 
     Raises
     ------
@@ -98,7 +98,7 @@ def judge(
 
 def _judge(
     given: Existing, settings: Settings, again: bool, steps: StepsFrom, scale: float, progress: Progress
-) -> Finished:
+) -> Judged:
     """Go through the stages."""
     check_size(given.bricks, settings)
     # somebody else's colours stay: what is not owned is listed
@@ -130,9 +130,9 @@ def _judge(
         *remarks_on_owned(owned, plan.assembly),
         *remarks_on_prices(prices, final.bricks, plan.removed, run.catalogue),
     )
-    return Finished(
-        settings=settings, scale=scale, assembly=final, stability=found, supports=plan, joints=(), prices=prices,
-        owned=owned, proof=proof, notes=(*given.notes, *notes, *told), timings=run.timings,
+    return Judged(
+        settings=settings, scale=scale, corner=np.zeros(3), assembly=final, stability=found, supports=plan, joints=(),
+        prices=prices, owned=owned, proof=proof, notes=(*given.notes, *notes, *told), timings=run.timings,
     )  # fmt: skip
 
 

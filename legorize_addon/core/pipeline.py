@@ -81,8 +81,7 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
 
 def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Build:
     """Go through the stages."""
-    expected = estimate(mesh, settings)
-    check_limits(expected, settings)
+    check_limits(expected := estimate(mesh, settings), settings)
     run = Run.of(settings, Overall(expected.stages, progress))
     plates, given = settings.plates != "none", mesh
     with run.stage("mesh"):

@@ -24,18 +24,20 @@ from .builds import (
 from .collections import clear_build, read_bricks, show_build, steps_of
 from .hidden_sources import orphans, show_orphans
 from .instancing import (
+    GHOST_KEY,
     HEAT_KEY,
     MATERIAL_KEY,
     PALE_KEY,
     bricks_modifier,
     change_tree,
+    colour_material,
     get_input,
     has_input,
     plastic,
     set_input,
 )
 from .model import Model, Source
-from .part_meshes import Detail, detail_of, parts_collection, parts_in_use, set_detail
+from .part_meshes import PART_KEY, Detail, detail_of, parts_collection, parts_in_use, set_detail
 from .placing import layer_collections
 from .section import AXES, Section, beyond, hidden_side, place_plane
 from .shared_parts import own_parts, sweep
@@ -48,6 +50,7 @@ __all__ = [
     "EXPLODE",
     "FIRST",
     "FRAMES",
+    "GHOST_KEY",
     "HEAT_KEY",
     "HEAT_MAP",
     "HEAT_PARTS",
@@ -59,6 +62,7 @@ __all__ = [
     "PALE",
     "PALE_KEY",
     "PARTS",
+    "PART_KEY",
     "REMOVED",
     "ROLE_KEY",
     "STEPS",
@@ -79,6 +83,7 @@ __all__ = [
     "check_lines",
     "check_whole",
     "clear_build",
+    "colour_material",
     "damage",
     "detail_of",
     "get_input",

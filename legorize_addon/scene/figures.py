@@ -82,7 +82,8 @@ def building_figures(assembly: Assembly, steps: Steps) -> dict[str, int | float]
     -------
     dict
         ``removed`` and ``removed_mass``, the bricks of supports that are taken
-        out and their grams; ``kept``, those that stay; ``pieces``; ``steps``.
+        out and their grams; ``kept``, those that stay; ``pieces``; ``steps``;
+        ``moves``, how often a brick or an assembly is taken in hand.
     """
     outside = assembly.bricks.role == Role.SUPPORT_OUTSIDE
     return {
@@ -91,4 +92,5 @@ def building_figures(assembly: Assembly, steps: Steps) -> dict[str, int | float]
         "kept": int(np.isin(assembly.bricks.role, (Role.SUPPORT_INSIDE, Role.SUPPORT_KEPT)).sum()),
         "pieces": len(np.unique(assembly.bricks.piece)),
         "steps": len(steps),
+        "moves": len(steps.moves),
     }

@@ -14,6 +14,7 @@ from .brick_tree import PARTS, SECTION, TREE_KEY, brick_tree
 MATERIAL_KEY: Final = "legorize_colour"
 HEAT_KEY: Final = "legorize_heat"
 PALE_KEY: Final = "legorize_pale"
+GHOST_KEY: Final = "legorize_ghost"
 MODIFIER_NAME: Final = "Bricks"
 
 
@@ -65,7 +66,7 @@ def get_input(modifier: bpy.types.NodesModifier, name: str) -> Any:
 
 def is_brick_material(material: bpy.types.Material) -> bool:
     """Tell whether a material is one that :func:`plastic` made."""
-    return any(isinstance(material.get(key), int) for key in (MATERIAL_KEY, HEAT_KEY, PALE_KEY))
+    return any(isinstance(material.get(key), int) for key in (MATERIAL_KEY, HEAT_KEY, PALE_KEY, GHOST_KEY))
 
 
 def colour_material(colour: Colour) -> bpy.types.Material:

@@ -170,6 +170,9 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         return super()._begin(context, order)
 
     def _show(self, context: bpy.types.Context, order: BuildRequest, build: Build) -> set[str]:
+        # which knows this module
+        from .parts import list_parts_of
+
         [scene] = by_uid(bpy.data.scenes, [order.scene]) or [None]
         if scene is None:
             raise BuildError("The scene was deleted while its model was being built: open another one and start again.")
@@ -183,6 +186,7 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
             detail=view.detail,
             replaces=by_uid(bpy.data.collections, order.replaces),
         )
+        list_parts_of(collection, build)
         view.build = collection
         view.show_sources = False
         if scene == context.scene:

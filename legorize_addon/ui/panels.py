@@ -10,17 +10,21 @@ from typing import Any, Final
 
 import bpy
 
+from ..core.progress import duration
 from ..core.settings import Settings, choices
+from ..core.shopping import SECONDS_A_BRICK
 from ..core.units import BRICK, STUD
 from ..scene import builds, check_lines, damage, orphans, state_of
 from ..view import LEGEND, animation_of, can_highlight, has_margins, n_pieces, n_steps, roles_shown
 from . import job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
 from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
+from .existing import LEGORIZE_OT_again, LEGORIZE_OT_open_ldraw
 from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
 from .instructions import LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps
 from .learning import LEGORIZE_OT_forget, LEGORIZE_OT_learn
 from .looks import draw_looks
+from .parts import LEGORIZE_OT_export_folder, LEGORIZE_OT_export_list, LEGORIZE_OT_list_parts, LEGORIZE_OT_show_all
 from .progress_text import progress_text
 from .properties import current_build
 
@@ -57,6 +61,7 @@ class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
         button = self.layout.column()
         button.scale_y = 1.6
         button.operator(LEGORIZE_OT_build.bl_idname, icon="MOD_BUILD")
+        self.layout.operator(LEGORIZE_OT_open_ldraw.bl_idname, icon="IMPORT")
         if context.window_manager.legorize_said:
             self.layout.label(text=context.window_manager.legorize_said, icon="INFO")
         if len(builds(context.scene)) > 1:
@@ -210,6 +215,7 @@ class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):
             column.label(text=text)
         for note in state.notes:
             _wrapped(context, self.layout, note, "ERROR")
+        self.layout.operator(LEGORIZE_OT_again.bl_idname, icon="FILE_REFRESH")
         self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
 
 
@@ -231,6 +237,24 @@ class LEGORIZE_PT_stability(_BuildPanel, bpy.types.Panel):
             _wrapped(context, self.layout, LEGEND, "INFO")
 
 
+class LEGORIZE_PT_lots(_BuildPanel, bpy.types.Panel):
+    """The table of parts."""
+
+    bl_label = "Parts List"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw the table and what it is sorted by; a click on a row shows its bricks."""
+        self.layout.enabled = job.running() is None
+        build = current_build(context.scene)
+        if len(build.legorize_lots):
+            self.layout.row().prop(build, "legorize_lot_order", expand=True)
+            self.layout.template_list("LEGORIZE_UL_lots", "", build, "legorize_lots", build, "legorize_lot", rows=8)
+        row = self.layout.row(align=True)
+        row.operator(LEGORIZE_OT_list_parts.bl_idname, icon="FILE_REFRESH")
+        row.operator(LEGORIZE_OT_show_all.bl_idname, icon="HIDE_OFF")
+
+
 class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
     """What can be written."""
 
@@ -240,6 +264,8 @@ class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
         """Draw the buttons that write files."""
         self.layout.operator(LEGORIZE_OT_export_ldr.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_export_mpd.bl_idname, icon="EXPORT")
+        self.layout.operator(LEGORIZE_OT_export_list.bl_idname, icon="EXPORT")
+        self.layout.operator(LEGORIZE_OT_export_folder.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_render_still.bl_idname, icon="RENDER_STILL")
 
 
@@ -287,6 +313,8 @@ def _building_figures(building: Mapping[str, Any] | None) -> tuple[str, ...]:
         if building["removed"]:
             lines.append(f"Price of the supports to take out: {building['support_cost']}")
     lines.append(f"Pieces: {building['pieces']}, building steps: {building['steps']}")
+    if building.get("moves"):
+        lines.append(f"Building time of practised hands: {duration(SECONDS_A_BRICK * building['moves'])}")
     if building.get("by_hand"):
         lines.append(f"Towers to hold by hand: {building['by_hand']}")
     return tuple(lines)
@@ -301,6 +329,7 @@ classes = (
     LEGORIZE_PT_result,
     LEGORIZE_PT_stability,
     LEGORIZE_PT_layers,
+    LEGORIZE_PT_lots,
     LEGORIZE_PT_export,
     LEGORIZE_PT_advanced,
     *_OTHERS,

@@ -2,9 +2,25 @@
 
 from __future__ import annotations
 
-from . import animation, build, build_larger, export, instructions, learning, looks, mosaic, panels, properties
+from . import (
+    animation,
+    build,
+    build_larger,
+    existing,
+    export,
+    instructions,
+    learning,
+    looks,
+    mosaic,
+    panels,
+    parts,
+    properties,
+)
 
-_PARTS = (properties, build, build_larger, export, instructions, animation, learning, looks, panels, mosaic)
+_PARTS = (
+    properties, build, build_larger, export, instructions, animation, learning, looks, parts, existing, panels,
+    mosaic,
+)  # fmt: skip
 
 
 def register() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from .animation import Animation, animate, animation_of
 from .heat_map import LEGEND, has_margins, heat_map_shown, show_heat_map
 from .highlight import can_highlight, highlight_step, highlighted
+from .lots import show_lot, shown_lot
 from .show_result import show_result
 from .steps import check_steps, explode, exploded, n_pieces, n_steps, steps_done
 from .visibility import (
@@ -42,10 +43,12 @@ __all__ = [
     "section_of",
     "show_heat_map",
     "show_layers",
+    "show_lot",
     "show_result",
     "show_role",
     "show_steps",
     "shown_corners",
+    "shown_lot",
     "steps_done",
     "stop_animation",
 ]

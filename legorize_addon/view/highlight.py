@@ -28,6 +28,7 @@ from ..scene import (
     set_input,
     state_of,
 )
+from .lots import show_lot
 
 
 def can_highlight(build: bpy.types.Collection) -> bool:
@@ -59,6 +60,7 @@ def highlight_step(build: bpy.types.Collection, *, visible: bool) -> None:
     check_whole(build)
     if not can_highlight(build) or visible == highlighted(build):
         return
+    show_lot(build, None)
     if visible:
         _switch_on(build)
     else:

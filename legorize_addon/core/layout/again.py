@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import Ints, Mask
 from ..errors import BuildError
 from ..geometry import outer_air, visible
-from ..model import COLOUR_ANY, COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Fill, UnitGrid, contact_graph
+from ..model import COLOUR_ANY, COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Fill, UnitGrid, concatenate, contact_graph
 from ..units import PLATES_PER_BRICK
 
 Lay = Callable[[UnitGrid], Bricks]
@@ -66,15 +66,18 @@ def lay_again(bricks: Bricks, catalogue: Catalogue, lay: Lay) -> Bricks:
         The layout of the fewest bricks among those found and the given one, which
         is the same object if none is better. A layout counts if it is faithful,
         see :func:`faithful`, and comes apart nowhere where the given one does not.
+        Tiles, baseplates and large plates stay as they are.
     """
-    best = bricks
-    for below in phases(bricks, catalogue):
+    fixed = ~catalogue.used_for("model")[bricks.part]
+    free, best = bricks.take(~fixed), bricks
+    for below in phases(free, catalogue) if len(free) else ():
         try:
-            laid = lay(cells_of(bricks, catalogue, below=below))
+            laid = lay(cells_of(free, catalogue, below=below))
         except BuildError:
             # no part of one cell is made in the colour of a cell; in the given model a larger one is, or none
             continue
         laid = replace(laid, corner=(laid.corner - (0, 0, below)).astype(np.int32))
+        laid = concatenate([laid, bricks.take(fixed)])
         if len(laid) < len(best) and as_good(laid, bricks, catalogue):
             best = laid
     return best

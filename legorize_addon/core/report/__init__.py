@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .building_remarks import remarks_on_building, remarks_on_proof, remarks_on_split
+from .outputs import wanted_lists
 from .owned_remarks import remarks_on_owned
 from .price_remarks import remarks_on_prices
 from .remarks import brick_name, layer_of, remarks
@@ -16,4 +17,5 @@ __all__ = [
     "remarks_on_prices",
     "remarks_on_proof",
     "remarks_on_split",
+    "wanted_lists",
 ]

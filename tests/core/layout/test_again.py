@@ -139,3 +139,16 @@ def test_what_falls_apart_is_not_as_good():
     halves = table([(ONE, 0, 0, 0, 0, 4, 0, 0, 0), (ONE, 1, 0, 0, 0, 4, 0, 0, 0)])
     assert as_good(whole, halves, CATALOGUE)
     assert not as_good(halves, whole, CATALOGUE)
+
+
+def test_tiles_and_large_plates_stay():
+    """A row of bricks under tiles becomes one brick; the tiles, which have no studs, and large plates stay."""
+    tile, large = ROW("3070b"), ROW("3031")
+    rows = [(large, 0, 0, 0, 0, 2, 0, 0, 0)]
+    rows += [(ONE, x, 0, 1, 0, 4, 0, 0, 0) for x in range(4)] + [(tile, x, 0, 4, 0, 15, 0, 0, 0) for x in range(4)]
+    given = table(rows)
+    laid = lay_again(given, CATALOGUE, lay_quickly)
+    assert sorted(CATALOGUE.parts[part].number for part in laid.part) == ["3010", "3031", *["3070b"] * 4]
+    assert shown(laid) == shown(given)
+    alone = table(rows[:1])
+    assert lay_again(alone, CATALOGUE, lay_quickly) is alone

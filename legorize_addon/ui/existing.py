@@ -1,0 +1,242 @@
+"""Brick models that exist already: opened from LDraw files, or laid again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
+
+from ..core.errors import BuildError
+from ..core.model import load_catalogue
+from ..core.progress import Progress
+from ..core.units import MM_PER_METRE
+from ..scene import Source, read_bricks, sources_of, state_of
+from ..view import show_result
+from . import job
+from .build import OnBuild, Working
+from .export import chosen_path
+from .instructions import title_of
+from .learned_files import resolved
+from .parts import list_parts_of
+from .properties import current_build
+from .requests import by_uid
+from .settings_properties import settings_of
+
+if TYPE_CHECKING:
+    from ..core.build import Judged
+    from ..core.existing import Existing, StepsFrom
+    from ..core.settings import Settings
+
+STEPS_ITEMS: Final = [
+    ("file", "As in the File", "Keep the building steps of the author, if there are any"),
+    ("new", "New", "Plan new building steps, with temporary supports"),
+]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExistingRequest:
+    """A brick model to judge or to lay again.
+
+    Attributes
+    ----------
+    name : str
+        Of the model.
+    scene : int
+        Session identifier of the scene that gets it.
+    given : Existing
+    settings : Settings
+    samples : str
+        Path of the training file that the settings name.
+    again : bool
+        Whether it is laid again.
+    steps : str
+        Whose building steps count.
+    scale : float
+        Model mm per world mm.
+    origin : tuple of three float
+        Corner of its grid in model mm.
+    mm_per_unit : float
+        World mm per Blender unit.
+    sources : tuple of int
+        Session identifiers of the objects that it was made of.
+    replaces : tuple of int
+        Session identifiers of the builds whose place it takes.
+    """
+
+    name: str
+    scene: int
+    given: Existing
+    settings: Settings
+    samples: str
+    again: bool
+    steps: StepsFrom
+    scale: float
+    origin: tuple[float, float, float]
+    mm_per_unit: float
+    sources: tuple[int, ...] = ()
+    replaces: tuple[int, ...] = ()
+
+    def work(self, progress: Progress) -> Judged:
+        """Run the core; no Blender in here."""
+        from ..core.existing import judge
+
+        settings = replace(self.settings, learned_from=self.samples)
+        made = judge(self.given, settings, again=self.again, steps=self.steps, scale=self.scale, progress=progress)
+        return replace(made, settings=self.settings, corner=np.array(self.origin))
+
+
+class Judging(Working):
+    """What comes of a brick model is shown as a build."""
+
+    def _show(self, context: bpy.types.Context, order: ExistingRequest, made: Judged) -> set[str]:
+        [scene] = by_uid(bpy.data.scenes, [order.scene]) or [None]
+        if scene is None:
+            raise BuildError("The scene was deleted meanwhile: open another one and start again.")
+        source = Source(order.name, by_uid(bpy.data.objects, order.sources), notes=made.notes)
+        shown = show_result(
+            scene,
+            made,
+            source,
+            mm_per_unit=order.mm_per_unit,
+            detail=scene.legorize.detail,
+            replaces=by_uid(bpy.data.collections, order.replaces),
+        )
+        list_parts_of(shown, made)
+        scene.legorize.build = shown
+        self.report({"INFO"}, f"Model of {len(made.bricks)} bricks.")
+        for note in made.notes:
+            self.report({"WARNING"}, note)
+        return {"FINISHED"}
+
+
+class LEGORIZE_OT_open_ldraw(Judging, bpy.types.Operator):
+    """Open an LDraw file as a brick model."""
+
+    bl_idname = "legorize.open_ldraw"
+    bl_label = "Open LDraw Model"
+    bl_description = (
+        "Read a brick model of any program (.ldr, .mpd) and judge it as one of our own: stability, building steps, "
+        "lists of parts, booklet"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+    _timer = None
+    _browsed = False
+
+    filepath: StringProperty(subtype="FILE_PATH")
+    filter_glob: StringProperty(default="*.ldr;*.mpd", options={"HIDDEN"})
+    chosen: BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
+    again: BoolProperty(
+        name="Lay Again", description="Lay the same cells and colours again, in fewer bricks", default=False
+    )
+    steps: EnumProperty(name="Steps", description="Whose building steps count", items=STEPS_ITEMS)
+    magnified: FloatProperty(
+        name="Size", description="How many times larger than the real bricks the model is in the scene", default=10.0,
+        min=0.01, max=1000.0,
+    )  # fmt: skip
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether nothing else is at work."""
+        if job.running():
+            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+        elif context.mode != "OBJECT":
+            cls.poll_message_set("Leave Edit Mode first.")
+        else:
+            return True
+        return False
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Ask for the file; start the work once there is one."""
+        if self.chosen:
+            return Working.invoke(self, context, event)
+        self._browsed = True
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Work straight through; after the file browser, which ends this operator, in another one with progress."""
+        if bpy.app.background or not self._browsed:
+            return Working.execute(self, context)
+        options = {name: getattr(self, name) for name in ("filepath", "again", "steps", "magnified")}
+        return bpy.ops.legorize.open_ldraw("INVOKE_DEFAULT", chosen=True, **options)
+
+    def _take_order(self, context: bpy.types.Context) -> ExistingRequest:
+        from ..core.existing import Existing
+        from ..core.files import named
+        from ..core.ldraw import SUFFIXES, read_file
+
+        path = Path(named(str(chosen_path(self)), "file", BuildError))
+        if path.suffix.lower() not in SUFFIXES:
+            raise BuildError(f"{path.name} is no LDraw file: choose one that ends in {' or '.join(SUFFIXES)}.")
+        found = read_file(path, load_catalogue())
+        settings = settings_of(context.scene.legorize.settings)
+        return ExistingRequest(
+            name=path.stem,
+            scene=context.scene.session_uid,
+            given=Existing(found.bricks, found.has_steps, found.remarks),
+            settings=settings,
+            samples=resolved(settings.learned_from),
+            again=self.again,
+            steps=self.steps,
+            scale=1 / self.magnified,
+            origin=(0.0, 0.0, 0.0),
+            mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
+        )
+
+
+class LEGORIZE_OT_again(OnBuild, Judging, bpy.types.Operator):
+    """Lay the bricks of the build that the panel shows again."""
+
+    bl_idname = "legorize.again"
+    bl_label = "Legorize Again"
+    bl_description = (
+        "Lay the same cells again, in fewer bricks that show the same colours; without a better layout the model stays "
+        "as it is"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+    _timer = None
+
+    def _take_order(self, context: bpy.types.Context) -> ExistingRequest:
+        from ..core.existing import Existing
+
+        build = current_build(context.scene)
+        state, settings = state_of(build), settings_of(context.scene.legorize.settings)
+        mm_per_unit = context.scene.unit_settings.scale_length * MM_PER_METRE
+        return ExistingRequest(
+            name=title_of(build),
+            scene=context.scene.session_uid,
+            given=Existing(read_bricks(build)),
+            settings=settings,
+            samples=resolved(settings.learned_from),
+            again=True,
+            steps="new",
+            scale=1 / (state.unit_per_mm * mm_per_unit),
+            origin=state.origin,
+            mm_per_unit=mm_per_unit,
+            sources=tuple(source.session_uid for source in sources_of(build)),
+            replaces=(build.session_uid,),
+        )
+
+
+def _draw_import(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    self.layout.operator(LEGORIZE_OT_open_ldraw.bl_idname, text="LDraw Model (.ldr, .mpd)")
+
+
+classes = (LEGORIZE_OT_open_ldraw, LEGORIZE_OT_again)
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
+
+
+def register() -> None:
+    """Register the operators and their entry in File > Import."""
+    _register_classes()
+    bpy.types.TOPBAR_MT_file_import.append(_draw_import)
+
+
+def unregister() -> None:
+    """Undo :func:`register`."""
+    bpy.types.TOPBAR_MT_file_import.remove(_draw_import)
+    _unregister_classes()
