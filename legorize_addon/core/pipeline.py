@@ -104,11 +104,11 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     with run.stage("ties"):
         bricks, shell = add_ties(bricks, shell, run.parts.joining, plates=plates)
     with run.stage("strengthening"):
-        bricks, shell, forces = strengthen_joints(run, bricks, shell)
+        bricks, shell, held = strengthen_joints(run, bricks, shell)
         bricks = recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue)
     with run.stage("stability"):
         assembly = carry(run, Assembly(bricks, run.catalogue))
-        found = check_stability(run, assembly, forces if len(assembly) == len(bricks) else None)
+        found = check_stability(run, assembly, held)
     with run.stage("bracing"):
         assembly, found = brace(run, assembly, found)
     with run.stage("pieces"):

@@ -25,7 +25,7 @@ from .progress import Overall
 from .settings import Settings
 from .shell import hollow
 from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_layers, levels_of, slice_mesh
-from .statics import Effort, Stability, stability
+from .statics import PROGRAMME, Effort, Stability, stability
 from .supports import AssemblyPlan, Wish, add_bracing, add_pillars, parts_of_supports, plan_assembly, strengthen
 from .texturing import reduce_images, remarks_on_unseen, seen_part
 from .unit_bricks import (
@@ -260,8 +260,8 @@ def _parts_of_supports(run: Run, bricks: Bricks) -> float:
     return parts_of_supports(Assembly(bricks, run.catalogue), deepest=run.settings.hanging)
 
 
-def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid, Floats | None]:
-    """Tie what is weak; return the forces of the proof as well, if there is one."""
+def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid, Stability | None]:
+    """Tie what is weak; say how it stands as well, if it does."""
     return strengthen(
         bricks,
         shell,
@@ -277,12 +277,13 @@ def carry(run: Run, assembly: Assembly) -> Assembly:
     return assembly if run.settings.supports == "none" else add_pillars(assembly)
 
 
-def check_stability(run: Run, assembly: Assembly, forces: Floats | None) -> Stability:
-    """Test the bricks by force, from forces that may be a proof already.
+def check_stability(run: Run, assembly: Assembly, near: Stability | None) -> Stability:
+    """Test the bricks by force, from what is known of nearly the same ones.
 
     Where there may be pillars, it is not asked yet whether neighbours hold what studs do not.
     """
-    effort = Effort(start=forces, neighbours=run.settings.supports == "none")
+    alone = run.settings.supports == "none"
+    effort = Effort(near=near, programme=PROGRAMME if alone else 0, neighbours=alone)
     return stability(assembly, clutch=run.settings.clutch, effort=effort, progress=run.progress)
 
 

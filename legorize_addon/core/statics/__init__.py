@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from .equilibrium import AIMS, SPARE, Aim
+from .equilibrium import AIMS, SOON, SPARE, Aim
 from .forces import GRAVITY, HOLD, Statics
-from .search import LOCAL
-from .stability import Effort, Stability, stability, torn_by
+from .stability import PROGRAMME, Effort, Stability, stability, torn_by
 
 __all__ = [
     "AIMS",
     "GRAVITY",
     "HOLD",
-    "LOCAL",
+    "PROGRAMME",
+    "SOON",
     "SPARE",
     "Aim",
     "Effort",

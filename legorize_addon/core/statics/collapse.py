@@ -14,10 +14,14 @@ from typing import Final
 
 import numpy as np
 from scipy.optimize import linprog
-from scipy.sparse import csc_array, eye_array, hstack
+from scipy.sparse import csc_array, csr_array, eye_array, hstack
 
 from ..arrays import Floats, Ints
-from .forces import EQUATIONS, Statics
+from ..model import NOBODY
+from .forces import Statics
+
+TOLERANCE: Final = 1e-6
+"""N. Distance of a linear programme from the bounds, against its own tolerance of 1e-7."""
 
 GREATEST_FORCE: Final = 1000.0
 """N. A proof rules out all forces up to this one, which no brick would survive; rounding allows for no more."""
@@ -51,55 +55,77 @@ class CollapseProgram:
 
     Attributes
     ----------
+    across : (m,) int64 array
+        Forces between lumps, or on them from the ground.
     forces : (k,) float64 array
-        Forces in N that leave the least out of balance; 0 where no body of the
-        programme takes part.
+        Those of them in N that leave the least out of balance; 0 of all others.
     motion : (6 n,) float64 array
         Dual of the balance of each body: a collapse where balance is impossible.
+    imbalance : float
+        Sum of what is out of balance, in N.
     """
 
+    across: Ints
     forces: Floats
     motion: Floats
+    imbalance: float
 
 
-def least_imbalance(statics: Statics, bodies: Ints, *, reserve: float = 0.0) -> CollapseProgram | None:
-    """Minimise what is out of balance on some of the bodies, by HiGHS.
+def least_imbalance(statics: Statics, lump: Ints, *, reserve: float = 0.0) -> CollapseProgram | None:
+    """Minimise what is out of balance on lumps of bodies, each as stiff as one body, by HiGHS.
 
-    The others may exert any force that the contacts bear: what proves that the
-    chosen ones fall proves that the model falls.
+    Lumps can move in fewer ways than their bodies, but a motion of them is one of
+    the bodies: what proves that the lumps fall proves that the model falls.
 
     Parameters
     ----------
     statics : Statics
         The equations.
-    bodies : (m,) int64 array
-        Bodies to balance.
+    lump : (n,) int64 array
+        Number of the lump that each body belongs to, without gaps from 0.
     reserve : float
-        How far in N to stay away from the least of each force.
+        Share of the least of each force, of which the sign is less than 0, to stay away from it.
 
     Returns
     -------
     CollapseProgram or None
         Forces and motion, or ``None`` if HiGHS gave up.
     """
-    rows = (bodies[:, None] * EQUATIONS + np.arange(EQUATIONS)).reshape(-1)
-    matrix = statics.matrix.tocsr()[rows].tocsc()
-    taking_part = np.flatnonzero(np.diff(matrix.indptr))
-    slack = eye_array(len(rows), format="csc")
-    least = np.concatenate([statics.contacts.least[taking_part] + reserve, np.zeros(2 * len(rows))])
+    contacts = statics.contacts
+    across = np.flatnonzero((contacts.by == NOBODY) | (lump[contacts.on] != lump[contacts.by]))
+    together = _lumped(statics, lump)
+    matrix = csc_array(together @ statics.matrix[:, across])
+    slack = eye_array(matrix.shape[0], format="csc")
+    least = np.concatenate([contacts.least[across] * (1 - reserve) + TOLERANCE, np.zeros(2 * matrix.shape[0])])
     solved = linprog(
-        np.repeat([0.0, 1.0], [len(taking_part), 2 * len(rows)]),
-        A_eq=hstack([matrix[:, taking_part], slack, -slack], format="csc"),
-        b_eq=-statics.loads[rows],
+        np.repeat([0.0, 1.0], [len(across), 2 * matrix.shape[0]]),
+        A_eq=hstack([matrix, slack, -slack], format="csc"),
+        b_eq=-(together @ statics.loads),
         bounds=np.column_stack([least, np.full(len(least), np.inf)]),
-        method="highs",
+        method="highs-ds",
+        # takes longer here than it saves
+        options={"presolve": False},
     )
     if solved.status != 0:
         return None
-    forces, motion = np.zeros(len(statics.contacts.least)), np.zeros(len(statics.loads))
-    forces[taking_part] = solved.x[: len(taking_part)]
-    motion[rows] = -solved.eqlin.marginals
-    return CollapseProgram(forces, motion)
+    forces = np.zeros(len(contacts.least))
+    forces[across] = solved.x[: len(across)]
+    return CollapseProgram(across, forces, -(together.T @ solved.eqlin.marginals), float(solved.fun))
+
+
+def _lumped(statics: Statics, lump: Ints) -> csr_array:
+    """Return what adds up the sums of bodies to those of lumps, each about the middle of its bodies."""
+    n, size = len(lump), len(statics.loads) // max(len(lump), 1)
+    members = np.bincount(lump)
+    centre = np.stack([np.bincount(lump, of) / members for of in statics.middle.T], axis=1)
+    x, y, z = (statics.middle - centre[lump]).T
+    # torque of which force about which axis, as in the equations of a body
+    levers = {3: ((1, 0, y), (2, 0, -x)), 6: ((3, 2, y), (3, 1, -z), (4, 0, z), (4, 2, -x), (5, 1, x), (5, 0, -y))}
+    entries = [*((row, row, np.ones(n)) for row in range(size)), *levers[size]]
+    rows = np.concatenate([lump * size + row for row, _, _ in entries])
+    columns = np.concatenate([np.arange(n) * size + column for _, column, _ in entries])
+    shape = len(members) * size, n * size
+    return csr_array((np.concatenate([values for *_, values in entries]), (rows, columns)), shape=shape)
 
 
 def least_clutch(statics: Statics) -> float:

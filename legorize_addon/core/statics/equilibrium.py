@@ -82,6 +82,10 @@ AIMS: Final = (Aim(0.5, 0.3, 12), Aim(0.25, SPARE, 40), Aim(0.01, 0.0, 300))
 """A margin that is easily reached, the one that a model should have, and then any balance."""
 
 
+SOON: Final = (Aim(0.5, 0.3, 12), Aim(0.25, 0.0, 20), Aim(0.01, 0.0, 0))
+"""The same where any balance will do, and what is weak is told soon instead."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Balance:
     """What the search came to.
@@ -153,7 +157,12 @@ def _weights(statics: Statics) -> Floats:
 
 
 def balance(
-    statics: Statics, *, aims: tuple[Aim, ...] = AIMS, start: Floats | None = None, progress: Progress = silent
+    statics: Statics,
+    *,
+    aims: tuple[Aim, ...] = AIMS,
+    start: Floats | None = None,
+    plane: Plane | None = None,
+    progress: Progress = silent,
 ) -> Balance:
     """Search for forces in balance that every contact bears.
 
@@ -166,6 +175,8 @@ def balance(
     start : (k,) float64 array, optional
         Forces in N to start from, such as those of a model that is nearly the
         same; without them the lightest that are in balance.
+    plane : Plane, optional
+        Of the same equations, if it was made before.
     progress : Progress
         Told how far the search is; may cancel it.
 
@@ -175,8 +186,9 @@ def balance(
         The forces, or the motion by which the model collapses, or neither.
     """
     progress("stability", 0.0)
-    plane, progress = Plane(statics, part(progress, 0.0, FACTORS)), part(progress, FACTORS, 1.0)
-    progress("stability", 0.0)
+    if plane is None:
+        plane, progress = Plane(statics, part(progress, 0.0, FACTORS)), part(progress, FACTORS, 1.0)
+        progress("stability", 0.0)
     near = plane.project(np.zeros(len(plane.weight)) if start is None else start / plane.weight)
     forces = near
     motion, turns, most = np.zeros(len(statics.loads)), 0, sum(aim.turns for aim in aims)

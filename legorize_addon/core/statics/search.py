@@ -1,4 +1,13 @@
-"""The search for a proof in one balance: the cheapest ways first, each confirmed before it counts."""
+"""The search for a proof in one balance: the cheapest ways first, each confirmed before it counts.
+
+Projections come near to a balance in few turns, and to an exact one only where
+there is room for it. What they leave open is decided by linear programmes of few
+bodies: those at contacts that fail, and the rest of the model in lumps, which
+turn and move as one body each. A motion of the lumps by which they collapse is one
+by which the model does. Forces that balance the lumps are a better start for the
+projections; where some still fail inside a lump, its bodies there are let loose,
+too: the cutting plane method (Kelley 1960) with motions for cuts.
+"""
 
 from __future__ import annotations
 
@@ -6,27 +15,42 @@ from dataclasses import replace
 from typing import Final, Literal
 
 import numpy as np
+from scipy.sparse import csr_array
 
-from ..arrays import Floats, Ints
-from ..model import NOBODY, ContactGraph
+from ..arrays import Floats, Ints, Mask
+from ..model import NOBODY, ContactGraph, components
 from ..progress import Progress, silent
-from .collapse import is_collapse, least_imbalance
+from .collapse import CollapseProgram, is_collapse, least_imbalance
 from .equilibrium import Aim, Balance, Plane, balance, is_equilibrium
-from .forces import EQUATIONS, Statics
+from .forces import Statics
 from .tipping import toppling
 from .upright import Upright, upright
 
-LOCAL: Final = 200
-"""Bricks that move most, which a linear programme takes in a fifth of a second; a collapse is mostly among them."""
+WORST: Final = 30
+"""Bodies at the contacts that fail most, which are let loose in each round, and those that touch them."""
 
-FADING: Final = 0.9
-STEPS: Final = 30
-"""What is left from body to body of what is missing at contacts, and how far it is followed."""
+LOOSE: Final = 250
+"""Bodies that are let loose at most: a linear programme of so many takes some seconds."""
+
+ROUNDS: Final = 8
+"""Linear programmes that are tried."""
+
+UPRIGHT_ROUNDS: Final = 3
+"""The same among upright forces, where others may be easier to find."""
+
+RESERVE: Final = 0.05
+"""Share of the clutch that those leave unused where it can be, so that projections have room to end in."""
+
+POLISH: Final = (Aim(0.03, 0.0, 12),)
+"""What projections aim at from there."""
+
+STILL: Final = 1e-6
+"""Share of the widest gap of a motion up to which a contact does not open."""
+
+ROUNDING: Final = 1e-6
+"""Imbalance in N, summed over all lumps, that is none."""
 
 Kind = Literal["both", "upright", "all"]
-
-RESERVE: Final = 1e-6
-"""How far in N the linear programme stays away from the bounds, against its own tolerance of 1e-7."""
 
 
 def search(
@@ -52,9 +76,8 @@ def search(
     start : (k,) float64 array, optional
         Forces in N to start from; if they are a balance, they are the answer.
     programme : int
-        Bricks that a linear programme takes at most, where projections leave it
-        open: of a larger model those that would move most, with which it can
-        prove no more than a collapse.
+        Bricks up to which a linear programme of all decides in the end; 0 if
+        what is left open then is not worth more projections.
     kind : str
         Whether to look among ``"upright"`` forces, among ``"all"``, or among
         ``"both"``, one after the other.
@@ -69,85 +92,153 @@ def search(
     if start is not None and is_equilibrium(equations, start):
         return Balance(start, True, np.zeros(len(equations.loads)), False, 0)
     motion = toppling(equations, graph)
+    reduced = upright(equations) if kind != "all" else None
     if is_collapse(equations, motion):
         # a model that tips over as a whole is the slowest to find by search, and the quickest to write down
-        return replace(balance(equations, aims=(), progress=progress), motion=motion, collapse=True, found=False)
-    if kind != "all" and (reduced := upright(equations)) is not None:
-        near = _straight(equations, reduced, aims, start, progress)
-        if programme and not near.found:
-            near = _near_collapse(equations, near, min(LOCAL, programme))
-        if near.found or near.collapse or kind == "upright":
+        return replace(_lightest(equations, reduced, progress), motion=motion, collapse=True, found=False)
+    near = stiff = None
+    if reduced is not None:
+        near, stiff = _straight(equations, reduced, aims, start, progress)
+        if near.found or kind == "upright":
             return near
-    found = balance(equations, aims=aims, start=start, progress=progress)
-    if programme and not found.found and not found.collapse:
-        progress("stability", 1.0)
-        found = _programmed(equations, found, programme)
+        start = near.forces
+    if near is None or stiff is None:
+        found = _projected(equations, aims, start, ROUNDS, progress)
+    else:
+        found = _torn(equations, near, stiff, progress)
+    if programme and not (found.found or found.collapse):
+        found = balance(equations, aims=aims, progress=progress)
+        if not (found.found or found.collapse) and len(equations.rows) <= programme:
+            progress("stability", 1.0)
+            found = _programmed(equations, found)
     return found
+
+
+def _lightest(equations: Statics, reduced: Upright | None, progress: Progress) -> Balance:
+    """Return the lightest forces in balance, of the upright ones if there may be any."""
+    found = balance(equations if reduced is None else reduced.statics, aims=(), progress=progress)
+    return found if reduced is None else replace(found, forces=reduced.raised(found.forces))
 
 
 def _straight(
     equations: Statics, reduced: Upright, aims: tuple[Aim, ...], start: Floats | None, progress: Progress
-) -> Balance:
-    """Look for upright forces that leave a margin; without them, return the motion that they stop least."""
+) -> tuple[Balance, Ints | None]:
+    """Look for upright forces; if there are none, return the lumps of a motion that they do not stop, too."""
     near = None if start is None else reduced.lowered(start)
-    found = balance(reduced.statics, aims=aims[:-1] or aims, start=near, progress=progress)
-    forces = reduced.raised(found.forces)
-    # a collapse under upright forces is none yet
+    found = _projected(reduced.statics, aims, near, UPRIGHT_ROUNDS, progress)
+    forces, motion = reduced.raised(found.forces), reduced.spread(found.motion)
     enough = found.found and is_equilibrium(equations, forces)
-    return Balance(forces, enough, reduced.spread(found.motion), False, found.turns, upright=True)
+    stiff = _stiff(reduced.statics, found.motion) if found.collapse else None
+    # a collapse under upright forces is none yet
+    return Balance(forces, enough, motion, False, found.turns, upright=True), stiff
 
 
-def _near_collapse(equations: Statics, found: Balance, few: int) -> Balance:
-    """Ask linear programmes of few bodies that may collapse: they move, or move near to contacts that fail."""
-    moved = _moved(equations, found)
-    # neither finds all that the other does
-    for rank in (moved * _near_to_failing(equations, found), moved):
-        solved = least_imbalance(equations, _first(rank, few), reserve=RESERVE)
-        if solved is not None and is_collapse(equations, solved.motion):
-            return Balance(found.forces, False, solved.motion, True, found.turns)
+def _torn(equations: Statics, near: Balance, stiff: Ints, progress: Progress) -> Balance:
+    """Look for any forces where upright ones do not stop a motion: first between the lumps that it tears apart."""
+    solved = least_imbalance(equations, stiff, reserve=RESERVE)
+    if solved is not None and is_collapse(equations, solved.motion):
+        return replace(near, motion=solved.motion, collapse=True, upright=False)
+    return _decided(equations, replace(near, upright=False), None, ROUNDS, progress)
+
+
+def _projected(
+    equations: Statics, aims: tuple[Aim, ...], start: Floats | None, rounds: int, progress: Progress
+) -> Balance:
+    """Search by projections, but not for long, and decide what they leave open."""
+    plane = Plane(equations, progress)
+    found = balance(equations, aims=aims[:-1] or aims, start=start, plane=plane, progress=progress)
+    return _decided(equations, found, plane, rounds, progress)
+
+
+def _decided(equations: Statics, found: Balance, plane: Plane | None, rounds: int, progress: Progress) -> Balance:
+    """Decide what projections left open by linear programmes, and more projections from their forces."""
+    near, loose = _touching(equations), np.zeros(len(equations.rows), dtype=bool)
+    for turn in range(rounds):
+        if found.found or found.collapse:
+            break
+        progress("stability", turn / rounds)
+        more = loose | _grown(near, _worst(equations, found.forces))
+        loose = more if (more != loose).any() else _grown(near, loose)
+        solved = None if np.count_nonzero(loose) > LOOSE else _balanced(equations, _lumps(near, loose))
+        if solved is None:
+            break
+        if solved.motion.any():
+            return replace(found, motion=solved.motion, collapse=True)
+        plane, turns = plane or Plane(equations, progress), found.turns
+        forces = found.forces.copy()
+        forces[solved.across] = solved.forces[solved.across]
+        found = balance(equations, aims=POLISH, start=forces, plane=plane, progress=progress)
+        found = replace(found, turns=found.turns + turns)
     return found
 
 
-def _programmed(equations: Statics, found: Balance, most: int) -> Balance:
-    """Ask a linear programme of the bodies that would move most, or of all."""
-    bodies = _first(_moved(equations, found), most)
-    solved = least_imbalance(equations, bodies, reserve=RESERVE)
+def _balanced(equations: Statics, lump: Ints) -> CollapseProgram | None:
+    """Return forces that balance lumps, or a motion by which they collapse; None if that is too near to tell."""
+    for reserve in (RESERVE, 0.0):
+        solved = least_imbalance(equations, lump, reserve=reserve)
+        if solved is None or solved.imbalance < ROUNDING:
+            return solved and replace(solved, motion=np.zeros_like(solved.motion))
+        if is_collapse(equations, solved.motion):
+            return solved
+    return None
+
+
+def _programmed(equations: Statics, found: Balance) -> Balance:
+    """Ask a linear programme of all bodies."""
+    solved = least_imbalance(equations, np.arange(len(equations.rows)))
     if solved is None:
         return found
     if is_collapse(equations, solved.motion):
-        return Balance(found.forces, False, solved.motion, True, found.turns)
-    return _balanced(equations, solved.forces, found) if len(bodies) == len(equations.rows) else found
-
-
-def _moved(equations: Statics, found: Balance) -> Floats:
-    """Return how fast each body moves, (n,)."""
-    moved: Floats = np.abs(found.motion).reshape(len(equations.rows), EQUATIONS).max(axis=1)
-    return moved
-
-
-def _first(rank: Floats, number: int) -> Ints:
-    return np.sort(np.argsort(-rank, kind="stable")[:number])
-
-
-def _near_to_failing(equations: Statics, found: Balance) -> Floats:
-    """Return how much is missing at the contacts of each body, or how much of that reaches it from others, (n,)."""
-    contacts, n = equations.contacts, len(equations.rows)
-    inner = contacts.by != NOBODY
-    failing = np.maximum(contacts.least - found.forces, 0)
-    near = np.bincount(contacts.on, failing, n) + np.bincount(contacts.by[inner], failing[inner], n)
-    one, other = np.unique(np.stack([contacts.on, contacts.by])[:, inner], axis=1)
-    for _ in range(STEPS):
-        further = near.copy()
-        np.maximum.at(further, one, FADING * near[other])
-        np.maximum.at(further, other, FADING * near[one])
-        near = further
-    return near
-
-
-def _balanced(equations: Statics, forces: Floats, found: Balance) -> Balance:
-    """Return forces of a linear programme as a balance, if rounding leaves them one."""
+        return replace(found, motion=solved.motion, collapse=True)
     plane = Plane(equations)
-    forces = plane.project(forces / plane.weight) * plane.weight
+    forces = plane.project(solved.forces / plane.weight) * plane.weight
     if not is_equilibrium(equations, forces):
         return found
     return Balance(forces, True, np.zeros_like(found.motion), False, found.turns)
+
+
+def _worst(equations: Statics, forces: Floats) -> Mask:
+    """Return the bodies at the contacts that fail most, (n,)."""
+    contacts, n = equations.contacts, len(equations.rows)
+    missing = np.maximum(contacts.least - forces, 0)
+    worst = np.zeros(n + 1)
+    for bodies in (contacts.on, contacts.by):
+        np.maximum.at(worst, bodies, missing)
+    order = np.argsort(-worst[:n], kind="stable")[:WORST]
+    chosen = np.zeros(n, dtype=bool)
+    chosen[order] = worst[order] > 0
+    return chosen
+
+
+def _touching(equations: Statics) -> csr_array:
+    """Return which bodies have a contact with which, (n, n)."""
+    contacts, n = equations.contacts, len(equations.rows)
+    inner = contacts.by != NOBODY
+    one, other = np.divmod(np.unique(contacts.on[inner] * n + contacts.by[inner]), n)
+    entries = np.ones(2 * len(one), dtype=np.int32)
+    return csr_array((entries, (np.append(one, other), np.append(other, one))), shape=(n, n))
+
+
+def _grown(near: csr_array, bodies: Mask) -> Mask:
+    """Add the bodies that touch some."""
+    grown: Mask = bodies | (near @ bodies.astype(np.int32) > 0)
+    return grown
+
+
+def _lumps(near: csr_array, loose: Mask) -> Ints:
+    """Return a lump of its own for each loose body, and one for each part of the rest that hangs together, (n,)."""
+    pairs = near.tocoo()
+    kept = ~(loose[pairs.row] | loose[pairs.col])
+    return components(np.column_stack([pairs.row, pairs.col])[kept], len(loose)).astype(np.int64)
+
+
+def _stiff(equations: Statics, motion: Floats) -> Ints:
+    """Return lumps of the bodies that do not move against each other, (n,)."""
+    contacts, n = equations.contacts, len(equations.rows)
+    inner = contacts.by != NOBODY
+    opening = np.abs(equations.matrix.T @ motion)
+    pairs, at = np.unique(contacts.on[inner] * n + contacts.by[inner], return_inverse=True)
+    moving = np.zeros(len(pairs))
+    np.maximum.at(moving, at, opening[inner])
+    kept = moving <= STILL * opening.max(initial=0)
+    return components(np.stack(np.divmod(pairs[kept], n), axis=1), n).astype(np.int64)

@@ -27,6 +27,7 @@ from .equilibrium import AIMS, Aim, Balance, is_equilibrium, residual
 from .forces import EQUATIONS, HOLD, Ground, Statics, statics
 from .search import search
 from .tipping import tipping
+from .transfer import transferred
 
 PROGRAMME: Final = 300
 """Bricks that a linear programme takes in a second; where projections leave it open, it decides smaller models."""
@@ -154,13 +155,12 @@ class Effort:
     ----------
     aims : tuple of Aim
         What forces to search for, and for how long.
-    start : (k,) float64 array or None
-        Forces in N at studs and on the ground to start the search from, in the
-        order of ``statics`` without pushes of neighbours.
+    near : Stability or None
+        How a model stands that is the same or nearly so: the search starts from
+        its forces.
     programme : int
-        Bricks up to which a linear programme decides what projections do not.
-        Of larger models it takes those that would move most, and can prove no
-        more than their collapse.
+        Bricks up to which a linear programme of all decides in the end; 0 if
+        what is not decided soon may be left undecided.
     neighbours : bool
         Whether to see if pushes of neighbours help where studs do not bear the
         model; else it collapses or is undecided without them.
@@ -169,7 +169,7 @@ class Effort:
     """
 
     aims: tuple[Aim, ...] = AIMS
-    start: Floats | None = None
+    near: Stability | None = None
     programme: int = PROGRAMME
     neighbours: bool = True
     leaning: bool = True
@@ -215,7 +215,9 @@ def stability(
     among = partial(statics, assembly, clutch=clutch, ground=ground, loads=loads)
     look = partial(search, graph=assembly.graph, aims=effort.aims, programme=effort.programme, progress=progress)
     equations = alone = among()
-    found = weak = look(equations, start=effort.start, kind="both" if effort.leaning else "upright")
+    near = effort.near
+    start = None if near is None else transferred(near.statics, near.forces, equations)
+    found = weak = look(equations, start=start, kind="both" if effort.leaning else "upright")
     verdict = _verdict(equations, found)
     if effort.neighbours and verdict is not Verdict.STABLE:
         equations = among(neighbours=True)

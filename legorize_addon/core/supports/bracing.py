@@ -26,7 +26,7 @@ from ..model import (
     stud_columns,
 )
 from ..progress import Progress, silent
-from ..statics import AIMS, LOCAL, SPARE, Effort, Stability, Statics, stability, torn_by
+from ..statics import SOON, SPARE, Effort, Stability, Statics, stability, torn_by
 from .pillars import Places, kept_pillars, places_below
 
 ROUNDS: Final = 8
@@ -51,9 +51,6 @@ SPARING: Final = 8
 SPARED: Final = 6_000
 """Times that pillars are left out again to see if the model stands without them; and bricks
 tested in all of these up to which one pillar is tried after the other: small models take it."""
-
-PATIENCE: Final = 60
-"""Projections more than with all pillars to look for a proof without some of them."""
 
 STEADY: Final = 1.0
 """Studs that the weight of what tips over shall come to lie inside of its feet."""
@@ -96,7 +93,7 @@ def add_bracing(
     if found.stable and found.margin.min(initial=1.0) >= spare:
         return assembly, found
     judged = partial(stability, clutch=clutch, progress=progress)
-    tested = partial(_tested, assembly, progress=progress)
+    tested = partial(_tested, assembly, near=found, progress=progress)
     pillars: list[Bricks] = []
     aimed = (1 - spare) * clutch
     propped = _with_more(partial(tested, clutch=aimed), pillars)
@@ -107,7 +104,7 @@ def add_bracing(
         if not propped[1].stable:
             return assembly, judged(assembly)
     more, proof = _with_fewer(propped, pillars, partial(tested, clutch=aimed)) if pillars else propped
-    return more, judged(more, effort=Effort(start=proof.forces))
+    return more, judged(more, effort=Effort(near=proof))
 
 
 def _with_more(tested: Callable[..., Propped], pillars: list[Bricks]) -> Propped:
@@ -120,7 +117,7 @@ def _with_more(tested: Callable[..., Propped], pillars: list[Bricks]) -> Propped
         if not len(places):
             break
         pillars += kept_pillars(propped[0], places)
-        propped = tested(pillars)
+        propped = tested(pillars, near=propped[1])
     return propped
 
 
@@ -134,13 +131,12 @@ def _tested(
 ) -> Propped:
     """Return bricks with pillars behind them, and how they stand by their studs alone."""
     more = assembly.with_more(pillars)
-    chosen = Effort(**{"programme": LOCAL, "neighbours": False, **effort})
+    chosen = Effort(**{"aims": SOON, "programme": 0, "neighbours": False, **effort})
     return more, stability(more, clutch=clutch, effort=chosen, progress=progress)
 
 
 def _with_fewer(propped: Propped, pillars: Sequence[Bricks], tested: Callable[..., Propped]) -> Propped:
     """Leave out what bears least: half of the pillars, and ever fewer of them where the model would not stand."""
-    aims = (AIMS[-1]._replace(turns=PATIENCE + propped[1].iterations),)
     n_bricks = len(propped[0])
     share, needed = len(pillars) // 2, np.zeros(len(pillars), dtype=bool)
     for number in range(min(max(SPARING, SPARED // n_bricks), WORK // n_bricks)):
@@ -153,8 +149,7 @@ def _with_fewer(propped: Propped, pillars: Sequence[Bricks], tested: Callable[..
         left[order[:share]] = False
         fewer = [each for each, stays in zip(pillars, left, strict=False) if stays]
         # with the pillars left out, the forces of the proof are nearly in balance
-        near = propped[1].forces[left[pillar].all(axis=0)]
-        without = tested(fewer, aims=aims, start=near, programme=0, leaning=not propped[1].upright)
+        without = tested(fewer, near=propped[1], leaning=not propped[1].upright)
         if without[1].stable:
             propped, pillars, needed = without, fewer, needed[left[:-1]]
             share = min(share, len(fewer) // 2)

@@ -17,14 +17,11 @@ from ..arrays import Floats, Ints
 from ..layout.joining import tie_across
 from ..model import NOBODY, Assembly, Bricks, Catalogue, ContactGraph, UnitGrid, Verdict, components
 from ..progress import Progress, part, silent
-from ..statics import AIMS, LOCAL, Aim, Effort, Stability, stability
+from ..statics import SOON, Effort, Stability, stability
 from ..units import PLATE, STUD
 
 ROUNDS: Final = 12
 """Times that ties are laid before the rest is left to pillars."""
-
-SOON: Final = (Aim(0.25, 0.0, 20), Aim(0.01, 0.0, 150))
-"""What is searched for once ties were laid: any balance, and soon what is weak instead."""
 
 WORK: Final = 60_000
 """Bricks tested in all these rounds together: a large model takes fewer of them."""
@@ -32,7 +29,7 @@ WORK: Final = 60_000
 
 def strengthen(
     bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, *, clutch: float, plates: bool, progress: Progress = silent
-) -> tuple[Bricks, UnitGrid, Floats | None]:
+) -> tuple[Bricks, UnitGrid, Stability | None]:
     """Lay ties where studs alone would not bear the model.
 
     Parameters
@@ -55,24 +52,24 @@ def strengthen(
         With the ties; the same object if none was laid.
     grid : UnitGrid
         With the cells that were added.
-    forces : (k,) float64 array or None
-        Forces at studs and on the ground that prove that the bricks stand, if they do.
+    found : Stability or None
+        How the bricks stand, if they do.
     """
-    aims: tuple[Aim, ...] = AIMS
+    found: Stability | None = None
     rounds = max(min(ROUNDS, WORK // max(len(bricks), 1)), 1)
     for number in range(rounds + 1):
         model = Assembly(bricks, catalogue)
         watched = _as_strength(part(progress, number / (rounds + 1), (number + 1) / (rounds + 1)))
-        effort = Effort(aims=aims, programme=LOCAL, neighbours=False)
+        effort = Effort(aims=SOON, near=found, programme=0, neighbours=False)
         found = stability(model, clutch=clutch, effort=effort, progress=watched)
         if found.standing is Verdict.STABLE:
-            return bricks, grid, found.forces
+            return bricks, grid, found
         if number == rounds or not len(found.torn):
             break
         tied, grid = _tied(model, grid, found, plates=plates)
         if tied is bricks:
             break
-        bricks, aims = tied, SOON
+        bricks = tied
     return bricks, grid, None
 
 

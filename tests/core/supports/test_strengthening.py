@@ -43,22 +43,22 @@ def test_ties_make_do_with_less_clutch() -> None:
     """With half of the clutch that the studs of a crane need, ties find a model that stands by its studs alone."""
     bricks, grid = crane()
     limit = least_clutch(equations(bricks))
-    tied, after, forces = strengthen(bricks, grid, CATALOGUE, clutch=0.5 * limit, plates=True)
+    tied, after, found = strengthen(bricks, grid, CATALOGUE, clutch=0.5 * limit, plates=True)
     assert len(tied) > len(bricks)
     assert_covers(tied, after)
     assert contact_graph(tied, CATALOGUE).collisions == 0
     assert least_clutch(equations(tied)) <= 0.5 * limit
-    assert is_equilibrium(equations(tied, clutch=0.5 * limit), forces)
+    assert is_equilibrium(equations(tied, clutch=0.5 * limit), found.forces)
 
 
 def test_what_stands_is_given_back_with_its_proof() -> None:
     """With the clutch that it needs and a little more, the crane is the same object, and the forces prove it."""
     bricks, grid = crane()
     limit = least_clutch(equations(bricks))
-    tied, after, forces = strengthen(bricks, grid, CATALOGUE, clutch=1.1 * limit, plates=True)
+    tied, after, found = strengthen(bricks, grid, CATALOGUE, clutch=1.1 * limit, plates=True)
     assert tied is bricks
     assert after is grid
-    assert is_equilibrium(equations(bricks, clutch=1.1 * limit), forces)
+    assert is_equilibrium(equations(bricks, clutch=1.1 * limit), found.forces)
 
 
 def test_what_tips_over_is_left_to_pillars() -> None:
@@ -66,9 +66,9 @@ def test_what_tips_over_is_left_to_pillars() -> None:
     bricks = table(("3003", 0, 0, 0), ("3007", 0, 0, 3))
     colour = np.full((2, 2, 8), RED)
     colour[0, :, 2:] = COLOUR_EMPTY
-    tied, _, forces = strengthen(bricks, brick_grid(colour), CATALOGUE, clutch=0.7, plates=True)
+    tied, _, found = strengthen(bricks, brick_grid(colour), CATALOGUE, clutch=0.7, plates=True)
     assert tied is bricks
-    assert forces is None
+    assert found is None
 
 
 def test_rigid_parts_are_what_does_not_tear() -> None:
