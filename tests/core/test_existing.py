@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import csv
+import io
+from collections import Counter
 from dataclasses import replace
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -68,6 +72,34 @@ def test_files_of_others_are_judged_and_laid_again(name):
     files = output_texts(judged, CATALOGUE, facts, name)
     assert {"model.ldr", "model.mpd", "build_order.csv", "parts.csv", "bricklink.xml"} <= set(files)
     assert not [file for file in files if file.startswith("tables")]
+    check_sums(files)
+
+
+def check_sums(files):
+    """Compare every list with the bricks of the .ldr, lot by lot, by readers of the standard library."""
+    wanted = Counter(
+        (words[14].removesuffix(".dat"), int(words[1]))
+        for words in (line.split() for line in files["model.ldr"].splitlines())
+        if words[:1] == ["1"]
+    )
+    colours = {colour.code: colour for colour in CATALOGUE.colours}
+    tables = {name: list(csv.DictReader(io.StringIO(text))) for name, text in files.items() if name.endswith(".csv")}
+    assert Counter({(row["part"], int(row["colour"])): int(row["count"]) for row in tables["parts.csv"]}) == wanted
+    assert {(row["Part"], int(row["Color"])): int(row["Quantity"]) for row in tables["rebrickable.csv"]} == {
+        (part, colours[code].rebrickable): count for (part, code), count in wanted.items()
+    }
+    for rows in ([(row["LdrawId"], int(row["LDrawColorId"]), int(row["Qty"])) for row in tables["studio.csv"]],):
+        assert {(part, code): count for part, code, count in rows} == wanted
+    elements = {row["element"]: (row["part"], int(row["colour"])) for row in tables["parts.csv"]}
+    bought = Counter()
+    for row in tables["pick-a-brick.csv"]:
+        bought[elements[row["elementId"]]] += int(row["quantity"])
+    assert bought == Counter({lot: count for lot, count in wanted.items() if lot in elements.values()})
+    items = [{field.tag: field.text for field in item} for item in ElementTree.fromstring(files["bricklink.xml"])]
+    named = {(each["ITEMID"], int(each["COLOR"])): int(each["REMARKS"].split(": ")[-1].split(",")[0]) for each in items}
+    assert named == {(part, colours[code].bricklink): count for (part, code), count in wanted.items()}
+    figures = {row["figure"]: row["value"] for row in tables["totals.csv"]}
+    assert int(figures["bricks"]) == wanted.total()
 
 
 @pytest.fixture(scope="module")
@@ -90,6 +122,14 @@ def test_own_files_give_the_same_bricks_back(own):
     # written and read again it is the same model
     again = output_texts(found, CATALOGUE, {}, "table")["model.mpd"]
     assert multiset(existing(again).bricks, steps=False) == multiset(build.supports.bricks, steps=False)
+
+
+def test_lists_of_our_own_model_are_its_bricks(own):
+    """With temporary supports, which are in lists of their own, every list has the bricks of the finished model."""
+    build, files = own
+    check_sums(files)
+    removed = csv.DictReader(io.StringIO(files["support-parts.csv"]))
+    assert sum(int(row["count"]) for row in removed) == len(build.supports.removed)
 
 
 def test_own_model_laid_again_keeps_no_supports(own):

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from legorize_addon.core.errors import BuildError
 from legorize_addon.core.files.ldraw import write_ldr
+from legorize_addon.core.ldraw.lines import decoded
 from legorize_addon.core.ldraw.reader import read_file, read_ldraw
 from legorize_addon.core.model.assembly import Assembly
 from tests.core.any_bricks import CATALOGUE, any_bricks, everything, multiset
@@ -144,3 +146,40 @@ def test_missing_file_is_refused(tmp_path):
     """There must be a file."""
     with pytest.raises(BuildError, match="cannot be read"):
         read_file(tmp_path / "m.ldr", CATALOGUE)
+
+
+WORDS = ["0", "1", "2", "4", "16", "-8", "20", "nan", "inf", "1e99", "0x2FF0000", "FILE", "NOFILE", "STEP", "ROTSTEP"]
+WORDS += ["a.ldr", "b.ldr", "3001.dat", "2357.DAT", "3867.dat", "!COLOUR", "CODE", "VALUE", "#1", "!LEGORIZE", "ROLE"]
+lines = st.lists(st.sampled_from(WORDS), max_size=16).map(" ".join)
+parts = st.tuples(
+    st.sampled_from(WORDS), st.lists(st.sampled_from(WORDS), min_size=12, max_size=12), st.sampled_from(WORDS)
+).map(lambda words: f"1 {words[0]} {' '.join(words[1])} {words[2]}")
+
+
+def attempt(data):
+    """Return what is read of a text or of bytes, or None and the sentence of the refusal."""
+    try:
+        return read_ldraw(data if isinstance(data, str) else decoded(data, "m.ldr"), CATALOGUE), ""
+    except BuildError as error:
+        return None, str(error)
+
+
+@unhurried
+@given(st.lists(st.one_of(lines, parts, st.just("0 FILE a.ldr"), st.just("0 FILE b.ldr")), max_size=12))
+def test_hostile_text_is_read_or_refused(text):
+    """Whatever words stand in a document, it is read, or refused in one sentence; what is read can be written."""
+    found, sentence = attempt("\n".join(text))
+    if found is None:
+        assert sentence.endswith(".")
+        return
+    assert all(remark.endswith(".") for remark in found.remarks)
+    assert len(found.line) == len(found.bricks)
+    write_ldr(Assembly(found.bricks, CATALOGUE), name="m.ldr", title="m")
+
+
+@unhurried
+@given(st.binary(max_size=300))
+def test_hostile_bytes_are_read_or_refused(data):
+    """Any bytes are text of some kind, or refused in one sentence."""
+    found, sentence = attempt(data)
+    assert found is not None or sentence.endswith(".")
