@@ -61,13 +61,13 @@ class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
         button = self.layout.column()
         button.scale_y = 1.6
         button.operator(LEGORIZE_OT_build.bl_idname, icon="MOD_BUILD")
-        self.layout.operator(LEGORIZE_OT_open_ldraw.bl_idname, icon="IMPORT")
         if context.window_manager.legorize_said:
             self.layout.label(text=context.window_manager.legorize_said, icon="INFO")
         if len(builds(context.scene)) > 1:
             self.layout.prop(context.scene.legorize, "build")
         self._draw_damage(context)
         draw_looks(self.layout)
+        self.layout.operator(LEGORIZE_OT_open_ldraw.bl_idname, icon="IMPORT")
 
     def _draw_damage(self, context: bpy.types.Context) -> None:
         """Draw what was deleted in Blender's own way, and the button that repairs it."""
