@@ -136,7 +136,7 @@ def unit_bricks(
         share[air_around(samples, grid.shape, on_ground=True).fills(grid.shape)] = 0
     solid = _solid(share, samples, keep_thin=rules.keep_thin, detail=rules.detail, progress=part(progress, 0.2, 0.6))
     if rules.symmetric:
-        solid = mirror_shapes(solid, share)
+        solid = mirror_shapes(solid, share, height=round(BRICK / grid.height))
     progress("unit bricks", 0.6)
     air = outer_air(solid)
     progress("unit bricks", 0.65)
@@ -154,7 +154,8 @@ def unit_bricks(
     colour[seen] = ballot.winners(seen, grid.height)
     if rules.detail is not None:
         colour = settle_colours(colour, seen, ballot, rules.detail)
-    if rules.symmetric:
+    # of a picture, little differences are what it shows
+    if rules.symmetric and rules.facing is None:
         colour = mirror_colours(colour, seen, ballot, height=round(BRICK / grid.height))
     if rules.dithering is not None:
         light = light_in_the_open(mesh, samples, grid)

@@ -20,12 +20,12 @@ NEAR: Final = 0.1
 """Share of a cell by which the mesh inside it may differ from that in its image."""
 
 CLOSE: Final = CLEAR / 2
-"""Mean CIEDE2000 difference from its surface by which a cell may get worse so that it is like its image: half of what
+"""Mean CIEDE2000 difference from its surface by which a cell may get worse to be like its image: half of what
 is clear at a glance."""
 
 
-def mirror_shapes(solid: Mask, share: Floats) -> Mask:
-    """Fill cells whose image is filled, where the mesh in both is the same.
+def mirror_shapes(solid: Mask, share: Floats, *, height: int) -> Mask:
+    """Give columns and their images the same cells, where the mesh in both is the same.
 
     Parameters
     ----------
@@ -33,19 +33,28 @@ def mirror_shapes(solid: Mask, share: Floats) -> Mask:
         Filled cells of a grid whose middle is that of the mesh.
     share : (n_levels, n_y, n_x) float64 array
         Share of each cell inside the mesh.
+    height : int
+        Levels of a column that is decided about at once: those of a layer.
 
     Returns
     -------
     (n_levels, n_y, n_x) bool array
-        Nothing is taken away, so that nothing thin is lost. A model that is not
-        symmetric stays as it is.
+        Of two shapes that mirrored columns have, both take the one that is
+        closer to the mesh, and never none, so that nothing thin is lost. A
+        model that is not symmetric stays as it is.
     """
     axis = mirror_axis(solid)
     if axis is None:
         return solid
-    alike = np.abs(share - np.flip(share, axis)) <= NEAR
-    filled: Mask = solid | (np.flip(solid, axis) & alike)
-    return filled
+    image, far = np.flip(solid, axis), np.flip(share, axis)
+    alike = _of_columns(np.abs(share - far) <= NEAR, height).all(axis=1)
+    own, others = (_sums(np.abs(share - each) + np.abs(far - each), height) for each in (solid, image))
+    here, there = (_of_columns(each, height).sum(axis=1) for each in (solid, image))
+    more = (there > here) | ((there == here) & _first(solid.shape, axis, height))
+    closer = (others < own) | ((others == own) & more)
+    takes = alike & (there > 0) & ((here == 0) | closer)
+    found: Mask = np.where(_spread(takes, height), image, solid)
+    return found
 
 
 def mirror_colours(colour: Codes, seen: Mask, ballot: Ballot, *, height: int) -> Codes:
@@ -83,7 +92,8 @@ def mirror_colours(colour: Codes, seen: Mask, ballot: Ballot, *, height: int) ->
     # what a column and its image lose if both look like the image, and if both look like the column
     as_image, as_own = _sums(others - own, height), _sums(others_far - own_far, height)
     takes = (as_image < as_own) | ((as_image == as_own) & _first(colour.shape, axis, height))
-    takes &= as_image <= CLOSE * _sums(differs.astype(np.float64), height)
+    # beside plates that nobody sees, one that is seen must not change clearly
+    takes &= _of_columns(others - own, height).max(axis=1) <= CLOSE
     found: Codes = np.where(_spread(takes, height) & differs, image, colour).astype(np.int16)
     return found
 

@@ -28,16 +28,27 @@ def test_missing_images_are_filled_where_the_mesh_is_the_same():
     solid[0, 0, 0] = solid[0, 1, 9] = False
     share[0, 0, 0], share[0, 0, 9] = 0.5 - 0.9 * NEAR, 0.5
     share[0, 1, 9], share[0, 1, 0] = 0.5 - 1.1 * NEAR, 0.5
-    found = mirror_shapes(solid, share)
+    found = mirror_shapes(solid, share, height=1)
     assert found[0, 0, 0]
     assert not found[0, 1, 9]
     assert found.sum() == solid.sum() + 1
 
 
+def test_of_two_shapes_the_closer_one_is_taken():
+    """Where one column has two plates and its image three, both become what the mesh is closer to."""
+    for inside, wanted in ((0.3, 2), (0.7, 3)):
+        solid, share = np.ones((6, 4, 10), dtype=bool), np.ones((6, 4, 10))
+        solid[2, 1, 3] = False
+        share[2, 1, [3, 6]] = inside
+        found = mirror_shapes(solid, share, height=3)
+        assert found[:3, 1, [3, 6]].sum(axis=0).tolist() == [wanted, wanted]
+        np.testing.assert_array_equal(found, found[..., ::-1])
+
+
 def test_bodies_without_symmetry_stay():
     """Nothing is added to a stair."""
     solid = np.tril(np.ones((8, 8), dtype=bool))[None]
-    assert mirror_shapes(solid, np.ones(solid.shape)) is solid
+    assert mirror_shapes(solid, np.ones(solid.shape), height=1) is solid
     colour = np.where(solid, RED, COLOUR_EMPTY).astype(np.int16)
     assert mirror_colours(colour, solid, ballot_of(np.ones(solid.sum()), 30), height=1) is colour
 
@@ -68,6 +79,19 @@ def test_what_is_painted_on_one_side_stays():
     far, near = (ballot_of(votes, apart) for apart in (CLOSE + 0.1, CLOSE - 0.1))
     np.testing.assert_array_equal(mirror_colours(colour, seen, far, height=3), colour)
     assert (np.unique(mirror_colours(colour, seen, near, height=3)[:, 2, [3, 6]])).size == 1
+
+
+def test_unseen_sides_do_not_soften_what_is_seen():
+    """A column of which two plates have no surface keeps a colour that is clearly that of the third."""
+    votes = np.full((3, 4, 10), 1.0)
+    votes[2, 2, 3] = 0.0
+    colour = np.full(votes.shape, RED, dtype=np.int16)
+    colour[:, 2, 3] = WHITE
+    ballot = ballot_of(votes, 2 * CLOSE)
+    number = np.arange(votes.size).reshape(votes.shape)[:2, 2, [3, 6]].ravel()
+    ballot.votes[number] = 0.0
+    found = mirror_colours(colour, np.ones(votes.shape, dtype=bool), ballot, height=3)
+    np.testing.assert_array_equal(found, colour)
 
 
 def test_hidden_cells_stay():
