@@ -5,17 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..core.on_demand import on_demand
-from .shown import has_surface
+from .shown import has_surface, image_of
 
 if TYPE_CHECKING:
     from .objects import read_objects
-    from .pictures import image_of, load_picture, picture_from
+    from .pictures import load_picture, picture_from
 else:
     # the panel only asks what has a surface
     __getattr__ = on_demand(
         __name__,
         objects=("read_objects",),
-        pictures=("image_of", "load_picture", "picture_from"),
+        pictures=("load_picture", "picture_from"),
     )
 
 __all__ = [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 
 import bpy
@@ -80,11 +79,3 @@ def remarks_on(image: bpy.types.Image) -> tuple[str, ...]:
     if step == 1:
         return ()
     return (f"The image {image.name!r} is larger than {LARGEST_SIDE} pixels: it was used at 1/{step} of its size.",)
-
-
-def image_of(things: Iterable[bpy.types.Object]) -> bpy.types.Image | None:
-    """Return the image of the first empty among some objects that shows one."""
-    for thing in things:
-        if thing.type == "EMPTY" and thing.empty_display_type == "IMAGE" and thing.data is not None:
-            return thing.data
-    return None

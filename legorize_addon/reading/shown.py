@@ -227,3 +227,11 @@ def _set(undo: ExitStack, owner: Any, name: str, value: Any) -> None:
 def _remove_result() -> None:
     if _RESULT in bpy.data.images:
         bpy.data.images.remove(bpy.data.images[_RESULT])
+
+
+def image_of(things: Iterable[bpy.types.Object]) -> bpy.types.Image | None:
+    """Return the image of the first empty among some objects that shows one."""
+    for thing in things:
+        if thing.type == "EMPTY" and thing.empty_display_type == "IMAGE" and thing.data is not None:
+            return thing.data
+    return None

@@ -12,7 +12,7 @@ from ..core.errors import BuildError, MeshError
 from ..core.progress import Progress
 from ..core.settings import Settings
 from ..core.units import MM_PER_METRE
-from ..reading import image_of, picture_from
+from ..reading import image_of
 from ..scene import Source, builds, sources_of
 from ..view import show_result
 from . import job
@@ -87,6 +87,8 @@ class LEGORIZE_OT_image(Working, bpy.types.Operator):
         image = _chosen(context)
         if image is None:
             raise MeshError("There is no image: choose one, or select an empty that shows one.")
+        from ..reading import picture_from
+
         renamed = take_renamed(context.scene.legorize.settings)
         picture, remarks = picture_from(image)
         return ImageRequest(

@@ -74,7 +74,7 @@ def read_owned(paths: Sequence[str], catalogue: Catalogue) -> Owned:
     if not count.any():
         files = " and ".join(map(repr, paths))
         raise SettingsError(
-            f"owned is {files}, which has none of the {len(catalogue.parts)} parts that models are built of: "
-            "give an inventory with plain bricks and plates."
+            f"owned is {files}, which has none of the {catalogue.used_for('model').sum()} parts that models are built "
+            "of: give an inventory with plain bricks and plates."
         )
     return Owned(count, others)

@@ -10,7 +10,8 @@ import pytest
 from PIL import Image
 
 from legorize_addon.core.errors import MeshError
-from legorize_addon.reading.pictures import image_of, load_picture, picture_from
+from legorize_addon.reading.pictures import load_picture, picture_from
+from legorize_addon.reading.shown import image_of
 
 PIXELS = np.random.default_rng(2).integers(0, 256, (3, 5, 4), dtype=np.uint8)
 
