@@ -44,6 +44,22 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
             "As few parts as the shape allows: small differences in shape and colour are given up for them.",
             {"plate_gain": 0.4, "fewer_parts": 1.0, "layout": "exact"},
         ),
+        "paper": Preset(
+            "As Published",
+            "Each step as in the paper, where that is a setting: seven dominant colours of the whole image, longest "
+            "trajectories, the layer above alone, trees; weaker than the default.",
+            {
+                "colours": 7,
+                "sampling": "image",
+                "cell_colour": "longest",
+                "fine_texture": "texels",
+                "chord_deviation": 0.4,
+                "fewer_parts": 0.0,
+                "symmetric": False,
+                "hollow_rule": "upper",
+                "supports": "tree",
+            },
+        ),
     }
 )
 """Every preset by the word that chooses it on the command line."""

@@ -28,22 +28,12 @@ ROOT: Final = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from legorize_addon.core.layout.learning.svm_training import N_SAMPLES, Trained, samples_of, train, written  # noqa: E402
-from legorize_addon.core.model.bricks import Bricks  # noqa: E402
 from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402 - found through the line above
-from legorize_addon.core.model.unit_grid import UnitGrid  # noqa: E402
-from legorize_addon.core.pipeline import legorize  # noqa: E402
-from legorize_addon.core.settings import Settings  # noqa: E402
-from scripts.research.training_models import KINDS, made  # noqa: E402
-
-SHIPPED: Final = ROOT / "assets" / "layout_svm.csv"
+from scripts.research.layout_controls import SHIPPED, judged  # noqa: E402
+from scripts.research.training_models import KINDS, built  # noqa: E402
 
 EACH: Final = 3
 """Training models of each kind; their seeds count from 0, those of the report from ``UNSEEN``."""
-
-UNSEEN: Final = 100
-
-WIDTHS: Final = (24, 28, 32, 36, 40)
-"""Studs along the longer side, in turn."""
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -55,9 +45,6 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--width", type=int, default=48, help="studs of the model files (default: %(default)s)")
     options = parser.parse_args(arguments)
     if options.report:
-        # its packages are not needed for the training
-        from scripts.research.layout_controls import judged
-
         print(judged(options.meshes, width=options.width))
         return 0
     text = trained(seed=0, each=EACH, n=N_SAMPLES)
@@ -88,12 +75,6 @@ def trained(*, seed: int, each: int, n: int) -> str:
     rng = np.random.default_rng(seed)
     models = [built(kind, number) for kind in KINDS for number in range(each)]
     return written(result := train(samples_of(models, load_catalogue(), rng, n), rng), facts(seed, each, result))
-
-
-def built(kind: str, seed: int) -> tuple[UnitGrid, Bricks]:
-    """Return a model made by chance: hollowed, and laid by the fast tier without what is to be learned."""
-    build = legorize(made(kind, seed), Settings(width=WIDTHS[seed % len(WIDTHS)], layout="fast", learned=False))
-    return build.hollow, build.bricks
 
 
 def facts(seed: int, each: int, result: Trained) -> dict[str, str]:

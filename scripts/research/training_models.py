@@ -10,6 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.bricks import Bricks
+from legorize_addon.core.model.unit_grid import UnitGrid
+from legorize_addon.core.pipeline import legorize
+from legorize_addon.core.settings import Settings
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -161,3 +165,16 @@ def made(kind: str, seed: int) -> TriangleMesh:
         images=tuple(colour.reshape(1, 1, 3) for colour in COLOURS),
         image_clamp=np.zeros(len(COLOURS), dtype=bool),
     )
+
+
+UNSEEN: Final = 100
+"""Seeds from here on are never trained on."""
+
+WIDTHS: Final = (24, 28, 32, 36, 40)
+"""Studs along the longer side, in turn."""
+
+
+def built(kind: str, seed: int) -> tuple[UnitGrid, Bricks]:
+    """Return a model made by chance: hollowed, and laid by the fast tier without what is to be learned."""
+    build = legorize(made(kind, seed), Settings(width=WIDTHS[seed % len(WIDTHS)], layout="fast", learned=False))
+    return build.hollow, build.bricks

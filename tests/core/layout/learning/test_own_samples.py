@@ -14,7 +14,7 @@ from legorize_addon.core.layout.learning.own_samples import EACH, learn_more, le
 from legorize_addon.core.layout.learning.sample_file import MOST_SAMPLES
 from legorize_addon.core.layout.learning.svm import LEVELS, NO_EXCHANGES, read, shipped
 from legorize_addon.core.layout.learning.svm_training import train
-from scripts.research.train_layout import built
+from scripts.research.training_models import built
 from tests.core.layout.cells import CATALOGUE, brick_grid
 
 

@@ -24,8 +24,7 @@ from legorize_addon.core.layout.solvers.exchange import fewer_small, gains
 from legorize_addon.core.layout.solvers.greedy import cover
 from legorize_addon.core.model.catalogue import ASSETS
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
-from scripts.research.train_layout import UNSEEN, built
-from scripts.research.training_models import KINDS
+from scripts.research.training_models import KINDS, UNSEEN, built
 from tests.core.layout.cells import CATALOGUE, RED, WHITE, assert_covers, problem_of
 
 CORNER = 3

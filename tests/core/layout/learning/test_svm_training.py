@@ -18,8 +18,8 @@ from legorize_addon.core.layout.learning.svm_training import (
     train,
     written,
 )
-from scripts.research.train_layout import built, facts, trained
-from scripts.research.training_models import KINDS, made
+from scripts.research.train_layout import facts, trained
+from scripts.research.training_models import KINDS, built, made
 from tests.core.layout.cells import CATALOGUE, brick_grid
 
 N = 60
