@@ -135,13 +135,14 @@ def test_a_stop_ends_what_runs(models: Path, tmp_path: Path, monkeypatch: pytest
 def test_a_run_that_somebody_does_is_waited_for(tmp_path: Path) -> None:
     """Its lock is that of the process, whoever started it: the next one keeps what it makes."""
     fake, model = tmp_path / "fake.py", tmp_path / "a.stl"
-    fake.write_text(FAKE.replace("import json, sys, time", "import json, sys, time; time.sleep(1)"))
+    begun = tmp_path / "begun"
+    fake.write_text(f"import time\nopen({str(begun)!r}, 'w').close()\ntime.sleep(1)\n{FAKE}")
     model.write_text("good")
     command = (sys.executable, str(fake), str(model), "--out", str(tmp_path / "runs" / "a"), "--tag", "key")
     task = Task("a", "key", command, str(tmp_path), str(tmp_path / "stop"))
     code = f"from scripts.batches.work import *; import scripts.batches.work as w; w.run({task!r})"
     other = subprocess.Popen([sys.executable, "-c", code], cwd=Path(batch.ROOT))
-    while not (tmp_path / "journal.jsonl").exists():
+    while not begun.exists():
         assert other.poll() is None
     other.kill()
     other.wait()
