@@ -6,6 +6,10 @@
     python scripts/benchmark.py units     [MESH ...] [--out DIR]   against trimesh, the exact rule, dense sampling
     python scripts/benchmark.py pipeline  [MESH ...] [--out DIR]   every stage, every result
     python scripts/benchmark.py budget    [MESH ...] [--out DIR]   estimates against what builds take
+    python scripts/benchmark.py prices    [MESH ...] [--out DIR]   cheapest models against the fewest bricks
+    python scripts/benchmark.py owned     [MESH ...] [--out DIR]   models of classic boxes, nothing overdrawn
+    python scripts/benchmark.py sizes     [MESH ...] [--out DIR]   as large as numbers of parts allow
+    python scripts/benchmark.py masses    [MESH ...] [--out DIR]   grams against bricks
     python scripts/benchmark.py detail    [MESH ...] [--judge DIR] what plates gain and cost
     python scripts/benchmark.py hollowing [MESH ...] [--out DIR]   against a shell of two cells
     python scripts/benchmark.py stability [MESH ...] [--out DIR]   against HiGHS, and the StableLego cases
@@ -55,6 +59,7 @@ from scripts.benchmarks import (  # noqa: E402
     mosaics,
     mutation,
     pipeline,
+    purchase,
     slicing,
     stability,
     steps,
@@ -157,6 +162,22 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
         ),
         "budget": of_models(
             "estimates against what builds take", budget.measure, numbers("--widths", [24, 48, 96], "studs")
+        ),
+        "prices": of_models(
+            "cheapest models against the fewest bricks", purchase.measure_prices, numbers("--widths", [32], "studs")
+        ),
+        "owned": of_models(
+            "models of classic boxes", purchase.measure_owned, numbers("--widths", [24, 32], "studs"),
+            numbers("--times", [1, 3, 10], "boxes"),
+        ),
+        "sizes": of_models(
+            "as large as numbers of parts allow", purchase.measure_sizes,
+            numbers("--parts", [300, 1000, 3000], "parts"),
+        ),
+        "masses": of_models(
+            "grams against bricks", purchase.measure_masses, number("--width", 32, "studs"),
+            ("--weights", {"type": float, "nargs": "+", "default": [0.0, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0],
+                           "help": "bricks for a gram"}),
         ),
         "detail": of_models(
             "what plates gain and cost", detail.measure, numbers("--widths", [32, 64], "studs"),

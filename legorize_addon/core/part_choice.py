@@ -11,7 +11,7 @@ import numpy as np
 from .arrays import Floats, Ints, Mask
 from .errors import PartsError, SettingsError
 from .model import Assembly, Bricks, Catalogue
-from .owned import assign, lay_owned, repair_parts, usable, visible_cells
+from .owned import assign, lay_owned, merge_lots, repair_parts, usable, visible_cells
 from .settings import SEPARATOR, Settings
 from .stock import Owned, Prices, read_owned, read_prices
 from .supports import KINDS, AssemblyPlan, Wish
@@ -39,6 +39,8 @@ class PartChoice:
         What the user has.
     only : bool
         Whether nothing can be bought.
+    few_lots : float
+        Largest colour difference at which small lots are merged.
     """
 
     catalogue: Catalogue
@@ -46,6 +48,7 @@ class PartChoice:
     cheapest: bool = False
     owned: Owned | None = None
     only: bool = False
+    few_lots: float = 0.0
 
     @classmethod
     def of(cls, settings: Settings, catalogue: Catalogue) -> Self:
@@ -68,7 +71,7 @@ class PartChoice:
         paths = [path.strip() for path in settings.owned.split(SEPARATOR) if path.strip()]
         owned = read_owned(paths, catalogue) if paths else None
         only = owned is not None and settings.owned_use == "only"
-        return cls(catalogue, prices, settings.goal == "cheapest", owned, only)
+        return cls(catalogue, prices, settings.goal == "cheapest", owned, only, settings.few_lots)
 
     def laid(self, lay: Lay) -> Bricks:
         """Lay a model.
@@ -175,7 +178,7 @@ class PartChoice:
             The owned parts do not suffice for any of them.
         """
         if self.owned is None:
-            return plan(None, wish)
+            return self._with_few_lots(plan(None, wish))
         for kind in dict.fromkeys((wish, *KINDS)) if wish == "best" else (wish,):
             made = plan(self._supporting, kind)
             found = assign(made.assembly, self._seen(made), self.owned.count, keep=not self.only)
@@ -183,6 +186,14 @@ class PartChoice:
                 bricks = replace(made.bricks, colour=found.colour.astype(np.int16))
                 return replace(made, assembly=Assembly(bricks, made.assembly.catalogue))
         raise PartsError(too_few(made.assembly, found.missing, self.owned, "model with its supports"))
+
+    def _with_few_lots(self, plan: AssemblyPlan) -> AssemblyPlan:
+        """Merge small lots of the model; those of temporary supports are bought apart."""
+        if not self.few_lots:
+            return plan
+        colour = plan.bricks.colour.copy()
+        colour[~plan.temporary] = merge_lots(plan.final, visible_cells(plan.final.graph), self.few_lots)
+        return replace(plan, assembly=Assembly(replace(plan.bricks, colour=colour), plan.assembly.catalogue))
 
     @property
     def _supporting(self) -> Catalogue | None:

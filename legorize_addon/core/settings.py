@@ -184,6 +184,9 @@ class Settings:
     owned_use: Literal["only", "first"] = setting(
         "only", "Whether to build with owned parts only, if need be in other colours, or to use them first and list "
         "what is missing.", group="Parts")
+    few_lots: float = setting(
+        0.0, "Largest colour difference (CIEDE2000) at which lots of one or two bricks take the colour of another lot "
+        "of their part; 0 leaves all colours. Not together with owned parts.", group="Parts", low=0.0, high=100.0)
     mass_weight: float = setting(
         0.0, "How many bricks the layout may add to save one gram; 0 counts bricks alone.", group="Parts",
         low=0.0, high=10.0)

@@ -48,7 +48,7 @@ class Lesson:
         from ..core.pipeline import legorize
 
         quick = replace(self.settings, layout="fast", learned=False, learned_from="", supports="none", split=1)
-        quick = replace(quick, goal="fewest", prices="", owned="", mass_weight=0.0)
+        quick = replace(quick, goal="fewest", prices="", owned="", mass_weight=0.0, few_lots=0.0)
         build = legorize(self.mesh, quick, progress)
         return build.hollow, build.bricks
 

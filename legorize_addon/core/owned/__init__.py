@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from .assignment import assign, visible_cells
+from .few_lots import SMALL, merge_lots
 from .laying import lay_owned, usable
 from .repair import repair_parts
 
 __all__ = [
+    "SMALL",
     "assign",
     "lay_owned",
+    "merge_lots",
     "repair_parts",
     "usable",
     "visible_cells",

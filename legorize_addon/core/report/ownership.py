@@ -11,6 +11,7 @@ from ..arrays import Floats, Ints
 from ..build import Build, Finished
 from ..colours import ciede2000, lab_from_srgb
 from ..model import NOBODY, Assembly, Catalogue
+from ..owned import SMALL
 from ..shopping import ShoppingList
 from ..stock import Owned
 
@@ -57,7 +58,6 @@ def owned_facts(build: Finished, catalogue: Catalogue) -> dict[str, Any] | None:
         return None
     used = used_lots(Assembly(build.supports.bricks, catalogue))
     beyond = np.maximum(used - build.owned.count, 0)
-    apart = colour_differences(build, catalogue) if isinstance(build, Build) else np.zeros(0)
     return {
         "use": build.settings.owned_use,
         "owned": int(build.owned.count.sum()),
@@ -65,6 +65,26 @@ def owned_facts(build: Finished, catalogue: Catalogue) -> dict[str, Any] | None:
         "used": int(used.sum() - beyond.sum()),
         "missing": int(beyond.sum()),
         "missing_lots": int(np.count_nonzero(beyond)),
+        **_likeness(build, catalogue),
+    }
+
+
+def lot_facts(build: Finished, catalogue: Catalogue) -> dict[str, Any] | None:
+    """Return how many lots a model has, and what fewer lots cost in likeness; None unless fewer were asked for."""
+    if not build.settings.few_lots:
+        return None
+    used = used_lots(Assembly(build.bricks, catalogue))
+    return {
+        "lots": int(np.count_nonzero(used)),
+        "small_lots": int(np.count_nonzero((used > 0) & (used <= SMALL))),
+        **_likeness(build, catalogue),
+    }
+
+
+def _likeness(build: Finished, catalogue: Catalogue) -> dict[str, float]:
+    """Return how many cells with a colour have another one than the model, and the mean difference of all of them."""
+    apart = colour_differences(build, catalogue) if isinstance(build, Build) else np.zeros(0)
+    return {
         "other_colour_percent": round(100 * float((apart > 0).mean()), 2) if len(apart) else 0.0,
         "colour_difference": round(float(apart.mean()), 3) if len(apart) else 0.0,
     }

@@ -21,7 +21,7 @@ from ..units import PLATES_PER_BRICK
 from .mesh_facts import facts_of_mesh
 from .money import price_facts
 from .mosaic_facts import facts_of_mosaic
-from .ownership import owned_facts
+from .ownership import lot_facts, owned_facts
 from .remarks import remarks
 
 SCHEMA: Final = 2
@@ -91,6 +91,7 @@ def report(
         "building_time_s": round(wanted.seconds),
         "layout": _layout(build, catalogue, progress if with_bound else None),
         "owned": owned_facts(build, catalogue),
+        "few_lots": lot_facts(build, catalogue),
         "price": price_facts(build, catalogue, progress if with_bound else None),
         "connection": _connection(build.graph),
         "stability": _stability(build, catalogue),

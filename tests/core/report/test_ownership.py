@@ -13,7 +13,7 @@ from legorize_addon.core.errors import PartsError
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.report.outputs import output_texts
-from legorize_addon.core.report.ownership import colour_differences, owned_facts, used_lots
+from legorize_addon.core.report.ownership import colour_differences, lot_facts, owned_facts, used_lots
 from legorize_addon.core.settings import Settings
 from tests.core.owned_box import CATALOGUE, used
 from tests.core.solids import box
@@ -90,3 +90,12 @@ def test_nothing_without_an_inventory():
     assert owned_facts(build, CATALOGUE) is None
     assert not [note for note in build.notes if "owned" in note]
     assert owned_facts(replace(build, owned=None), CATALOGUE) is None
+
+
+def test_few_lots_are_counted():
+    """The report counts lots and small lots of the model, and says what they cost in likeness; else nothing."""
+    build = legorize(MESH, Settings(width=4, few_lots=20.0))
+    facts, used_now = lot_facts(build, CATALOGUE), used(build.bricks)
+    assert facts["lots"] == (used_now > 0).sum() >= facts["small_lots"] == ((used_now > 0) & (used_now <= 2)).sum()
+    assert facts["colour_difference"] == pytest.approx(colour_differences(build, CATALOGUE).mean(), abs=1e-3)
+    assert lot_facts(replace(build, settings=Settings()), CATALOGUE) is None
