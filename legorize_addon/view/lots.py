@@ -93,12 +93,12 @@ def _rows(build: bpy.types.Collection, points: bpy.types.Object, lot: LotKey | N
 
 
 def _select(points: bpy.types.Object, rows: Mask) -> int:
-    """Select some points of an object, and the object if there are any; return how many."""
+    """Select some points of an object, as Edit Mode shows them; return how many.
+
+    The object itself is not selected: that would outline all of its bricks.
+    """
     points.data.vertices.foreach_set("select", rows)
     points.data.update()
-    # what lies in an unticked collection cannot be selected
-    if points.name in bpy.context.view_layer.objects:
-        points.select_set(bool(rows.any()))
     return int(rows.sum())
 
 

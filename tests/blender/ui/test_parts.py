@@ -82,7 +82,6 @@ def test_click_selects_exactly_the_bricks(build):
             points.data.attributes[name].data.foreach_get("value", values)
         numbers = np.array(state_of(build).part_numbers)[part]
         np.testing.assert_array_equal(picked, (numbers == row.number) & (colour == row.code))
-        assert points.select_get() == picked.any()
         chosen.append(picked.sum())
     assert sum(chosen) >= row.count > 0
     glass = [variant for variant in state_of(build).parts.objects if GHOST_KEY in variant.material_slots[0].material]
