@@ -33,6 +33,23 @@ def play(seen: dict[str, Any]) -> Wait:
     yield from copy_and_remove(sample, seen)
     yield from delete_and_show(sample, seen)
     yield from move_and_rebuild(seen)
+    yield from open_and_list(seen)
+
+
+def open_and_list(seen: dict[str, Any]) -> Wait:
+    """Open a brick model of somebody else, and choose a row of its table of parts."""
+    path = os.path.join(FOLDER, "wall.ldr")
+    with open(path, "w", encoding="utf-8") as file:
+        for x in range(6):
+            file.write(f"1 {4 if x % 2 else 15} {20 * x + 10} -24 10 1 0 0 0 1 0 0 0 1 3005.dat\n")
+    bpy.ops.legorize.open_ldraw(filepath=path)
+    opened = bpy.context.scene.legorize.build
+    opened.legorize_lot = 0
+    frame_all(view_area())
+    yield 1.0
+    seen["opened"] = opened.name
+    seen["lots"] = sorted((row.number, row.code, row.count) for row in opened.legorize_lots)
+    screenshot("12-row-of-parts")
 
 
 def build_undo_cancel(sample: str, seen: dict[str, Any]) -> Wait:

@@ -180,3 +180,9 @@ def test_moved_model_is_built_again_where_it_is(seen: dict[str, Any]) -> None:
 def test_escape_cancels(seen: dict[str, Any]) -> None:
     """Esc ends a big run and leaves the scene as it was."""
     assert seen["cancelled"] == seen["before"]
+
+
+def test_model_of_somebody_else_is_opened_with_its_table(seen: dict[str, Any]) -> None:
+    """An LDraw file becomes a build, whose table has a row for each part and colour; a row can be chosen."""
+    assert seen["opened"] == "Legorize wall"
+    assert seen["lots"] == [["3005", 4, 3], ["3005", 15, 3]]
