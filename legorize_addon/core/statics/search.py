@@ -27,7 +27,10 @@ from .tipping import toppling
 from .upright import Upright, upright
 
 WORST: Final = 30
-"""Bodies at the contacts that fail most, which are let loose in each round, and those that touch them."""
+"""Bodies at the contacts that fail most, which are let loose in each round, and those that touch them.
+
+Strengthening and bracing the four weakest of eight models at 48 studs took 34 s of CPU with 30, and 48 s or more with
+15 and with 20, because more verdicts stay open."""
 
 LOOSE: Final = 250
 """Bodies that are let loose at most: a linear programme of so many takes some seconds."""
