@@ -10,8 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
+from legorize_addon.core.building.moves import Action, Moves
 from legorize_addon.core.building.order import plan_steps
-from legorize_addon.core.building.towers import STEADY, tipping
+from legorize_addon.core.building.steps import Kind, Steps, Submodel
+from legorize_addon.core.building.towers import STEADY, _arrivals, tipping
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.contacts import contact_graph, middles
 from legorize_addon.core.statics.stability import stability
@@ -150,3 +152,28 @@ def test_towers_that_fall_are_those_found_by_looking_at_all_bricks(seed):
         (each.step, each.bricks.tolist(), each.middle.round(6).tolist(), sorted(each.feet.tolist())) for each in found
     ]
     assert told == plain(bricks, prop)
+
+
+def test_what_comes_to_a_table_when():
+    """Bricks by themselves, pieces as a whole without the supports that they lost, and nothing after a removal."""
+    told = [
+        *((Action.PLACE, 2, 1), (Action.PLACE, 4, 2), (Action.JOIN, -1, 2), (Action.PLACE, 3, 1)),
+        *((Action.REMOVE, 3, 1), (Action.PLACE, 0, 0), (Action.JOIN, -1, 1), (Action.PLACE, 1, 0)),
+        *((Action.REMOVE, 1, 0), (Action.PLACE, 5, 0)),
+    ]
+    action, brick, submodel = zip(*told, strict=True)
+    n = len(told)
+    moves = Moves(
+        action=np.array(action, np.uint8),
+        brick=np.array(brick, np.int32),
+        piece=np.zeros(n, np.int16),
+        submodel=np.array(submodel, np.int32),
+        pressed=np.zeros(n, bool),
+        step=np.arange(n, dtype=np.int32),
+    )
+    rows = ([0, 1, 5], [2, 3], [4])
+    made = (Submodel(k, Kind.PIECE if k else Kind.MAIN, k - 1, k, np.array(rows[k]), k) for k in range(3))
+    steps = Steps(moves, tuple(made))
+    assert list(_arrivals(steps, 0)) == [(5, [0]), (6, [2, 4]), (7, [1])]
+    assert list(_arrivals(steps, 1)) == [(0, [2]), (2, [4]), (3, [3])]
+    assert list(_arrivals(steps, 2)) == [(1, [4])]

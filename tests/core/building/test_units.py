@@ -101,3 +101,14 @@ def test_rank_decides_who_takes_along_what_hangs():
         rank = (np.arange(5) != first).astype(np.int64)
         found = find_units(np.arange(5), level, pairs, below, ground=level == 0, rank=rank)
         assert expected in groups(found)
+
+
+def test_a_brick_takes_along_what_a_piece_would_leave_to_be_pressed():
+    """Under a beam of a piece and a single beam of the same level, a plate goes with the single one."""
+    bricks = (
+        *(("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3010", 0, 0, 6)),
+        *(("3003", 6, 0, 0), ("3003", 6, 0, 3), ("3010", 4, 0, 6), ("3023", 3, 0, 5)),
+    )
+    found = units(*bricks, node=[0, 1, 1, 2, 3, 4, 5], ground=[True, False, False, True, False, False, False])
+    assert not found.pressed.any()
+    assert [5, 6] in groups(found)
