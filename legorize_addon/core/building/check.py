@@ -209,11 +209,11 @@ class _Walked:
         there = np.append(np.flatnonzero(self.placed & (self.assembly == table)), brick)
         graph = contact_graph(self.bricks.take(there), self.catalogue)
         own = graph.owner == len(there) - 1
-        bottom, top = self.level[brick] - int(graph.low[2]), 0
-        under = (graph.owner[:bottom] != NOBODY) & own.any(axis=0)
-        if under.any():
-            top = int(np.flatnonzero(under.any(axis=(1, 2)))[-1]) + 1
-        return int(bottom - max(top, int(self.floor[table]) - int(graph.low[2])))
+        low, bottom = int(graph.low[2]), int(self.level[brick])
+        under = (graph.owner[: bottom - low] != NOBODY) & own.any(axis=0)
+        # plates that are filled there, and the table below all of them
+        filled = np.flatnonzero(under.any(axis=(1, 2)))
+        return bottom - int(max([low + int(plate) + 1 for plate in filled[-1:]] + [self.floor[table]]))
 
     def _grounded(self, table: int) -> Mask:
         """Tell which bricks in place hang together with bricks on the table."""

@@ -135,6 +135,17 @@ def test_pieces_do_not_hold_each_other_before_they_are_joined():
     assert found.in_air.tolist() == [2]
 
 
+@pytest.mark.parametrize(("n_plates", "cramped"), [(0, False), (2, False), (3, True), (4, True)])
+def test_room_for_fingers_is_nine_plates(n_plates, cramped):
+    """Below a plate that is pressed under a beam eleven plates up there is room over two plates, not over three."""
+    mast = [("3003", 0, 0, 6 + 3 * k) for k in range(4)]
+    plates = [("3024", 3, 0, 6 + k) for k in range(n_plates)]
+    bricks = table(*mast, ("3010", 0, 0, 18), *plates, ("3024", 3, 0, 17))
+    last = len(bricks) - 1
+    found = walked(bricks, moves_of(*(("place", row) for row in range(last + 1)), pressed=[last]))
+    assert found.cramped.tolist() == [last] * cramped
+
+
 class Plain:
     """A walk through moves that looks at all cells of all bricks each time."""
 

@@ -8,7 +8,18 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.errors import Cancelled
-from legorize_addon.core.statics.equilibrium import AIMS, FACTORS, Aim, balance, is_equilibrium, residual
+from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.statics.equilibrium import (
+    AIMS,
+    FACTORS,
+    WEIGHT_GROUND,
+    WEIGHT_SIDE,
+    Aim,
+    _weights,
+    balance,
+    is_equilibrium,
+    residual,
+)
 from legorize_addon.core.statics.forces import HOLD, Ground
 from scripts.benchmarks.stablelego import CASES, Case, stair
 from tests.core.standing import CATALOGUE, equations, judged, table
@@ -80,3 +91,14 @@ def test_factorisation_can_be_cancelled() -> None:
     with pytest.raises(Cancelled):
         judged(table(*stair(60)), ground=Ground.BASEPLATE, progress=stop)
     assert 0 < shares[-1] < FACTORS
+
+
+def test_weights_of_ground_sides_and_contacts() -> None:
+    """Forces of the ground have one weight, those that only press another, and all others 1."""
+    found = equations(table(("3003", 0, 0, 0), ("3003", 2, 0, 0), ("3001", 0, 0, 3)), ground=Ground.BASEPLATE)
+    contacts = found.contacts
+    kinds = zip((contacts.by == NOBODY).tolist(), contacts.least.tolist(), strict=True)
+    expected = [WEIGHT_GROUND if ground else 1.0 if least else WEIGHT_SIDE for ground, least in kinds]
+    assert _weights(found).tolist() == expected
+    assert WEIGHT_GROUND in expected
+    assert 1.0 in expected
