@@ -257,8 +257,8 @@ def test_extent_that_is_missing_is_told():
     upright = mesh_of(np.zeros((20, 3)), sheet().faces)
     upright.vertices[:, 2] = np.arange(20)
     with pytest.raises(SettingsError, match=r"^The mesh has a width of 0 mm: .*\.$"):
-        model_scale(upright, size_by="width", width=48, height=19, scale=10.0)
-    assert model_scale(upright, size_by="height", width=48, height=19, scale=10.0) == pytest.approx(9.6)
+        model_scale(upright, size_by="width", width=48, height=19, scale=10.0, cm=9.0)
+    assert model_scale(upright, size_by="height", width=48, height=19, scale=10.0, cm=9.0) == pytest.approx(9.6)
 
 
 # -------------------------------------------------------------- meshes of every kind

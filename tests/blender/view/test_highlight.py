@@ -25,6 +25,7 @@ def build() -> bpy.types.Collection:
     """Return the model of a table on one leg: supports have to carry its ends."""
     add_table_on_one_leg()
     bpy.context.scene.legorize.settings.width = 12
+    bpy.context.scene.legorize.settings.hanging = 0
     assert bpy.ops.legorize.build() == {"FINISHED"}
     return current_build(bpy.context.scene)
 
