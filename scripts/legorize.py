@@ -347,8 +347,9 @@ def add_paper(made: Parser) -> None:
 
 def add_sets(made: Parser) -> None:
     """Add the flags that choose many settings at once."""
-    looks = "; ".join(f"{word}: {preset.text.removesuffix('.')}" for word, preset in PRESETS.items())
-    made.add_argument("--preset", choices=tuple(PRESETS), help=f"settings that belong together ({looks})")
+    made.add_argument(
+        "--preset", choices=tuple(PRESETS), help="settings that belong together, as the panel's menu Look has them"
+    )
     made.add_argument(
         "--settings", metavar="FILE", type=lambda text: named(text, "file"),
         help="JSON file with settings, as --print-settings writes it, or a report.json; it changes what a preset sets, "

@@ -159,7 +159,9 @@ def _in_plates(assembly: Assembly, owned: Ints) -> Assembly | None:
     """Put three plates in place of bricks that go beyond the owned ones, as far as plates are left."""
     bricks, catalogue = assembly.bricks, assembly.catalogue
     plate = {
-        (each.length, each.width, each.corner): row for row, each in enumerate(catalogue.parts) if each.height == 1
+        (each.length, each.width, each.corner): row
+        for row, each in enumerate(catalogue.parts)
+        if each.height == 1 and each.use == "model"
     }
     used = np.bincount(bricks.part, minlength=len(owned))
     free, rows, flat = np.maximum(owned - used, 0), [], []
