@@ -115,7 +115,7 @@ class Fold:
         known = {
             (part.length, part.width, part.height): row
             for row, part in enumerate(self.catalogue.parts)
-            if not part.corner
+            if part.use == "model" and not part.corner
         }
         keys = np.column_stack([size.max(axis=1), size.min(axis=1), height]).tolist()
         part = np.array([known.get(tuple(key), -1) for key in keys], dtype=np.int64)

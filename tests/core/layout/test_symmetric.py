@@ -57,6 +57,8 @@ def test_every_brick_has_its_image(seed, axis, length):
     np.testing.assert_array_equal(owner != NOBODY, grid.solid)
     np.testing.assert_array_equal(bricks.colour[owner][grid.solid], grid.colour[grid.solid])
     assert CATALOGUE.exists_in(bricks.part, bricks.colour).all()
+    # what lies across the plane is a plate, not a tile of its size
+    assert CATALOGUE.used_for("model")[bricks.part].all()
     # two cells are of one brick exactly where their images are
     image = np.flip(owner, axis)
     pairs = np.unique(np.stack([owner[grid.solid], image[grid.solid]]), axis=1)
