@@ -34,6 +34,7 @@ def table() -> bpy.types.Object:
     """Return a selected table on one leg, to be built 12 studs long: supports have to carry its ends."""
     add_table_on_one_leg()
     bpy.context.scene.legorize.settings.width = 12
+    bpy.context.scene.legorize.settings.hanging = 0
     return bpy.context.object
 
 

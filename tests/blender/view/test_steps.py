@@ -316,6 +316,7 @@ def test_summary_is_that_of_the_finished_model() -> None:
     figures = build[BUILD_KEY]["building"].to_dict()
     mass = CATALOGUE.mass[bricks.part].sum() - alone["mass"]
     assert figures.pop("removed_mass") == pytest.approx(mass)
+    assert figures.pop("moves") == len(building.moves)
     assert figures == {"removed": 2, "kept": 0, "pieces": 2, "steps": len(building)}
 
 
