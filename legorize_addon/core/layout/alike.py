@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Mask
-from ..model import NOBODY, Bricks, Catalogue, Fill, UnitGrid, contact_graph
+from ..model import Bricks, Catalogue, Fill, UnitGrid, contact_graph
 from ..progress import Progress
 from .lay import Manner, cover, join_loose, sheets_and_shapes
 from .problem import gather, owners, with_margins
@@ -79,10 +79,7 @@ class Alike:
         bricks = self._laid(grid, same, fold, progress)
         work = sheets_and_shapes(grid, self.catalogue, self.filler)
         bricks = join_loose(bricks, grid, self.catalogue, work, self.rng, progress)
-        required = with_margins(grid.cover == Fill.REQUIRED, False)
-        owner = owners(contact_graph(bricks, self.catalogue), required.shape)
-        whole = bool((owner[required] != NOBODY).all())
-        return (bricks, grid) if whole and self._as_good(bricks, free) else (free, self.grid)
+        return (bricks, grid) if self._as_good(bricks, free) else (free, self.grid)
 
     def _as_good(self, bricks: Bricks, free: Bricks) -> bool:
         """Whether a layout takes hardly more parts, and hardly more supports, in no more components."""
