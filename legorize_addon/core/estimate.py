@@ -328,10 +328,10 @@ _SECONDS: Final[Mapping[str, _Features]] = MappingProxyType({
 """CPU seconds of the stages. Those of strengthening and stability were fitted to eight models at 24 and 48 studs. With
 bracing, which is a guess, they are rough: models of one size differ fiftyfold, by how weak they are."""
 
-_TIERS: Final = MappingProxyType({"fast": 0.3, "standard": 1.0, "exact": 6.0})
+TIERS: Final = MappingProxyType({"fast": 0.3, "standard": 1.0, "exact": 6.0})
 """Time of each tier of the layout, as a multiple of the standard one."""
 
-_PROOF: Final = 3.0
+PROOF: Final = 3.0
 """Time of the proof of all steps, as a multiple of everything else."""
 
 
@@ -352,7 +352,7 @@ def _faces_and_volume(mesh: TriangleMesh, scale: float) -> tuple[float, float, f
 def _stages(build: _Features, settings: Settings) -> dict[str, float]:
     """Return the expected CPU seconds of the stages."""
     seconds = {name: cost.of(build) for name, cost in _SECONDS.items()}
-    seconds["layout"] *= _TIERS[settings.layout]
+    seconds["layout"] *= TIERS[settings.layout]
     if settings.prove_steps:
-        seconds["proof"] = _PROOF * sum(seconds.values())
+        seconds["proof"] = PROOF * sum(seconds.values())
     return seconds

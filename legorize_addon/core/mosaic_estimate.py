@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import Final
 
-from .estimate import Estimate
+from .estimate import PROOF, TIERS, Estimate
 from .settings import Settings
 from .units import MM_PER_CM, PLATE, PLATES_PER_BRICK, STUD
 
@@ -17,14 +17,8 @@ _SECONDS: Final = MappingProxyType(
 )
 """CPU seconds of the stages, and more for each stud."""
 
-_TIERS: Final = MappingProxyType({"fast": 0.3, "standard": 1.0, "exact": 6.0})
-"""Time of each tier of the layout, as a multiple of the standard one."""
-
 _MEGABYTES: Final = (130.0, 0.02)
 """Peak of the resident memory of a process, and more for each stud."""
-
-_PROOF: Final = 3.0
-"""Time of the proof of all steps, as a multiple of everything else."""
 
 
 def estimate_mosaic(studs: tuple[int, int], settings: Settings) -> Estimate:
@@ -43,9 +37,9 @@ def estimate_mosaic(studs: tuple[int, int], settings: Settings) -> Estimate:
     """
     cells = studs[0] * studs[1]
     seconds = {name: constant + each * cells for name, (constant, each) in _SECONDS.items()}
-    seconds["layout"] *= _TIERS[settings.layout]
+    seconds["layout"] *= TIERS[settings.layout]
     if settings.prove_steps:
-        seconds["proof"] = _PROOF * sum(seconds.values())
+        seconds["proof"] = PROOF * sum(seconds.values())
     plates = 1 + (PLATES_PER_BRICK if settings.mosaic == "bricks" else 1)
     return Estimate(
         studs=(float(studs[0]), float(studs[1])),
