@@ -197,6 +197,38 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class Browsing(Working):
+    """What works on a file that is asked for first.
+
+    Attributes
+    ----------
+    kept : tuple of str
+        Its properties, the path among them, which go on to the work.
+    """
+
+    kept: tuple[str, ...] = ("filepath",)
+    _browsed = False
+
+    def propose(self, context: bpy.types.Context) -> None:
+        """Set the path that the file browser begins with; that of last time if there is nothing to propose."""
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Ask for the file; start the work once there is one."""
+        if self.chosen:
+            return Working.invoke(self, context, event)
+        self.propose(context)
+        self._browsed = True
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Work straight through; after the file browser, which ends this operator, in another one with progress."""
+        if bpy.app.background or not self._browsed:
+            return Working.execute(self, context)
+        call = getattr(bpy.ops.legorize, type(self).bl_idname.partition(".")[2])
+        return call("INVOKE_DEFAULT", chosen=True, **{name: getattr(self, name) for name in self.kept})
+
+
 class OnBuild(Reporting):
     """What works on the build that the panel shows.
 

@@ -17,7 +17,7 @@ from ..core.units import MM_PER_METRE
 from ..scene import Source, read_bricks, sources_of, state_of
 from ..view import show_result
 from . import job
-from .build import OnBuild, Working
+from .build import Browsing, OnBuild, Working
 from .export import chosen_path
 from .instructions import title_of
 from .learned_files import resolved
@@ -113,7 +113,7 @@ class Judging(Working):
         return {"FINISHED"}
 
 
-class LEGORIZE_OT_open_ldraw(Judging, bpy.types.Operator):
+class LEGORIZE_OT_open_ldraw(Browsing, Judging, bpy.types.Operator):
     """Open an LDraw file as a brick model."""
 
     bl_idname = "legorize.open_ldraw"
@@ -124,7 +124,7 @@ class LEGORIZE_OT_open_ldraw(Judging, bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
     _timer = None
-    _browsed = False
+    kept = ("filepath", "again", "steps", "magnified")
 
     filepath: StringProperty(subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.ldr;*.mpd", options={"HIDDEN"})
@@ -148,21 +148,6 @@ class LEGORIZE_OT_open_ldraw(Judging, bpy.types.Operator):
         else:
             return True
         return False
-
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Ask for the file; start the work once there is one."""
-        if self.chosen:
-            return Working.invoke(self, context, event)
-        self._browsed = True
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Work straight through; after the file browser, which ends this operator, in another one with progress."""
-        if bpy.app.background or not self._browsed:
-            return Working.execute(self, context)
-        options = {name: getattr(self, name) for name in ("filepath", "again", "steps", "magnified")}
-        return bpy.ops.legorize.open_ldraw("INVOKE_DEFAULT", chosen=True, **options)
 
     def _take_order(self, context: bpy.types.Context) -> ExistingRequest:
         from ..core.existing import Existing

@@ -12,7 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from ..core.model import Role, load_catalogue
 from ..core.progress import Progress
 from ..scene import read_bricks, steps_of
-from .build import OnBuild, Working
+from .build import Browsing, OnBuild
 from .export import chosen_path
 from .properties import current_build
 
@@ -103,38 +103,22 @@ class MapsRequest:
         return (self.folder,)
 
 
-class OnPaper(OnBuild, Working):
+class OnPaper(OnBuild, Browsing):
     """What is drawn of the build that the panel shows, into a file that is asked for first.
 
     Attributes
     ----------
     suffix : str
         Of the name that is proposed.
-    more : tuple of str
-        Its properties beside path and paper.
     """
 
     suffix = ""
-    more: tuple[str, ...] = ()
     _timer = None
-    _browsed = False
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Ask for the file; start the work once there is one."""
-        if self.chosen:
-            return Working.invoke(self, context, event)
+    def propose(self, context: bpy.types.Context) -> None:
+        """Name the file like the model, beside the scene's own."""
         name = f"{title_of(current_build(context.scene))}{self.suffix}"
         self.filepath = str(Path(bpy.data.filepath).with_name(name)) if bpy.data.filepath else name
-        self._browsed = True
-        context.window_manager.fileselect_add(self)
-        return {"RUNNING_MODAL"}
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Work straight through; after the file browser, which ends this operator, in another one with progress."""
-        if bpy.app.background or not self._browsed:
-            return Working.execute(self, context)
-        options = {name: getattr(self, name) for name in ("filepath", "paper", *self.more)}
-        return self.again("INVOKE_DEFAULT", chosen=True, **options)
 
     def _show(self, context: bpy.types.Context, order: Any, paths: tuple[Path, ...]) -> set[str]:
         self.report({"INFO"}, f"Wrote {' and '.join(map(str, paths))}.")
@@ -152,17 +136,12 @@ class LEGORIZE_OT_booklet(OnPaper, bpy.types.Operator):
     )
     bl_options = {"REGISTER"}
     suffix = ".html"
-    more = ()
+    kept = ("filepath", "paper")
 
     filepath: StringProperty(subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.html", options={"HIDDEN"})
     chosen: BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
     paper: EnumProperty(name="Paper", description="Size of the pages", items=PAPER_ITEMS)
-
-    @staticmethod
-    def again(*arguments: Any, **options: Any) -> set[str]:
-        """Start another one."""
-        return bpy.ops.legorize.booklet(*arguments, **options)
 
     def _take_order(self, context: bpy.types.Context) -> BookletRequest:
         build = current_build(context.scene)
@@ -177,7 +156,7 @@ class LEGORIZE_OT_layer_maps(OnPaper, bpy.types.Operator):
     bl_description = "Write a map of each layer into a folder: its bricks in colour, on what lies below"
     bl_options = {"REGISTER"}
     suffix = " layers"
-    more = ("actual_size",)
+    kept = ("filepath", "paper", "actual_size")
 
     filepath: StringProperty(subtype="FILE_PATH")
     chosen: BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
@@ -185,11 +164,6 @@ class LEGORIZE_OT_layer_maps(OnPaper, bpy.types.Operator):
     actual_size: BoolProperty(
         name="Actual size", description="Draw in the size of the bricks, to lay these on the prints", default=False
     )
-
-    @staticmethod
-    def again(*arguments: Any, **options: Any) -> set[str]:
-        """Start another one."""
-        return bpy.ops.legorize.layer_maps(*arguments, **options)
 
     def _take_order(self, context: bpy.types.Context) -> MapsRequest:
         bricks = read_bricks(current_build(context.scene))
