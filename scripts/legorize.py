@@ -49,7 +49,7 @@ try:
 
     from legorize_addon.core.build import Finished
     from legorize_addon.core.errors import BuildError, LegorizeError, SettingsError, enough_memory
-    from legorize_addon.core.existing import Existing, StepsFrom, judge
+    from legorize_addon.core.existing import Existing, StepsFrom
     from legorize_addon.core.files.folder import new_folder, temporary_of, writing
     from legorize_addon.core.files.manifest import changed
     from legorize_addon.core.files.paths import named, readable
@@ -58,7 +58,7 @@ try:
     from legorize_addon.core.ldraw.reader import SUFFIXES, read_file
     from legorize_addon.core.model.bricks import Role
     from legorize_addon.core.model.catalogue import load_catalogue
-    from legorize_addon.core.pipeline import legorize, legorize_image
+    from legorize_addon.core.pipeline import judge, legorize, legorize_image
     from legorize_addon.core.presets import PRESETS, preset_values
     from legorize_addon.core.progress import Meter, Overall, Progress, duration, part
     from legorize_addon.core.report.checks import failed_checks

@@ -1,4 +1,4 @@
-"""Brick models that exist already, from a file or the scene: judged as our own, or laid again."""
+"""Brick models that exist already, from a file or the scene: what the stages need to judge them, or lay them again."""
 
 from __future__ import annotations
 
@@ -9,20 +9,13 @@ from typing import Final, Literal
 
 import numpy as np
 
-from .build import Judged
-from .building import prove_steps
-from .errors import BuildError, LimitError, enough_memory
+from .errors import BuildError, LimitError
 from .estimate import megabytes
 from .layout import as_good, cells_of, lay_again
 from .model import Assembly, Bricks, Catalogue, Role, contact_graph, load_catalogue, stud_columns
-from .native import watched
-from .part_choice import PartChoice
-from .progress import Overall, Progress, silent
-from .report import remarks, remarks_on_building, remarks_on_owned, remarks_on_prices, remarks_on_proof
 from .settings import Settings
 from .shopping import shopping_list
 from .stages import Run, lay_freely, strengthen_joints
-from .statics import stability
 from .supports import AssemblyPlan, plan_as_given, plan_assembly
 
 StepsFrom = Literal["file", "new"]
@@ -52,88 +45,6 @@ class Existing:
     bricks: Bricks
     has_steps: bool = False
     notes: tuple[str, ...] = ()
-
-
-@enough_memory()
-def judge(
-    given: Existing,
-    settings: Settings,
-    *,
-    again: bool = False,
-    steps: StepsFrom = "file",
-    scale: float = SHOWN,
-    progress: Progress = silent,
-) -> Judged:
-    """Find out whether a brick model stands and how it is built, and lay it again if that is wanted.
-
-    Parameters
-    ----------
-    given : Existing
-        The model.
-    settings : Settings
-        Those of layout, supports, check and limits count.
-    again : bool, optional
-        Whether to look for a layout of the same cells and colours in fewer
-        bricks.
-    steps : {"file", "new"}, optional
-        Whether an author's steps are kept; a model that has none, or is laid
-        again, gets new ones in any case.
-    scale : float, optional
-        Model mm per world mm, for the scene.
-    progress : Progress, optional
-
-    Returns
-    -------
-    Judged
-
-    Raises
-    ------
-    BuildError
-        There are no bricks.
-    LimitError
-        The model is larger than the settings allow.
-    """
-    return watched(partial(_judge, given, settings, again, steps, scale), progress)
-
-
-def _judge(
-    given: Existing, settings: Settings, again: bool, steps: StepsFrom, scale: float, progress: Progress
-) -> Judged:
-    """Go through the stages."""
-    check_size(given.bricks, settings)
-    # somebody else's colours stay: what is not owned is listed
-    run = Run.of(replace(settings, owned=""), Overall(EXPECTED, progress))
-    owned = PartChoice.of(settings, run.catalogue).owned
-    bricks, notes = without_overlaps(moved_up(given.bricks), run.catalogue)
-    if again:
-        bricks, more = _laid_again(run, bricks)
-        notes += more
-    assembly = Assembly(bricks, run.catalogue)
-    with run.stage("supports"):
-        own = steps == "file" and given.has_steps and not again
-        plan = _plan(run, assembly, own_steps=own, planned=again or steps == "new")
-    final = plan.final
-    if len(final) > len(assembly.take(bricks.role != Role.SUPPORT_OUTSIDE)):
-        notes += ("Pillars that stay were added, without which the model cannot be built.",)
-    with run.stage("stability"):
-        found = stability(final, clutch=settings.clutch, progress=run.progress)
-    proof = None
-    if settings.prove_steps:
-        with run.stage("proof"):
-            proof = prove_steps(plan.steps, plan.assembly, clutch=settings.clutch, progress=run.progress)
-    run.progress.finish()
-    prices = run.parts.prices
-    told = (
-        *remarks(final, found, spare=settings.spare),
-        *remarks_on_building(plan),
-        *remarks_on_proof(proof),
-        *remarks_on_owned(owned, plan.assembly),
-        *remarks_on_prices(prices, final.bricks, plan.removed, run.catalogue),
-    )
-    return Judged(
-        settings=settings, scale=scale, corner=np.zeros(3), assembly=final, stability=found, supports=plan, joints=(),
-        prices=prices, owned=owned, proof=proof, notes=(*given.notes, *notes, *told), timings=run.timings,
-    )  # fmt: skip
 
 
 def check_size(bricks: Bricks, settings: Settings) -> None:
@@ -206,7 +117,7 @@ def _cells(bricks: Bricks, catalogue: Catalogue) -> Sequence[list[tuple[int, int
     return found
 
 
-def _laid_again(run: Run, given: Bricks) -> tuple[Bricks, tuple[str, ...]]:
+def laid_again(run: Run, given: Bricks) -> tuple[Bricks, tuple[str, ...]]:
     """Return the model without supports that are taken out, in fewer bricks if they were found, and what to tell."""
     given = given.take(given.role != Role.SUPPORT_OUTSIDE)
     given = replace(given, piece=np.zeros_like(given.piece))
@@ -226,7 +137,7 @@ def _strengthened(run: Run, laid: Bricks, given: Bricks) -> Bricks:
     return tied if better else laid
 
 
-def _plan(run: Run, assembly: Assembly, *, own_steps: bool, planned: bool) -> AssemblyPlan:
+def plan_existing(run: Run, assembly: Assembly, *, own_steps: bool, planned: bool) -> AssemblyPlan:
     """Return how a model is built: as it says itself, or by supports and an order of our own."""
     settings, bricks = run.settings, assembly.bricks
     outside = bricks.role == Role.SUPPORT_OUTSIDE

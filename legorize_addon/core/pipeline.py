@@ -5,19 +5,33 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from .build import Build, Mosaic
+import numpy as np
+
+from .build import Build, Judged, Mosaic
 from .building import Proof, prove_steps
 from .errors import enough_memory
 from .estimate import COUNTED, check_limits, estimate
+from .existing import (
+    EXPECTED,
+    SHOWN,
+    Existing,
+    StepsFrom,
+    check_size,
+    laid_again,
+    moved_up,
+    plan_existing,
+    without_overlaps,
+)
 from .fitting import fit
 from .layout import recolour_visible
 from .layout.joining import add_ties
 from .mesh import TriangleMesh
-from .model import Assembly, contact_graph
+from .model import Assembly, Role, contact_graph
 from .mosaic import Picture
 from .mosaic_estimate import estimate_mosaic
 from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic
 from .native import watched
+from .part_choice import PartChoice
 from .progress import Overall, Progress, silent
 from .report import (
     remarks,
@@ -47,6 +61,7 @@ from .stages import (
     strengthen_joints,
 )
 from .statics import Stability, stability
+from .stock import Owned
 from .supports import AssemblyPlan, segment
 from .unit_bricks import remarks_on_dithering
 
@@ -118,12 +133,12 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     if len(plan.final) > len(assembly):
         with run.stage("stability again"):
             found = stability(plan.final, clutch=settings.clutch, progress=run.progress)
-    proof = None
-    if settings.prove_steps:
-        with run.stage("proof"):
-            proof = prove_steps(plan.steps, plan.assembly, clutch=settings.clutch, progress=run.progress)
+    proof = _prove(run, plan)
     run.progress.finish()
-    notes = (*repairs.sentences(), *unseen, *_notes(run, mesh, found, plan, proof))
+    notes = (
+        *repairs.sentences(), *unseen, *remarks_on_dithering(mesh, settings.dithering),
+        *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
+    )  # fmt: skip
     return Build(
         settings=settings, mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut,
         trajectories=trajectories, offsets=offsets, grid=grid, hollow=shell, assembly=plan.final, stability=found,
@@ -170,12 +185,9 @@ def _legorize_image(picture: Picture, settings: Settings, progress: Progress) ->
         found = check_stability(run, assembly, None)
     with run.stage("supports"):
         plan = make_plan(run, assembly)
-    proof = None
-    if settings.prove_steps:
-        with run.stage("proof"):
-            proof = prove_steps(plan.steps, plan.assembly, clutch=settings.clutch, progress=run.progress)
+    proof = _prove(run, plan)
     run.progress.finish()
-    notes = (*remarks_on_mosaic(picture, canvas, covered), *_notes(run, None, found, plan, proof))
+    notes = (*remarks_on_mosaic(picture, canvas, covered), *_notes(run, found, plan, proof, run.parts.owned))
     return Mosaic(
         settings=settings, scale=1.0, pixels=picture.size, canvas=canvas, goal=goal, colour=colour, covered=covered,
         assembly=plan.final, stability=found, supports=plan, joints=(), **run.parts.files, proof=proof,
@@ -183,17 +195,92 @@ def _legorize_image(picture: Picture, settings: Settings, progress: Progress) ->
     )  # fmt: skip
 
 
-def _notes(
-    run: Run, mesh: TriangleMesh | None, found: Stability, plan: AssemblyPlan, proof: Proof | None
-) -> tuple[str, ...]:
+@enough_memory()
+def judge(
+    given: Existing,
+    settings: Settings,
+    *,
+    again: bool = False,
+    steps: StepsFrom = "file",
+    scale: float = SHOWN,
+    progress: Progress = silent,
+) -> Judged:
+    """Find out whether a brick model stands and how it is built, and lay it again if that is wanted.
+
+    Parameters
+    ----------
+    given : Existing
+        The model.
+    settings : Settings
+        Those of layout, supports, check and limits count.
+    again : bool, optional
+        Whether to look for a layout of the same cells and colours in fewer
+        bricks.
+    steps : {"file", "new"}, optional
+        Whether an author's steps are kept; a model that has none, or is laid
+        again, gets new ones in any case.
+    scale : float, optional
+        Model mm per world mm, for the scene.
+    progress : Progress, optional
+
+    Returns
+    -------
+    Judged
+
+    Raises
+    ------
+    BuildError
+        There are no bricks.
+    LimitError
+        The model is larger than the settings allow.
+    """
+    return watched(partial(_judge, given, settings, again, steps, scale), progress)
+
+
+def _judge(
+    given: Existing, settings: Settings, again: bool, steps: StepsFrom, scale: float, progress: Progress
+) -> Judged:
+    """Go through the stages."""
+    check_size(given.bricks, settings)
+    # somebody else's colours stay: what is not owned is listed
+    run = Run.of(replace(settings, owned=""), Overall(EXPECTED, progress))
+    owned = PartChoice.of(settings, run.catalogue).owned
+    bricks, notes = without_overlaps(moved_up(given.bricks), run.catalogue)
+    if again:
+        bricks, more = laid_again(run, bricks)
+        notes += more
+    assembly = Assembly(bricks, run.catalogue)
+    with run.stage("supports"):
+        own = steps == "file" and given.has_steps and not again
+        plan = plan_existing(run, assembly, own_steps=own, planned=again or steps == "new")
+    final = plan.final
+    if len(final) > len(assembly.take(bricks.role != Role.SUPPORT_OUTSIDE)):
+        notes += ("Pillars that stay were added, without which the model cannot be built.",)
+    with run.stage("stability"):
+        found = stability(final, clutch=settings.clutch, progress=run.progress)
+    proof = _prove(run, plan)
+    run.progress.finish()
+    told = _notes(run, found, plan, proof, owned)
+    return Judged(
+        settings=settings, scale=scale, corner=np.zeros(3), assembly=final, stability=found, supports=plan, joints=(),
+        prices=run.parts.prices, owned=owned, proof=proof, notes=(*given.notes, *notes, *told), timings=run.timings,
+    )  # fmt: skip
+
+
+def _prove(run: Run, plan: AssemblyPlan) -> Proof | None:
+    """Test every building step by forces, if that is wanted."""
+    if not run.settings.prove_steps:
+        return None
+    with run.stage("proof"):
+        return prove_steps(plan.steps, plan.assembly, clutch=run.settings.clutch, progress=run.progress)
+
+
+def _notes(run: Run, found: Stability, plan: AssemblyPlan, proof: Proof | None, owned: Owned | None) -> tuple[str, ...]:
     """Return what a user must know about bricks and building, one sentence each."""
-    assembly = plan.final
     return (
-        *(() if mesh is None else remarks_on_dithering(mesh, run.settings.dithering)),
-        *remarks(assembly, found, spare=run.settings.spare),
+        *remarks(plan.final, found, spare=run.settings.spare),
         *remarks_on_building(plan),
-        *remarks_on_split(plan, most=run.settings.split),
         *remarks_on_proof(proof),
-        *remarks_on_owned(run.parts.owned, plan.assembly),
-        *remarks_on_prices(run.parts.prices, assembly.bricks, plan.removed, run.catalogue),
+        *remarks_on_owned(owned, plan.assembly),
+        *remarks_on_prices(run.parts.prices, plan.final.bricks, plan.removed, run.catalogue),
     )

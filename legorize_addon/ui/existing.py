@@ -82,7 +82,7 @@ class ExistingRequest:
 
     def work(self, progress: Progress) -> Judged:
         """Run the core; no Blender in here."""
-        from ..core.existing import judge
+        from ..core.pipeline import judge
 
         settings = replace(self.settings, learned_from=self.samples)
         made = judge(self.given, settings, again=self.again, steps=self.steps, scale=self.scale, progress=progress)

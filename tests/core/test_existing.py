@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.errors import BuildError, LimitError
-from legorize_addon.core.existing import Existing, check_size, judge, moved_up, without_overlaps
+from legorize_addon.core.existing import Existing, check_size, moved_up, without_overlaps
 from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.verdict import Verdict
-from legorize_addon.core.pipeline import legorize
+from legorize_addon.core.pipeline import judge, legorize
 from legorize_addon.core.report.checks import failed_checks
 from legorize_addon.core.report.outputs import output_texts
 from legorize_addon.core.report.report import report
