@@ -34,6 +34,7 @@ sys.path.insert(0, str(ROOT))
 
 try:
     from legorize_addon.core.errors import LegorizeError, SettingsError
+    from legorize_addon.core.setting import help_text
     from legorize_addon.core.settings import Settings, choices, setting_type
     from scripts.batches.crew import Line, results_of, stopping, usual_jobs
     from scripts.batches.plan import check_grid, models_in, program_of, read_grid, runs_of, tasks_of
@@ -76,7 +77,7 @@ def parser() -> argparse.ArgumentParser:
         given: dict[str, Any] = {"choices": words} if words else {"type": kind}
         if kind is bool:
             given = {"choices": tuple(YES)}
-        text = entry.metadata["text"].replace("%", "%%")
+        text = help_text(entry).replace("%", "%%")
         made.add_argument(f"--{entry.name.replace('_', '-')}", nargs="+", default=argparse.SUPPRESS, help=text, **given)
     return made
 

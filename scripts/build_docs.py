@@ -20,11 +20,12 @@ from typing import Final, NamedTuple
 ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
+from legorize_addon.core.setting import help_text  # noqa: E402 - after the path
 from legorize_addon.core.settings import Settings, choices, setting_type  # noqa: E402 - after the path
 
 OUT: Final = ROOT / "out" / "docs"
 CORE: Final = ROOT / "legorize_addon" / "core"
-SHARED: Final = ("pipeline", "build", "settings", "errors", "progress", "units", "arrays")
+SHARED: Final = ("pipeline", "build", "settings", "setting", "errors", "progress", "units", "arrays")
 """Modules beside the packages of the core, in the order of their pages."""
 
 
@@ -52,7 +53,7 @@ def settings_page() -> str:
         if entry.metadata["group"] != group:
             group = entry.metadata["group"]
             lines += ["", f"## {group}"]
-        lines += ["", f"`{flag(entry)}`", f": {plain(entry.metadata['text'])} {limits(entry)}"]
+        lines += ["", f"`{flag(entry)}`", f": {plain(help_text(entry))} {limits(entry)}"]
     return "\n".join([*lines, ""])
 
 

@@ -65,7 +65,8 @@ try:
     from legorize_addon.core.report.outputs import CERTAIN, output_texts
     from legorize_addon.core.report.report import report
     from legorize_addon.core.report.summary import summary
-    from legorize_addon.core.settings import SEPARATOR, Settings, choices, renamed, setting_type
+    from legorize_addon.core.setting import SEPARATOR, help_text, renamed
+    from legorize_addon.core.settings import Settings, choices, setting_type
     from legorize_addon.core.settings_file import read_settings, settings_text
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.reading.importers import load
@@ -362,7 +363,7 @@ def add_flag(group: Any, entry: Field[Any]) -> None:
     """Add the flag of a setting; settings without a flag on the command line keep their default."""
     kind, words = setting_type(entry), choices(entry)
     # argparse takes % for a placeholder
-    text = entry.metadata["text"].replace("%", "%%")
+    text = help_text(entry).replace("%", "%%")
     options: dict[str, Any] = {"default": argparse.SUPPRESS, "help": f"{text} (default: {entry.default})"}
     if kind is bool:
         options["action"] = argparse.BooleanOptionalAction

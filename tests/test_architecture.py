@@ -22,6 +22,7 @@ ORDER: Final = (
     "core.safe_text",
     "core.progress",
     "core.native",
+    "core.setting",
     "core.settings",
     "core.settings_file",
     "core.presets",

@@ -12,7 +12,8 @@ from .arrays import Floats, Ints, Mask
 from .errors import PartsError, SettingsError
 from .model import Assembly, Bricks, Catalogue
 from .owned import assign, lay_owned, merge_lots, repair_parts, usable, visible_cells
-from .settings import SEPARATOR, Settings
+from .setting import SEPARATOR
+from .settings import Settings
 from .stock import Owned, Prices, read_owned, read_prices
 from .supports import KINDS, AssemblyPlan, Wish
 

@@ -8,7 +8,8 @@ from difflib import get_close_matches
 from typing import Any
 
 from .errors import SettingsError
-from .settings import Settings, renamed
+from .setting import renamed
+from .settings import Settings
 
 
 def settings_text(settings: Settings) -> str:

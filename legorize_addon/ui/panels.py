@@ -11,7 +11,7 @@ from typing import Any, Final
 import bpy
 
 from ..core.progress import duration
-from ..core.settings import Settings, choices
+from ..core.settings import Settings, has_effect
 from ..core.shopping import SECONDS_A_BRICK
 from ..core.units import BRICK, STUD
 from ..scene import builds, check_lines, damage, orphans, state_of
@@ -29,7 +29,7 @@ from .progress_text import progress_text
 from .properties import current_build
 
 MM_PER_CM: Final = 10.0
-BUTTONS: Final = MappingProxyType({"Learning": (LEGORIZE_OT_learn, LEGORIZE_OT_forget)})
+BUTTONS: Final = MappingProxyType({"Bricks": (LEGORIZE_OT_learn, LEGORIZE_OT_forget)})
 """Operators below the settings of a group."""
 
 PIXELS_PER_LETTER: Final = 8.0
@@ -87,29 +87,29 @@ class _SettingsPanel(_Tab):
 
     Attributes
     ----------
-    names : tuple of str
+    entries : tuple of Field
         The settings, in their order.
-    alternatives : mapping of str to str
-        The setting whose choice decides whether another one counts.
     buttons : tuple of type
         Operators below them.
     """
 
     bl_parent_id = "LEGORIZE_PT_main"
-    names: tuple[str, ...] = ()
-    alternatives: Mapping[str, str] = MappingProxyType({})
+    entries: tuple[Field[Any], ...] = ()
     buttons: tuple[type[bpy.types.Operator], ...] = ()
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the group's settings, without the numbers that its choice leaves unused; locked while a job runs."""
+        """Draw the group's settings, those without effect in grey; locked while a job runs."""
         self.layout.enabled = job.running() is None
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         group = context.scene.legorize.settings
-        for name in self.names:
-            choice = self.alternatives.get(name)
-            if choice is None or getattr(group, choice) == name:
-                self.layout.prop(group, name)
+        for entry in self.entries:
+            counts = has_effect(entry, group)
+            # of several numbers for one thing, the panel has the chosen one
+            if counts or entry.name not in entry.metadata["needs"]:
+                row = self.layout.row()
+                row.active = counts
+                row.prop(group, entry.name)
         for button in self.buttons:
             self.layout.operator(button.bl_idname)
 
@@ -134,14 +134,12 @@ def _settings_panels() -> tuple[type, ...]:
 
 
 def _settings_panel(group: str, entries: Sequence[Field[Any]], *, advanced: bool) -> type:
-    alternatives = {word: choice.name for choice in entries for word in choices(choice)}
     members = {
         "__doc__": f"The settings of the group {group}.",
         "bl_label": group,
         "bl_parent_id": "LEGORIZE_PT_advanced" if advanced else "LEGORIZE_PT_main",
         "bl_options": {"DEFAULT_CLOSED"} if advanced else set(),
-        "names": tuple(entry.name for entry in entries),
-        "alternatives": MappingProxyType(alternatives),
+        "entries": tuple(entries),
         "buttons": BUTTONS.get(group, ()),
     }
     return type(f"LEGORIZE_PT_{group.lower()}", (_SettingsPanel, bpy.types.Panel), members)

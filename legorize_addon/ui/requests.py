@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..core.progress import Progress
-from ..core.settings import SEPARATOR, Settings
+from ..core.setting import SEPARATOR
+from ..core.settings import Settings
 from ..core.units import MM_PER_METRE
 from ..reading import has_surface
 from ..scene import builds_of, is_own, orphans, sources_of

@@ -13,11 +13,12 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from ..core.settings import Settings, choices, renamed, setting_type
+from ..core.setting import renamed
+from ..core.settings import Settings, choices, setting_type
 
 
 def label(name: str) -> str:
-    """Return a setting's name as the panel shows it."""
+    """Return a word of the code as the panel shows it."""
     return name.replace("_", " ").capitalize()
 
 
@@ -25,13 +26,14 @@ def _property(entry: Field[Any]) -> Any:
     """Return the Blender property of a setting."""
     # Blender ends every tooltip with a full stop of its own
     common = {
-        "name": label(entry.name),
+        "name": entry.metadata["name"],
         "description": entry.metadata["text"].removesuffix("."),
         "default": entry.default,
     }
-    words = choices(entry)
-    if words:
-        return EnumProperty(items=[(word, label(word), common["description"]) for word in words], **common)
+    if choices(entry):
+        meanings = entry.metadata["words"].items()
+        items = [(word, label(word), f"{meaning[0].upper()}{meaning[1:]}") for word, meaning in meanings]
+        return EnumProperty(items=items, **common)
     kind = setting_type(entry)
     if kind is bool:
         return BoolProperty(**common)

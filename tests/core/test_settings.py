@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import FrozenInstanceError, fields
+from dataclasses import FrozenInstanceError, fields, replace
+from typing import get_args
 
 import numpy as np
 import pytest
 
 from legorize_addon.core.errors import SettingsError
-from legorize_addon.core.settings import Settings, choices, setting_type
+from legorize_addon.core.pipeline import legorize
+from legorize_addon.core.settings import Settings, choices, has_effect, setting_type
 from legorize_addon.core.statics.equilibrium import SPARE
 from legorize_addon.core.statics.forces import CAUTIOUS_HOLD
+from tests.core.solids import sphere
 
 ENTRIES = {entry.name: entry for entry in fields(Settings)}
 NUMBERS = [name for name, entry in ENTRIES.items() if setting_type(entry) in (int, float)]
@@ -36,6 +39,7 @@ def test_every_setting_is_told_to_the_user(name):
     entry = ENTRIES[name]
     assert entry.metadata["text"].endswith(".")
     assert entry.metadata["group"]
+    assert entry.metadata["name"][0].isupper()
     if name in NUMBERS:
         assert entry.metadata["low"] <= entry.default <= entry.metadata["high"]
 
@@ -81,8 +85,9 @@ def test_values_of_another_type_are_refused(name, value, kind):
 
 @pytest.mark.parametrize("name", WORDS)
 def test_words_are_those_listed(name):
-    """Each listed word is allowed, and another one is refused with the list."""
+    """Each listed word has its meaning and is allowed, and another one is refused with the list."""
     words = choices(ENTRIES[name])
+    assert words == get_args(setting_type(ENTRIES[name]))
     assert all(getattr(Settings(**{name: word}), name) == word for word in words)
     assert refusal(name, "else") == f"{name} is 'else': choose one of {', '.join(words)}."
     assert refusal(name, None).endswith(".")
@@ -106,3 +111,51 @@ def test_settings_that_contradict_each_other_are_refused(first, second):
     with pytest.raises(SettingsError, match=rf"^{first} .* hollow is off.*\.$"):
         Settings(hollow=False, **{first: second})
     assert getattr(Settings(**{first: second}), first) == second
+
+
+def test_a_setting_waits_for_the_one_that_it_needs():
+    """A number counts with its choice, and what shapes the inside where there is an inside."""
+    assert has_effect(ENTRIES["width"], Settings())
+    assert not has_effect(ENTRIES["cm"], Settings())
+    assert has_effect(ENTRIES["shell"], Settings())
+    assert not has_effect(ENTRIES["shell"], Settings(hollow=False))
+    assert has_effect(ENTRIES["goal"], Settings(prices="prices.csv"))
+    assert not has_effect(ENTRIES["goal"], Settings())
+
+
+NEEDY = [name for name, entry in ENTRIES.items() if entry.metadata["needs"]]
+
+
+def others(name):
+    """Return values of a setting beside its default."""
+    entry = ENTRIES[name]
+    if choices(entry):
+        return [word for word in choices(entry) if word != entry.default]
+    return [not entry.default] if setting_type(entry) is bool else [entry.metadata["low"], entry.metadata["high"]]
+
+
+@pytest.mark.parametrize("name", NEEDY)
+def test_what_a_setting_needs_is_another_one(name):
+    """The other one is there, and has the words."""
+    other, *words = ENTRIES[name].metadata["needs"]
+    assert other in ENTRIES
+    assert other != name
+    assert set(words) <= set(choices(ENTRIES[other]))
+
+
+SHAPED = ["plate_gain", "fewer_parts", "layer_difference", "shell", "ceilings", "learned"]
+
+
+@pytest.mark.parametrize("name", SHAPED)
+def test_a_grey_setting_changes_nothing(name):
+    """Where a setting is said to have no effect, the bricks are the same whatever its value."""
+    other = ENTRIES[name].metadata["needs"][0]
+    for value in others(other):
+        settings = Settings(size_by="cm", cm=3.2, **{other: value})
+        if has_effect(ENTRIES[name], settings):
+            continue
+        first = legorize(sphere(), settings)
+        for changed in others(name):
+            again = legorize(sphere(), replace(settings, **{name: changed}))
+            assert np.array_equal(again.bricks.corner, first.bricks.corner)
+            assert np.array_equal(again.bricks.part, first.bricks.part)

@@ -29,6 +29,7 @@ def test_every_setting_is_described() -> None:
         name = entry.name.replace("_", "-")
         assert f"`--{name}" in page
         assert build_docs.plain(entry.metadata["text"]) in page
+        assert all(build_docs.plain(f"{word}: {text}") in page for word, text in entry.metadata["words"].items())
         assert f"## {entry.metadata['group']}\n" in page
     assert "`--hollow, --no-hollow`" in page
     assert "`--width INT`\n" in page

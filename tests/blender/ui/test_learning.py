@@ -166,5 +166,5 @@ def test_buttons_stand_in_the_panel() -> None:
     """The panel of the group has both buttons below its settings, and no other one has any."""
     buttons = {panel.__name__: [button.bl_idname for button in getattr(panel, "buttons", ())] for panel in classes}
     assert {name: found for name, found in buttons.items() if found} == {
-        "LEGORIZE_PT_learning": ["legorize.learn", "legorize.forget"]
+        "LEGORIZE_PT_bricks": ["legorize.learn", "legorize.forget"]
     }

@@ -57,4 +57,4 @@ def test_results_stand_above_the_settings() -> None:
     inside = {
         panel.bl_label for panel in panels.classes if getattr(panel, "bl_parent_id", "") == "LEGORIZE_PT_advanced"
     }
-    assert {"Colours", "Supports", "Learning"} <= inside
+    assert {"Colours", "Supports", "Bricks"} <= inside

@@ -49,8 +49,10 @@ def test_properties_are_those_of_the_core(view) -> None:
     for entry in found:
         setting = BY_NAME[entry.identifier]
         assert setting.metadata["text"] == f"{entry.description}."
+        assert setting.metadata["name"] == entry.name
         if choices(setting):
             assert tuple(item.identifier for item in entry.enum_items) == choices(setting)
+            assert len({item.description for item in entry.enum_items}) == len(entry.enum_items)
         elif entry.type in ("INT", "FLOAT"):
             assert (entry.hard_min, entry.hard_max) == pytest.approx(
                 (setting.metadata["low"], setting.metadata["high"])
@@ -94,7 +96,7 @@ def test_addon_comes_and_goes() -> None:
 
 def test_each_setting_has_its_place() -> None:
     """Every setting is in just one panel, in the panel of its group."""
-    shown = [(panel.bl_label, name) for panel in panels.classes for name in getattr(panel, "names", ())]
+    shown = [(panel.bl_label, entry.name) for panel in panels.classes for entry in getattr(panel, "entries", ())]
     assert shown == [(entry.metadata["group"], entry.name) for entry in BY_NAME.values()]
 
 
