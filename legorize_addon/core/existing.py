@@ -118,23 +118,26 @@ def _cells(bricks: Bricks, catalogue: Catalogue) -> Sequence[list[tuple[int, int
 
 
 def laid_again(run: Run, given: Bricks) -> tuple[Bricks, tuple[str, ...]]:
-    """Return the model without supports that are taken out, in fewer bricks if they were found, and what to tell."""
+    """Return the model without supports that are taken out, in better bricks if they were found, and what to tell.
+
+    Better is what the settings ask for: fewer bricks, cheaper ones, or lighter ones.
+    """
     given = given.take(given.role != Role.SUPPORT_OUTSIDE)
     given = replace(given, piece=np.zeros_like(given.piece))
     with run.stage("layout"):
-        laid = lay_again(given, run.catalogue, partial(lay_freely, run))
+        laid = lay_again(given, run.catalogue, partial(lay_freely, run), run.parts.burden)
     if laid is given:
-        return given, (f"No layout in fewer than {len(given)} bricks was found: the model stays as it is.",)
+        return given, (f"No better layout than that of {run.parts.told(given)} was found: the model stays as it is.",)
     with run.stage("strengthening"):
         laid = _strengthened(run, laid, given)
-    return laid, (f"Laid again in {len(laid)} bricks instead of {len(given)}.",)
+    return laid, (f"Laid again in {run.parts.told(laid)} instead of {run.parts.told(given)}.",)
 
 
 def _strengthened(run: Run, laid: Bricks, given: Bricks) -> Bricks:
-    """Return a layout with ties where it is weak, as far as that shows nowhere and needs no more bricks than before."""
+    """Return a layout with ties where it is weak, as far as that shows nowhere and it stays better than before."""
     tied, _, _ = strengthen_joints(run, laid, cells_of(laid, run.catalogue))
-    better = len(tied) < len(given) and as_good(tied, given, run.catalogue)
-    return tied if better else laid
+    better = run.parts.burden(tied) < run.parts.burden(given)
+    return tied if better and as_good(tied, given, run.catalogue) else laid
 
 
 def plan_existing(run: Run, assembly: Assembly, *, own_steps: bool, planned: bool) -> AssemblyPlan:

@@ -100,6 +100,24 @@ class PartChoice:
         thrifty = lay(replace(self.catalogue, cost=self.prices.price / mean + extra))
         return min(usual, thrifty, key=self._price)
 
+    def burden(self, bricks: Bricks) -> float:
+        """Return what a layout is compared with others by: its price, its bricks and what their mass costs, or both."""
+        if self.cheapest:
+            return self._price(bricks)
+        cost = self.catalogue.cost
+        if cost is None:
+            return float(len(bricks))
+        return float(cost[bricks.part, self.catalogue.colour_rows(bricks.colour)].sum())
+
+    def told(self, bricks: Bricks) -> str:
+        """Say how many bricks there are, and what counts besides: what they cost, or weigh."""
+        count = "1 brick" if len(bricks) == 1 else f"{len(bricks)} bricks"
+        if self.cheapest and self.prices is not None:
+            return f"{count} for {self.prices.money(self._price(bricks))}"
+        if self.catalogue.cost is not None:
+            return f"{count} of {self.catalogue.mass[bricks.part].sum():.1f} g"
+        return count
+
     @property
     def minds_lots(self) -> bool:
         """Whether it matters to the layout which parts it takes, and not only how many."""

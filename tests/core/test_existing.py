@@ -22,7 +22,7 @@ from legorize_addon.core.report.report import report
 from legorize_addon.core.report.summary import summary
 from legorize_addon.core.settings import Settings
 from tests.core.any_bricks import CATALOGUE, multiset, table
-from tests.core.foreign import FILES
+from tests.core.foreign import FILES, along
 from tests.core.layout.test_again import shown
 from tests.core.textured import painted
 from tests.core.textured import table as table_mesh
@@ -138,6 +138,32 @@ def test_own_model_laid_again_keeps_no_supports(own):
     found = judge(existing(files["model.mpd"]), build.settings, again=True)
     assert len(found.bricks) <= len(build.bricks)
     assert found.supports.walk.buildable
+
+
+def test_laid_again_for_less_money(tmp_path):
+    """Where small bricks are nearly free, a wall of 1 x 4 is laid again in more of them, and the price is told."""
+    (tmp_path / "prices.csv").write_text(
+        "part,colour,price,currency\n3010,4,1.00,EUR\n3004,4,0.01,EUR\n3005,4,0.02,EUR\n", encoding="utf-8"
+    )
+    wall = [along(0, 0, 0, 4), along(4, 0, 0, 4), along(0, 0, 3, 2), along(2, 0, 3, 4), along(6, 0, 3, 2)]
+    given = existing("\n".join(wall))
+    options = {"prices": str(tmp_path / "prices.csv"), "unpriced": "exclude"}
+    fewest = judge(given, Settings(**options), again=True)
+    cheapest = judge(given, Settings(**options, goal="cheapest"), again=True)
+    assert fewest.notes[0] == "No better layout than that of 5 bricks was found: the model stays as it is."
+    assert len(cheapest.bricks) > 5
+    count, cost = len(cheapest.bricks), cheapest.prices.each(cheapest.bricks, CATALOGUE).sum()
+    assert cheapest.notes[0] == f"Laid again in {count} bricks for {cost:.2f} EUR instead of 5 bricks for 3.02 EUR."
+    assert cost < 3.02
+    assert cheapest.graph.n_components == 1
+
+
+def test_laid_again_for_less_mass():
+    """Where grams count, a heavier layout in fewer bricks is not better: told with what both weigh."""
+    given = existing("\n".join(along(x, 0, 0, 1) for x in range(4)) + "\n" + along(0, 0, 3, 4))
+    found = judge(given, Settings(layout="fast", mass_weight=0.1), again=True)
+    before, after = (CATALOGUE.mass[bricks.part].sum() for bricks in (given.bricks, found.bricks))
+    assert found.notes[0] == f"Laid again in 2 bricks of {after:.1f} g instead of 5 bricks of {before:.1f} g."
 
 
 def test_steps_of_the_author_or_new_ones():

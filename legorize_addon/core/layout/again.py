@@ -1,4 +1,4 @@
-"""Bricks that lie already, laid again: the same cells and the same colours where they can be seen, in fewer parts."""
+"""Bricks that lie already, laid again: the same cells and the same colours where they can be seen, in better parts."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ from ..units import PLATES_PER_BRICK
 
 Lay = Callable[[UnitGrid], Bricks]
 """Covers cells by bricks."""
+
+Burden = Callable[[Bricks], float]
+"""What layouts are compared by, less being better: the number of bricks, or what they cost."""
 
 
 def cells_of(bricks: Bricks, catalogue: Catalogue, *, below: int = 0) -> UnitGrid:
@@ -49,8 +52,8 @@ def cells_of(bricks: Bricks, catalogue: Catalogue, *, below: int = 0) -> UnitGri
     )
 
 
-def lay_again(bricks: Bricks, catalogue: Catalogue, lay: Lay) -> Bricks:
-    """Lay bricks again, in fewer parts where that can be done.
+def lay_again(bricks: Bricks, catalogue: Catalogue, lay: Lay, burden: Burden = len) -> Bricks:
+    """Lay bricks again, in fewer or cheaper parts where that can be done.
 
     Parameters
     ----------
@@ -59,11 +62,13 @@ def lay_again(bricks: Bricks, catalogue: Catalogue, lay: Lay) -> Bricks:
     catalogue : Catalogue
     lay : callable
         Returns the bricks that cover a grid.
+    burden : callable, optional
+        What layouts are compared by.
 
     Returns
     -------
     Bricks
-        The layout of the fewest bricks among those found and the given one, which
+        The layout of the least burden among those found and the given one, which
         is the same object if none is better. A layout counts if it is faithful,
         see :func:`faithful`, and comes apart nowhere where the given one does not.
         Tiles, baseplates and large plates stay as they are.
@@ -78,7 +83,7 @@ def lay_again(bricks: Bricks, catalogue: Catalogue, lay: Lay) -> Bricks:
             continue
         laid = replace(laid, corner=(laid.corner - (0, 0, below)).astype(np.int32))
         laid = concatenate([laid, bricks.take(fixed)])
-        if len(laid) < len(best) and as_good(laid, bricks, catalogue):
+        if burden(laid) < burden(best) and as_good(laid, bricks, catalogue):
             best = laid
     return best
 
