@@ -22,6 +22,7 @@
     python scripts/benchmark.py mosaics   [IMAGE ...] [--out DIR]  likeness from afar, against a plain mosaic
     python scripts/benchmark.py kills    [MESH] [--runs N] [--out DIR] killed runs: old or new results, nothing left
     python scripts/benchmark.py fuzz     [--cases N] [--seed S]    random bodies with random settings, within limits
+    python scripts/benchmark.py fuzz-bricks [--cases N] [--seed S] hostile brick models, read, judged and laid again
     python scripts/benchmark.py sliders  [--bricks N] [--out DIR] what Blender takes to show layers and sections
     python scripts/benchmark.py mutation [MODULE ...] [--seed S]   changes of the core that no test notices
 
@@ -223,6 +224,10 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
         ),
         "fuzz": Benchmark(
             "random bodies with random settings", fuzz.measure,
+            (number("--cases", 100, "how many"), SEED, number("--first", 0, "number of the first case")),
+        ),
+        "fuzz-bricks": Benchmark(
+            "hostile brick models, read, judged and laid again", fuzz.measure_bricks,
             (number("--cases", 100, "how many"), SEED, number("--first", 0, "number of the first case")),
         ),
         "sliders": Benchmark("the sliders in Blender", slide, (number("--bricks", 50_000, "of the model"),)),

@@ -536,7 +536,7 @@ def work_on_bricks(source: Path, taken: Taken, settings: Settings, timed: Timed)
         with quiet():
             bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         found = read_file(source, load_catalogue())
-    given = Existing(found.bricks, found.has_steps, found.remarks)
+    given = Existing.of(found)
     return Work((), partial(_judged, given, settings, taken))
 
 

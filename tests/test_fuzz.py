@@ -16,6 +16,7 @@ from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from scripts import benchmark
 from scripts.benchmarks.fuzz import GOOD, MEMORY, run
+from scripts.benchmarks.fuzz_bricks import STRANGE, document, outcome_of_bricks
 from scripts.benchmarks.fuzz_cases import BODIES, case
 from scripts.benchmarks.fuzz_checks import faults, faults_of_bricks, same
 from tests.core.solids import box
@@ -50,6 +51,16 @@ def test_one_case(tmp_path):
         [row] = csv.DictReader(file)
     assert row["outcome"] in GOOD
     assert row["cases"] == "1"
+
+
+def test_hostile_brick_models(tmp_path):
+    """Every kind of strange document comes up, and each is built or refused in a sentence."""
+    assert benchmark.main(["fuzz-bricks", "--cases", "1", "--out", str(tmp_path)]) == 0
+    kinds = set()
+    for number in range(30):
+        kinds.add(document(0, number)[0])
+        assert outcome_of_bricks(0, number)[0] in GOOD, number
+    assert kinds == set(STRANGE)
 
 
 def test_what_goes_wrong_is_told():

@@ -111,9 +111,12 @@ class Judged(Finished):
     ----------
     corner : (3,) float64 array
         Of cell 0 in mm of the model.
+    left_out : mapping of str to int
+        Numbers of parts that the catalogue does not have, and how many of each there were.
     """
 
     corner: Floats
+    left_out: Mapping[str, int]
 
     @property
     def origin(self) -> Floats:

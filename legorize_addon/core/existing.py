@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Final, Literal
+from types import MappingProxyType
+from typing import Final, Literal, Self
 
 import numpy as np
 
 from .errors import BuildError, LimitError
 from .estimate import megabytes
 from .layout import as_good, cells_of, lay_again
+from .ldraw import LdrawModel
 from .model import Assembly, Bricks, Catalogue, Role, contact_graph, load_catalogue, stud_columns
 from .settings import Settings
 from .shopping import shopping_list
@@ -40,11 +42,19 @@ class Existing:
         Whether their steps are an author's.
     notes : tuple of str
         What was left out of them or changed, a sentence each.
+    left_out : mapping of str to int
+        Numbers of parts that the catalogue does not have, and how many of each there were.
     """
 
     bricks: Bricks
     has_steps: bool = False
     notes: tuple[str, ...] = ()
+    left_out: Mapping[str, int] = MappingProxyType({})
+
+    @classmethod
+    def of(cls, found: LdrawModel) -> Self:
+        """Return what a file has."""
+        return cls(found.bricks, found.has_steps, found.remarks, found.left_out)
 
 
 def check_size(bricks: Bricks, settings: Settings) -> None:

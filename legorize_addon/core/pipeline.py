@@ -262,8 +262,9 @@ def _judge(
     run.progress.finish()
     told = _notes(run, found, plan, proof, owned)
     return Judged(
-        settings=settings, scale=scale, corner=np.zeros(3), assembly=final, stability=found, supports=plan, joints=(),
-        prices=run.parts.prices, owned=owned, proof=proof, notes=(*given.notes, *notes, *told), timings=run.timings,
+        settings=settings, scale=scale, corner=np.zeros(3), left_out=given.left_out, assembly=final, stability=found,
+        supports=plan, joints=(), prices=run.parts.prices, owned=owned, proof=proof,
+        notes=(*given.notes, *notes, *told), timings=run.timings,
     )  # fmt: skip
 
 

@@ -162,7 +162,7 @@ class LEGORIZE_OT_open_ldraw(Browsing, Judging, bpy.types.Operator):
         return ExistingRequest(
             name=path.stem,
             scene=context.scene.session_uid,
-            given=Existing(found.bricks, found.has_steps, found.remarks),
+            given=Existing.of(found),
             settings=settings,
             samples=resolved(settings.learned_from),
             again=self.again,

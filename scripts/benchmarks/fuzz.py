@@ -15,6 +15,7 @@ from typing import Final
 from legorize_addon.core.errors import LegorizeError
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
+from scripts.benchmarks.fuzz_bricks import document, outcome_of_bricks
 from scripts.benchmarks.fuzz_cases import case
 from scripts.benchmarks.fuzz_checks import cells_of, faults, n_components, n_lumps, same
 from scripts.benchmarks.tables import Row, Table
@@ -52,7 +53,20 @@ def measure(*, cases: int, seed: int, first: int = 0) -> list[Table]:
         A row for every outcome with its number, and one for every case that is
         not simply built.
     """
-    rows = [run(seed, number) for number in range(first, first + cases)]
+    return _tables([run(seed, number) for number in range(first, first + cases)], cases, seed)
+
+
+def measure_bricks(*, cases: int, seed: int, first: int = 0) -> list[Table]:
+    """Read, judge and lay again hostile brick models, each in a process of its own; as :func:`measure`."""
+    rows: list[Row] = [
+        {"case": number, "body": document(seed, number)[0], **limited(seed, number, outcome_of_bricks)}
+        for number in range(first, first + cases)
+    ]
+    return _tables(rows, cases, seed)
+
+
+def _tables(rows: list[Row], cases: int, seed: int) -> list[Table]:
+    """Return how often each outcome came, and the rows of what is not simply built."""
     kinds = sorted({str(row["outcome"]) for row in rows})
     counts: tuple[Row, ...] = tuple(
         {"outcome": kind, "cases": sum(row["outcome"] == kind for row in rows), "met": kind in GOOD} for kind in kinds
@@ -79,11 +93,18 @@ def run(seed: int, number: int, work: Work | None = None) -> Row:
     dict
         Body, size, outcome, what is to be said, and CPU seconds.
     """
+    name, _, settings = case(seed, number)
+    size = f"{settings.size_by} {getattr(settings, settings.size_by)}"
+    return {"case": number, "body": name, "size": size, **limited(seed, number, work or outcome_of)}
+
+
+def limited(seed: int, number: int, work: Work) -> Row:
+    """Work on a case in a process of its own, within limits; return outcome, what is to be said, and CPU seconds."""
     # the children of a server that has done nothing but import: what runs in this process does not touch them
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(["__main__", __name__])
     here, there = context.Pipe(duplex=False)
-    child = context.Process(target=_child, args=(there, seed, number, work or outcome_of, SECONDS))
+    child = context.Process(target=_child, args=(there, seed, number, work, SECONDS))
     child.start()
     there.close()
     # a killed child says nothing, and its end of the pipe may live on in the server
@@ -93,8 +114,7 @@ def run(seed: int, number: int, work: Work | None = None) -> Row:
         if here.poll():
             told = here.recv()
     child.join()
-    name, _, settings = case(seed, number)
-    return {"case": number, "body": name, "size": f"{settings.size_by} {getattr(settings, settings.size_by)}", **told}
+    return told
 
 
 def _child(there: Connection, seed: int, number: int, work: Work, seconds: int) -> None:

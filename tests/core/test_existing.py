@@ -41,7 +41,7 @@ BEST = {
 def existing(text):
     """Return what is read of a text."""
     found = read_ldraw(text, CATALOGUE)
-    return Existing(found.bricks, found.has_steps, found.remarks)
+    return Existing.of(found)
 
 
 def facts_of(model):
@@ -68,6 +68,7 @@ def test_files_of_others_are_judged_and_laid_again(name):
     facts = facts_of(judged)
     assert facts["counts"]["bricks"] == bricks
     assert "input" not in facts
+    assert facts["left_out_parts"] == ({"60592": 2, "60623": 1} if name == "unknown-parts.ldr" else {})
     assert summary(facts, "out", ["model.ldr"])[0].startswith(f"Model: {bricks} bricks in")
     files = output_texts(judged, CATALOGUE, facts, name)
     assert {"model.ldr", "model.mpd", "build_order.csv", "parts.csv", "bricklink.xml"} <= set(files)

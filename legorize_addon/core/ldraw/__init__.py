@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from .reader import SUFFIXES, read_file, read_ldraw
+from .reader import SUFFIXES, LdrawModel, read_file, read_ldraw
 
 __all__ = [
     "SUFFIXES",
+    "LdrawModel",
     "read_file",
     "read_ldraw",
 ]

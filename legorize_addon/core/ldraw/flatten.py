@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Final
@@ -11,13 +12,16 @@ import numpy as np
 from ..arrays import Floats, Ints
 from ..errors import BuildError
 from ..files import MAIN_COLOUR
-from .lines import Document, Reference, Section
+from .lines import Document, Reference, Section, brief
 
 EDGE_COLOUR: Final = 24
 """LDraw's code for the colour of the edges of a sub-model."""
 
 MOST_PARTS: Final = 1_000_000
-"""Parts of a model, sub-models counted as often as they are called."""
+"""Parts of a model, or ends of steps, sub-models counted as often as they are called."""
+
+MOST_MOVES: Final = 20 * MOST_PARTS
+"""Parts of all models together: so often are parts moved until they stand where they belong."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,7 +82,7 @@ def flatten(document: Document, is_part: Callable[[str], bool]) -> tuple[Parts, 
     Raises
     ------
     BuildError
-        A model contains itself, or there are too many parts.
+        A model contains itself, or there are too many parts or steps.
     """
     calls = {
         name: [item for item in section.items if item is not None and _is_model(document, item.name, is_part)]
@@ -88,9 +92,14 @@ def flatten(document: Document, is_part: Callable[[str], bool]) -> tuple[Parts, 
     _check_number(document, order, calls)
     names: dict[str, int] = {}
     flat: dict[str, tuple[Parts, int]] = {}
+    waiting = Counter(item for name in order for item in {call.name for call in calls[name]})
     for name in order:
         called = {id(item) for item in calls[name]}
         flat[name] = _flat(document.sections[name], called, flat, names)
+        for inner in {item.name for item in calls[name]}:
+            waiting[inner] -= 1
+            if not waiting[inner]:
+                del flat[inner]
     return flat[document.main][0], list(names)
 
 
@@ -114,23 +123,29 @@ def _inner_first(main: str, calls: dict[str, list[Reference]]) -> list[str]:
         path[name] += 1
         item = calls[name][at]
         if item.name in path:
-            raise BuildError(f"Line {item.line} puts the model {item.name} into itself: remove that line.")
+            raise BuildError(f"Line {item.line} puts the model {brief(item.name)} into itself: remove that line.")
         if item.name not in done:
             path[item.name] = 0
     return order
 
 
 def _check_number(document: Document, order: list[str], calls: dict[str, list[Reference]]) -> None:
-    """Refuse documents that unfold to more parts than anybody builds, before they do."""
-    count: dict[str, int] = {}
+    """Refuse documents that unfold to more than anybody builds, before they do."""
+    parts: dict[str, int] = {}
+    steps: dict[str, int] = {}
     for name in order:
-        parts = sum(item is not None for item in document.sections[name].items) - len(calls[name])
-        count[name] = parts + sum(count[item.name] for item in calls[name])
-    if count[document.main] > MOST_PARTS:
-        raise BuildError(
-            f"The model has more than {MOST_PARTS:,} parts, sub-models counted as often as they are called: "
-            "build it in smaller ones."
-        )
+        items = document.sections[name].items
+        ends = sum(item is None for item in items)
+        parts[name] = len(items) - ends - len(calls[name]) + sum(parts[item.name] for item in calls[name])
+        steps[name] = ends + sum(steps[item.name] for item in calls[name])
+    for what, count in (("parts", parts[document.main]), ("steps", steps[document.main])):
+        if count > MOST_PARTS:
+            raise BuildError(
+                f"The model has more than {MOST_PARTS:,} {what}, sub-models counted as often as they are called: "
+                "build it in smaller ones."
+            )
+    if sum(parts.values()) > MOST_MOVES:
+        raise BuildError("Its sub-models lie in each other too deeply for so many parts: build it in smaller ones.")
 
 
 def _flat(
@@ -168,13 +183,15 @@ def _table(items: list[tuple[Reference, int]], names: dict[str, int]) -> Parts:
 def _moved(parts: Parts, steps: int, call: Reference, step: int) -> Parts:
     """Return the parts of a model where a line puts it, in the colour that this gives."""
     matrix = np.array(call.numbers[3:]).reshape(3, 3)
-    return replace(
-        parts,
-        colour=np.where(parts.colour == MAIN_COLOUR, call.colour, parts.colour),
-        matrix=matrix @ parts.matrix,
-        place=parts.place @ matrix.T + np.array(call.numbers[:3]),
-        step=parts.step + step,
-    )
+    # models that are stretched in each other come to numbers without end, and to none at all
+    with np.errstate(over="ignore", invalid="ignore"):
+        return replace(
+            parts,
+            colour=np.where(parts.colour == MAIN_COLOUR, call.colour, parts.colour),
+            matrix=matrix @ parts.matrix,
+            place=parts.place @ matrix.T + np.array(call.numbers[:3]),
+            step=parts.step + step,
+        )
 
 
 def _concatenated(tables: list[Parts]) -> Parts:

@@ -43,6 +43,9 @@ def quarter_turns(matrix: Floats, corner: Mask) -> tuple[Ints, Mask]:
         Whether the matrix mirrors. Our parts look the same in a mirror, so they
         have a turn all the same.
     """
+    # a turn has entries from -1 to 1; numbers without end, or none, would spoil the arithmetic
+    turning = (np.abs(matrix) < 2).all(axis=(1, 2), keepdims=True)
+    matrix = np.where(turning, matrix, 0.0)
     whole = np.rint(matrix)
     straight = (np.abs(matrix - whole) <= ROUNDED).all(axis=(1, 2))
     mirrored: Mask = straight & (np.linalg.det(whole) < -0.5)

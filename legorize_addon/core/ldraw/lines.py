@@ -13,12 +13,16 @@ from typing import Final
 
 from ..errors import BuildError
 from ..model import Role
+from ..safe_text import one_line
 
 FARTHEST: Final = 1e7
 """LDU from the origin beyond which no line is believed: four kilometres."""
 
 MOST_BYTES: Final = 64_000_000
 """Of a file: a brick takes about 40 of them, so this is more than a million bricks."""
+
+NAMED: Final = 40
+"""Letters of a name in a sentence."""
 
 DIRECT: Final = (0x2000000, 0x3000000)
 """Solid and transparent direct colours: the sum of one of these and 0xRRGGBB."""
@@ -88,6 +92,12 @@ class Document:
     def main(self) -> str:
         """Name of the first model, which is the one that is read."""
         return next(iter(self.sections))
+
+
+def brief(name: str) -> str:
+    """Return a name that can stand in a sentence: in one line, without controls, and not endless."""
+    name = one_line(name[: 2 * NAMED])
+    return name if len(name) <= NAMED else f"{name[: NAMED - 1]}\u2026"
 
 
 def decoded(data: bytes, name: str) -> str:

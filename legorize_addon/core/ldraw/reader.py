@@ -17,7 +17,7 @@ from ..model import Bricks, Catalogue
 from .colours import Replaced, brick_colours
 from .flatten import EDGE_COLOUR, Parts, flatten
 from .lattice import cells, quarter_turns
-from .lines import DIRECT, Document, decoded, parse, section_has_parts
+from .lines import DIRECT, FARTHEST, Document, brief, decoded, parse, section_has_parts
 
 SUFFIXES: Final = (".ldr", ".mpd")
 """Names of files that are read end like this."""
@@ -114,7 +114,9 @@ def read_ldraw(text: str, catalogue: Catalogue, *, beside: Callable[[str], str |
     left_out = Counter(_number(names[row]) for row in parts.name[~known].tolist())
     corner_part = np.array([each.corner for each in catalogue.parts])[part] & known
     turn, mirrored = quarter_turns(parts.matrix, corner_part)
-    upright = known & (turn >= 0)
+    # far away by calls within calls, or nowhere
+    near: Mask = (np.abs(parts.place) < FARTHEST).all(axis=1)
+    upright = known & near & (turn >= 0)
     corner, on = cells(parts.place[upright], part[upright], turn[upright], catalogue)
     seated = np.flatnonzero(upright)[on]
     colours, replaced = brick_colours(parts.colour[seated], catalogue, document.colours)
@@ -123,7 +125,8 @@ def read_ldraw(text: str, catalogue: Catalogue, *, beside: Callable[[str], str |
     remarks = (
         *_on_lines(document),
         *_on_parts(left_out),
-        *_on_places(parts.line, known & ~upright, _rows(upright, ~on), mirrored & upright),
+        *_on_places(parts.line, known & ~near, known & near & ~upright, _rows(upright, ~on)),
+        *_on_mirrored(parts.line, mirrored & upright),
         *_on_colours(replaced, catalogue),
     )
     return LdrawModel(bricks, read.line, bool(bricks.step.max(initial=0)), dict(left_out), remarks)
@@ -150,7 +153,7 @@ def _bricks(parts: Parts, part: Ints, corner: Ints, turn: Ints, colour: Ints, ca
 
 
 def _number(name: str) -> str:
-    return name.rsplit("/", 1)[-1].removesuffix(".dat")
+    return brief(name.rsplit("/", 1)[-1].removesuffix(".dat"))
 
 
 def _bytes(path: Path) -> bytes:
@@ -213,13 +216,17 @@ def _on_parts(left_out: Counter[str]) -> Iterator[str]:
         yield f"{many} not in the catalogue, left out: {named}{more}."
 
 
-def _on_places(line: Ints, tilted: Mask, between: Mask, mirrored: Mask) -> Iterator[str]:
+def _on_places(line: Ints, far: Mask, tilted: Mask, between: Mask) -> Iterator[str]:
     for rows, one, more in (
+        (far, "lies more than 4 km away", "lie more than 4 km away"),
         (tilted, "does not stand upright", "do not stand upright"),
         (between, "lies between the cells of the grid", "lie between the cells of the grid"),
     ):
         if rows.any():
             yield f"{_parts(int(rows.sum()))} {one if rows.sum() == 1 else more}, left out ({_first(line[rows])})."
+
+
+def _on_mirrored(line: Ints, mirrored: Mask) -> Iterator[str]:
     if mirrored.any():
         verb, where = "is" if mirrored.sum() == 1 else "are", _first(line[mirrored])
         yield f"{_parts(int(mirrored.sum()))} {verb} mirrored, read as the same part unmirrored ({where})."

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..build import Build, Finished, Mosaic
+from ..build import Build, Finished, Judged, Mosaic
 from ..building import Kind
 from ..errors import enough_memory
 from ..measures import lower_bound
@@ -99,6 +99,7 @@ def report(
         "building": _building(build),
         "supports": _supports(supports, catalogue),
         "unavailable_part_colours": _pairs(not_made(wanted.lots)),
+        **({"left_out_parts": dict(build.left_out)} if isinstance(build, Judged) else {}),
         "unknown_elements": _pairs([lot for lot in wanted.lots if not lot.element]),
         "timings_s": {stage: round(seconds, 4) for stage, seconds in build.timings.items()},
         "notes": list(build.notes),

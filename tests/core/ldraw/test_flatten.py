@@ -74,3 +74,39 @@ def test_unfolding_is_bounded():
     calls = "".join(f"0 FILE m{row}\n" + f"1 16 0 0 0 {UPRIGHT} m{row + 1}\n" * 10 for row in range(20))
     with pytest.raises(BuildError, match=f"more than {MOST_PARTS:,} parts"):
         flat(f"{calls}0 FILE m20\n1 4 0 0 0 {UPRIGHT} 3005.dat\n")
+
+
+def chain(deep, inner, wide=1, matrix=UPRIGHT):
+    """Return models that each call the next one some times, and the last one's lines."""
+    calls = "".join(f"0 FILE m{row}\n" + f"1 16 0 0 0 {matrix} m{row + 1}\n" * wide for row in range(deep))
+    return f"{calls}0 FILE m{deep}\n{inner}\n"
+
+
+def test_steps_are_bounded():
+    """Seventy models that double the steps of the next one would have more than a number can say."""
+    with pytest.raises(BuildError, match=f"more than {MOST_PARTS:,} steps"):
+        flat(chain(70, "0 STEP", wide=2))
+    assert len(flat(chain(70, "", wide=2))[0]) == 0
+
+
+def test_moves_are_bounded():
+    """A hundred models around a million parts would be moved a hundred times: refused before."""
+    brick = f"1 4 0 0 0 {UPRIGHT} 3005.dat"
+    many = "\n".join([brick] * 1000)
+    inner = f"0 FILE n\n{many}\n"
+    calls = "\n".join([f"1 4 0 0 0 {UPRIGHT} n"] * 900)
+    with pytest.raises(BuildError, match=r"lie in each other too deeply .*\.$"):
+        flat(chain(100, calls) + inner)
+
+
+def test_stretching_has_no_end():
+    """Models that stretch each other beyond all numbers put their parts nowhere, without a warning."""
+    parts, _ = flat(chain(80, f"1 4 1 2 3 {UPRIGHT} 3005.dat", matrix="1e6 0 0 0 1e6 0 0 0 1e6"))
+    assert not np.isfinite(parts.matrix).all()
+
+
+def test_endless_names_are_cut():
+    """The sentence about a model in itself stays a sentence."""
+    name = "m" * 5000
+    with pytest.raises(BuildError, match=r"^Line 2 puts the model m{39}\u2026 into itself: remove that line\.$"):
+        flat(f"0 FILE {name}\n1 16 0 0 0 {UPRIGHT} {name}\n")

@@ -95,6 +95,12 @@ def test_unknown_parts_are_counted_by_number():
         ),
         (f"1 4 30 -24 nan {UPRIGHT} 3005.dat", "Line 2 is not LDraw, left out.", False),
         ("3 4 0 0 0 1 0 0 0 1 0", "1 line draws geometry that is no part, left out.", False),
+        ("1 4 0 0 0 1e6 0 0 0 1e6 0 0 0 1e6 3005.dat", "1 part does not stand upright, left out (line 2).", False),
+        (
+            f"1 4 0 0 0 {UPRIGHT} \x1b[31m{'a' * 99}.dat",
+            "1 part is not in the catalogue, left out: 1 x [31m" + 35 * "a" + "\u2026.",
+            False,
+        ),
         (f"1 16 30 -24 10 {UPRIGHT} 3005.dat", "1 part has no colour, read as Light Bluish Gray.", True),
         (f"1 99 30 -24 10 {UPRIGHT} 3005.dat", "1 part has the unknown colour 99, read as Light Bluish Gray.", True),
         (
@@ -109,6 +115,14 @@ def test_what_is_changed_or_left_out_is_told(line, remark, stays):
     bricks, remarks = read(f"1 4 10 -24 10 {UPRIGHT} 3005.dat\n{line}\n")
     assert len(bricks) == 1 + stays
     assert remarks == (remark,)
+
+
+def test_parts_at_the_end_of_the_world_are_left_out():
+    """Five thousand calls that each go on by four kilometres lead to numbers that no cell has."""
+    calls = "".join(f"0 FILE m{row}\n1 16 9999980 0 0 {UPRIGHT} m{row + 1}\n" for row in range(5000))
+    bricks, remarks = read(f"{calls}0 FILE m5000\n1 4 0 0 0 {UPRIGHT} 3005.dat\n")
+    assert bricks == []
+    assert remarks == ("1 part lies more than 4 km away, left out (line 10002).",)
 
 
 def test_models_beside_the_file_are_found(tmp_path):
