@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
-from types import MappingProxyType
 from typing import Final, Literal, Self
 
 import numpy as np
@@ -49,7 +48,7 @@ class Existing:
     bricks: Bricks
     has_steps: bool = False
     notes: tuple[str, ...] = ()
-    left_out: Mapping[str, int] = MappingProxyType({})
+    left_out: Mapping[str, int] = field(default_factory=dict)
 
     @classmethod
     def of(cls, found: LdrawModel) -> Self:
