@@ -213,6 +213,8 @@ def main(arguments: Sequence[str]) -> int:
         options = vars(parser().parse_args(arguments))
         out, taken = options.pop("out"), Taken(**{name: options.pop(name) for name in Taken._fields})
         only_settings = options.pop("print_settings")
+        if options.pop("everything"):
+            options |= {"instructions": True, "layers": True}
         wanted = Wanted(**{name: options.pop(name) for name in Wanted._fields})
         wanted.check()
         taken.check()
@@ -342,6 +344,10 @@ def add_paper(made: Parser) -> None:
     made.add_argument(
         "--actual-size", action="store_true",
         help="draw the layer maps in the real size of the bricks, so that these can be laid on the prints",
+    )  # fmt: skip
+    made.add_argument(
+        "--everything", action="store_true",
+        help="write all that the panel's Export Everything writes: the same as --instructions --layers",
     )  # fmt: skip
     made.add_argument("--paper", choices=tuple(PAPERS), default="A4", help="size of the pages (default: A4)")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,6 +73,8 @@ class Finished:
         Sentences for the user.
     timings : mapping of str to float
         CPU seconds by stage.
+    texts : mapping of str to str
+        Contents of files that are kept for later, by name, where somebody keeps them.
     """
 
     settings: Settings
@@ -86,6 +88,7 @@ class Finished:
     proof: Proof | None
     notes: tuple[str, ...]
     timings: Mapping[str, float]
+    texts: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def bricks(self) -> Bricks:

@@ -8,6 +8,9 @@ names is ever touched.
 
 from __future__ import annotations
 
+import base64
+import json
+import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Final
@@ -231,6 +234,17 @@ class BuildState:
     def steps(self) -> dict[str, Any]:
         """The building steps, see :func:`~legorize_addon.scene.kept_steps.stored_steps`; empty if unknown."""
         return self._plain("steps")
+
+    @property
+    def texts(self) -> dict[str, str]:
+        """Contents of files that were kept, by name; empty where an earlier version built it."""
+        packed = self._group.get("texts")
+        return dict(json.loads(zlib.decompress(base64.b85decode(packed)))) if packed else {}
+
+    def keep_texts(self, texts: Mapping[str, str]) -> None:
+        """Keep the contents of files, by name: packed, since tables of a large model have some hundred kilobytes."""
+        packed = zlib.compress(json.dumps(dict(texts)).encode("ascii"))
+        self._group["texts"] = base64.b85encode(packed).decode("ascii")
 
     def add_building(self, **figures: int | float | str) -> None:
         """Keep more figures of the building."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import bpy
 import numpy as np
@@ -20,10 +21,11 @@ from . import job
 from .build import Browsing, OnBuild, Working
 from .export import chosen_path
 from .instructions import title_of
+from .kept_texts import with_texts
 from .learned_files import resolved
 from .parts import list_parts_of
 from .properties import current_build
-from .requests import by_uid
+from .requests import absolute_files, by_uid
 from .settings_properties import settings_of
 
 if TYPE_CHECKING:
@@ -51,6 +53,8 @@ class ExistingRequest:
     settings : Settings
     samples : str
         Path of the training file that the settings name.
+    files : mapping of str to str
+        Absolute paths of the other files that settings name, by the setting.
     again : bool
         Whether it is laid again.
     steps : str
@@ -72,6 +76,7 @@ class ExistingRequest:
     given: Existing
     settings: Settings
     samples: str
+    files: Mapping[str, Any]
     again: bool
     steps: StepsFrom
     scale: float
@@ -84,9 +89,10 @@ class ExistingRequest:
         """Run the core; no Blender in here."""
         from ..core.pipeline import judge
 
-        settings = replace(self.settings, learned_from=self.samples)
+        settings = replace(self.settings, learned_from=self.samples, **self.files)
         made = judge(self.given, settings, again=self.again, steps=self.steps, scale=self.scale, progress=progress)
-        return replace(made, settings=self.settings, corner=np.array(self.origin))
+        made = replace(made, settings=self.settings, corner=np.array(self.origin))
+        return with_texts(made, title=self.name, remarks=(), mm_per_unit=self.mm_per_unit)
 
 
 class Judging(Working):
@@ -165,6 +171,7 @@ class LEGORIZE_OT_open_ldraw(Browsing, Judging, bpy.types.Operator):
             given=Existing.of(found),
             settings=settings,
             samples=resolved(settings.learned_from),
+            files=absolute_files(settings),
             again=self.again,
             steps=self.steps,
             scale=1 / self.magnified,
@@ -197,6 +204,7 @@ class LEGORIZE_OT_again(OnBuild, Judging, bpy.types.Operator):
             given=Existing(read_bricks(build)),
             settings=settings,
             samples=resolved(settings.learned_from),
+            files=absolute_files(settings),
             again=True,
             steps="new",
             scale=1 / (state.unit_per_mm * mm_per_unit),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
@@ -17,8 +17,10 @@ from ..scene import Source, builds, sources_of
 from ..view import show_result
 from . import job
 from .build import Working
+from .kept_texts import with_texts
+from .parts import list_parts_of
 from .properties import current_build
-from .requests import by_uid
+from .requests import absolute_files, by_uid
 from .settings_properties import settings_of, take_renamed
 
 if TYPE_CHECKING:
@@ -41,6 +43,8 @@ class ImageRequest:
         What could not be read literally.
     settings : Settings
         The user's choices.
+    files : mapping of str to str
+        Absolute paths of the files that settings name, by the setting.
     mm_per_unit : float
         World mm per Blender unit.
     replaces : tuple of int
@@ -52,6 +56,7 @@ class ImageRequest:
     picture: Picture
     remarks: tuple[str, ...]
     settings: Settings
+    files: Mapping[str, Any]
     mm_per_unit: float
     replaces: tuple[int, ...]
 
@@ -59,7 +64,9 @@ class ImageRequest:
         """Run the core; no Blender in here."""
         from ..core.pipeline import legorize_image
 
-        return legorize_image(self.picture, self.settings, progress)
+        made = legorize_image(self.picture, replace(self.settings, **self.files), progress)
+        made = replace(made, settings=self.settings)
+        return with_texts(made, title=self.name, remarks=self.remarks, mm_per_unit=self.mm_per_unit)
 
 
 class LEGORIZE_OT_image(Working, bpy.types.Operator):
@@ -91,12 +98,14 @@ class LEGORIZE_OT_image(Working, bpy.types.Operator):
 
         renamed = take_renamed(context.scene.legorize.settings)
         picture, remarks = picture_from(image)
+        settings = settings_of(context.scene.legorize.settings)
         return ImageRequest(
             name=image.name,
             scene=context.scene.session_uid,
             picture=picture,
             remarks=(*renamed, *remarks),
-            settings=settings_of(context.scene.legorize.settings),
+            settings=settings,
+            files=absolute_files(settings),
             mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
             replaces=tuple(build.session_uid for build in _mosaics_of(context.scene, image.name)),
         )
@@ -118,6 +127,7 @@ class LEGORIZE_OT_image(Working, bpy.types.Operator):
             replaces=by_uid(bpy.data.collections, order.replaces),
         )
         view.build[IMAGE_KEY] = order.name
+        list_parts_of(view.build, mosaic)
         across, deep = mosaic.canvas.size
         self.report({"INFO"}, f"Mosaic built: {len(mosaic.bricks)} bricks on {across} x {deep} studs.")
         for note in notes:

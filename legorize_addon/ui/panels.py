@@ -19,12 +19,13 @@ from ..view import LEGEND, animation_of, can_highlight, has_margins, n_pieces, n
 from . import job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
 from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
+from .everything import LEGORIZE_OT_export_folder
 from .existing import LEGORIZE_OT_again, LEGORIZE_OT_open_ldraw
 from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
 from .instructions import LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps
 from .learning import LEGORIZE_OT_forget, LEGORIZE_OT_learn
 from .looks import draw_looks
-from .parts import LEGORIZE_OT_export_folder, LEGORIZE_OT_export_list, LEGORIZE_OT_list_parts, LEGORIZE_OT_show_all
+from .parts import LEGORIZE_OT_export_list, LEGORIZE_OT_list_parts, LEGORIZE_OT_show_all
 from .progress_text import progress_text
 from .properties import current_build
 

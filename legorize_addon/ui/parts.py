@@ -21,7 +21,7 @@ from bpy_extras.io_utils import ExportHelper
 
 from ..core.errors import BuildError
 from ..core.model import Assembly, Colour, Part, Role, load_catalogue
-from ..core.shopping import FORMATS, Lot, ShoppingList, list_texts, priced, shopping_list
+from ..core.shopping import FORMATS, Lot, ShoppingList, priced, shopping_list
 from ..scene import damage, read_bricks, steps_of
 from ..view import can_highlight, heat_map_shown, highlight_step, show_heat_map, show_lot, shown_lot
 from .build import OnBuild
@@ -226,46 +226,12 @@ class LEGORIZE_OT_export_list(OnBuild, bpy.types.Operator, ExportHelper):
         return {"FINISHED"}
 
 
-class LEGORIZE_OT_export_folder(OnBuild, bpy.types.Operator, ExportHelper):
-    """Write all lists and LDraw files of the build that the panel shows into a folder."""
-
-    bl_idname = "legorize.export_folder"
-    bl_label = "Export Everything"
-    bl_description = "Write all lists of parts, those of the supports, and the model as LDraw into a new folder"
-    bl_options = {"REGISTER"}
-    filename_ext = ""
-    use_filter_folder = True
-    filter_glob: StringProperty(default="", options={"HIDDEN"})
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Write the folder."""
-        return self.reported(self._write, current_build(context.scene))
-
-    def _write(self, build: bpy.types.Collection) -> set[str]:
-        from ..core.files import new_folder, write_ldr, write_mpd
-
-        path, bricks, title = chosen_path(self), read_bricks(build), title_of(build)
-        whole = Assembly(bricks, load_catalogue())
-        finished = whole.take(bricks.role != Role.SUPPORT_OUTSIDE)
-        texts = {
-            "model.ldr": write_ldr(finished, name="model.ldr", title=title),
-            "model.mpd": write_mpd(whole, steps_of(build), name="model.ldr", title=title),
-            **list_texts(*lists_of(build)),
-        }
-        with new_folder(path) as fresh:
-            for name, text in texts.items():
-                (fresh / name).write_text(text, encoding="utf-8", newline="")
-        self.report(*written(path, build))
-        return {"FINISHED"}
-
-
 classes = (
     LegorizeLot,
     LEGORIZE_UL_lots,
     LEGORIZE_OT_show_all,
     LEGORIZE_OT_list_parts,
     LEGORIZE_OT_export_list,
-    LEGORIZE_OT_export_folder,
 )
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
 

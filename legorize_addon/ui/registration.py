@@ -6,6 +6,7 @@ from . import (
     animation,
     build,
     build_larger,
+    everything,
     existing,
     export,
     instructions,
@@ -18,7 +19,8 @@ from . import (
 )
 
 _PARTS = (
-    properties, build, build_larger, export, instructions, animation, learning, looks, parts, existing, panels,
+    properties, build, build_larger, export, instructions, animation, learning, looks, parts, everything, existing,
+    panels,
     mosaic,
 )  # fmt: skip
 

@@ -15,6 +15,7 @@ from ..core.units import MM_PER_METRE
 from ..reading import has_surface
 from ..scene import builds_of, is_own, orphans, sources_of
 from ..view import readable
+from .kept_texts import with_texts
 from .learned_files import resolved
 from .properties import current_build
 
@@ -81,7 +82,8 @@ class BuildRequest:
 
         build = legorize(self.mesh, replace(self.settings, learned_from=self.samples, **self.files), progress)
         # the scene keeps the name that holds on every machine
-        return replace(build, settings=self.settings)
+        build = replace(build, settings=self.settings)
+        return with_texts(build, title=self.name, remarks=self.remarks, mm_per_unit=self.mm_per_unit)
 
 
 def chosen_sources(context: bpy.types.Context) -> list[bpy.types.Object]:

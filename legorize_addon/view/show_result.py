@@ -64,6 +64,7 @@ def show_result(
     model = Model(supports.assembly, *place, stability=build.stability, steps=supports.steps)
     shown = show_build(scene, model, replace(source, settings=build.settings), detail=detail, replaces=earlier)
     state_of(shown).add_building(by_hand=len(supports.unsteady), **_costs(build))
+    state_of(shown).keep_texts(build.texts)
     if Role.SUPPORT_OUTSIDE in roles_shown(shown):
         show_role(shown, Role.SUPPORT_OUTSIDE, visible=False)
     if kept is not None:

@@ -29,11 +29,18 @@ def output_texts(build: Finished, catalogue: Catalogue, facts: dict[str, Any], t
     """
     everything = Assembly(build.supports.bricks, catalogue)
     return {
-        "model.ldr": write_ldr(build.supports.final_alone, name="model.ldr", title=title, follow="model.mpd"),
         "model.mpd": write_mpd(everything, build.supports.steps, name="model.ldr", title=title),
+        **list_texts(*wanted_lists(build, catalogue, title)),
+        **later_texts(build, catalogue, facts, title),
+    }
+
+
+def later_texts(build: Finished, catalogue: Catalogue, facts: dict[str, Any], title: str) -> dict[str, str]:
+    """Return those of the files, by name, that a scene keeps, since its bricks alone do not tell what is in them."""
+    return {
+        "model.ldr": write_ldr(build.supports.final_alone, name="model.ldr", title=title, follow="model.mpd"),
         "build_order.csv": _order(build, catalogue),
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
-        **list_texts(*wanted_lists(build, catalogue, title)),
         **missing_texts(build, catalogue, title),
         **(_tables(build, catalogue, title) if isinstance(build, Build) else {}),
         **({"tiles.csv": tiles_csv(Assembly(build.bricks, catalogue))} if isinstance(build, Mosaic) else {}),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from collections import Counter
 from types import SimpleNamespace
 
@@ -13,13 +14,17 @@ import pytest
 from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.core.progress import silent
+from legorize_addon.core.report.outputs import output_texts
 from legorize_addon.core.shopping.formats import FORMATS
 from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.collections import read_bricks
 from legorize_addon.scene.instancing import GHOST_KEY
-from legorize_addon.scene.state import state_of
+from legorize_addon.scene.state import BUILD_KEY, state_of
 from legorize_addon.ui.parts import places
 from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.requests import build_request, chosen_sources
+from legorize_addon.ui.settings_properties import settings_of
 from legorize_addon.view.lots import shown_lot
 from tests.blender.builders import add_table_on_one_leg
 from tests.core.foreign import nested_document, unknown_parts
@@ -96,8 +101,15 @@ def test_every_list_is_exported(build, tmp_path):
     """Each format is written as the folder has it; supports have lists of their own; all sums are the model's."""
     assert bpy.ops.legorize.export_folder(filepath=str(tmp_path / "all")) == {"FINISHED"}
     names = {kind.file for kind in FORMATS}
-    there = {path.name for path in (tmp_path / "all").iterdir() if not path.name.startswith(".")}
-    assert {"model.ldr", "model.mpd"} | names | {f"support-{name}" for name in names} <= there
+    there = {path.relative_to(tmp_path / "all").as_posix() for path in (tmp_path / "all").rglob("*") if path.is_file()}
+    rest = {"model.ldr", "model.mpd", "build_order.csv", "report.json", "instructions.html", "instructions.pdf"}
+    tables = {f"tables/table_{number}.csv" for number in range(1, 5)}
+    maps = {name for name in there if name.startswith("layers/")}
+    assert there - maps == rest | tables | names | {f"support-{name}" for name in names}
+    facts = json.loads((tmp_path / "all" / "report.json").read_text())
+    assert set(facts["files"]) == there - {"report.json"}
+    assert facts["counts"]["bricks"] == state_of(build).summary["bricks"]
+    assert len(maps) >= facts["grid"]["layers"]
     for kind in FORMATS:
         for prefix, supports in (("", False), ("support-", True)):
             path = tmp_path / f"{prefix}{kind.file}"
@@ -106,6 +118,33 @@ def test_every_list_is_exported(build, tmp_path):
     model = read_ldraw((tmp_path / "all" / "model.ldr").read_text(), load_catalogue()).bricks
     with (tmp_path / "parts.csv").open(newline="", encoding="utf-8") as file:
         assert {(row["part"], int(row["colour"])): int(row["count"]) for row in csv.DictReader(file)} == lots(model)
+
+
+def test_folder_is_that_of_the_command_line(build, tmp_path):
+    """What the panel writes of a model, the core writes of the same build, but for times in the report."""
+    assert bpy.ops.legorize.export_folder(filepath=str(tmp_path / "all"), booklet=False, maps=False) == {"FINISHED"}
+    context = bpy.context
+    order = build_request(context, chosen_sources(context), settings_of(context.scene.legorize.settings))
+    made = order.work(silent)
+    facts = json.loads(made.texts["report.json"])
+    files = output_texts(made, load_catalogue(), facts, order.name)
+    there = {path.relative_to(tmp_path / "all").as_posix() for path in (tmp_path / "all").rglob("*") if path.is_file()}
+    assert there == set(files)
+    for name in there - {"report.json", "tables/table_3.csv"}:
+        assert (tmp_path / "all" / name).read_bytes().decode() == files[name], name
+    written = json.loads((tmp_path / "all" / "report.json").read_text())
+    for each in (written, facts):
+        each.pop("timings_s")
+        each.pop("files", None)
+    assert written == facts
+
+
+def test_model_without_its_report_is_written_all_the_same(build, tmp_path):
+    """A file of an earlier version kept no report: the rest is written, with a remark."""
+    del build[BUILD_KEY]["texts"]
+    assert bpy.ops.legorize.export_folder(filepath=str(tmp_path / "all"), booklet=False, maps=False) == {"FINISHED"}
+    assert not (tmp_path / "all" / "report.json").exists()
+    assert (tmp_path / "all" / "model.mpd").exists()
 
 
 def test_list_of_nothing_is_refused(tmp_path):
