@@ -62,7 +62,7 @@ class _Order:
     def __init__(self, assembly: Assembly, pairs: Rows) -> None:
         level = assembly.bricks.corner[:, 2]
         self.level = level.tolist()
-        self.ground = int(level.min(initial=0))
+        self.ground = int(level.min(initial=np.iinfo(level.dtype).max))
         self.placed: set[int] = set()
         self.above = _neighbours(pairs, len(level))
         self.below = _neighbours(pairs[:, ::-1], len(level))

@@ -150,7 +150,7 @@ class Planner:
         below = column_pairs(self.bricks.take(rows), self.catalogue)
         # a piece may stand beside the first one
         ground = level == level[own].min(initial=np.iinfo(np.int64).max)
-        return find_units(node, level, pairs, below, ground=ground, rank=self.rank[rows])
+        return find_units(node, level, pairs, below, ground=ground, rank=self.rank[rows], piece=~own)
 
     def _submodels(self, number: int, rows: Ints, node: Ints, units: Units, pieces: dict[int, int]) -> dict[int, int]:
         """Return the submodel that each unit is, if it is one, and plan those that are new."""

@@ -44,7 +44,16 @@ class Units:
     before: Rows
 
 
-def find_units(node: Ints, level: Ints, pairs: Rows, below: Rows, *, ground: Mask, rank: Ints | None = None) -> Units:
+def find_units(
+    node: Ints,
+    level: Ints,
+    pairs: Rows,
+    below: Rows,
+    *,
+    ground: Mask,
+    rank: Ints | None = None,
+    piece: Mask | None = None,
+) -> Units:
     """Find what goes on together.
 
     Parameters
@@ -63,13 +72,17 @@ def find_units(node: Ints, level: Ints, pairs: Rows, below: Rows, *, ground: Mas
     rank : (n,) int64 array, optional
         Which of the bricks of one level takes along first what hangs: the one of
         the least rank. Equal ranks of mirrored bricks give mirrored units.
+    piece : (n,) bool array, optional
+        Bricks of pieces that were built elsewhere: those that share their number
+        with others if it is not given.
 
     Returns
     -------
     Units
     """
     rank = np.zeros(len(node), dtype=np.int64) if rank is None else rank
-    return _Hanging(node, level, pairs, below, ground, rank).units()
+    piece = (np.bincount(node, minlength=1) > 1)[node] if piece is None else piece
+    return _Hanging(node, level, pairs, below, ground, rank, piece).units()
 
 
 def presses(assembly: Assembly, below: Rows, node: Ints) -> bool:
@@ -97,9 +110,12 @@ def presses(assembly: Assembly, below: Rows, node: Ints) -> bool:
 class _Hanging:
     """The search for units among nodes: single bricks, and pieces that are built already."""
 
-    def __init__(self, node: Ints, level: Ints, pairs: Rows, below: Rows, ground: Mask, rank: Ints) -> None:
+    def __init__(
+        self, node: Ints, level: Ints, pairs: Rows, below: Rows, ground: Mask, rank: Ints, piece: Mask
+    ) -> None:
         self.node, self.n = node, int(node.max(initial=NOBODY)) + 1
-        self.size = np.bincount(node, minlength=self.n)
+        self.piece = np.zeros(self.n, dtype=bool)
+        self.piece[node[piece]] = True
         self.level = np.full(self.n, np.iinfo(np.int64).max)
         np.minimum.at(self.level, node, level)
         self.rank = np.zeros(self.n, dtype=np.int64)
@@ -131,11 +147,11 @@ class _Hanging:
             hanging = self._below(head)
             if not hanging:
                 continue
-            if self.size[head] == 1:
-                self.owner[hanging] = self.owner[head]
-            else:
+            if self.piece[[head, *hanging]].any():
                 # a piece is finished when it is joined
                 self.pressed[hanging] = True
+            else:
+                self.owner[hanging] = self.owner[head]
             self.held[hanging] = True
             self._hold([one for each in hanging for one in self.over[each]], agenda)
 
@@ -146,7 +162,7 @@ class _Hanging:
             if not self.held[each]:
                 self.held[each] = True
                 # a piece takes nothing along: it is asked when nobody else does
-                heapq.heappush(agenda, (bool(self.size[each] > 1), int(self.level[each]), int(self.rank[each]), each))
+                heapq.heappush(agenda, (bool(self.piece[each]), int(self.level[each]), int(self.rank[each]), each))
                 found += self.over[each]
 
     def _below(self, head: int) -> list[int]:
@@ -199,7 +215,7 @@ class _Hanging:
         """Whether bricks can be one sub-assembly: few, hanging together, without a piece."""
         inside = np.zeros(self.n, dtype=bool)
         inside[members] = True
-        if (self.size[members] > 1).any() or self.pressed[members].any() or len(members) > LARGEST * self.n:
+        if self.piece[members].any() or self.pressed[members].any() or len(members) > LARGEST * self.n:
             return False
         found = components(self.pairs[inside[self.pairs].all(axis=1)], self.n)[members]
         return bool((found == found[0]).all())

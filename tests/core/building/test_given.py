@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from legorize_addon.core.building.check import walk
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.given import given_steps
 from legorize_addon.core.model.assembly import Assembly
 from tests.core.any_bricks import CATALOGUE, table
+from tests.core.building.heaps import cells_of, heap, shared_studs
 
 BRICK = CATALOGUE.part_row("3001")
 
@@ -59,3 +64,32 @@ def test_nothing_has_no_steps():
     rows, checked = found(tower())
     assert rows == []
     assert checked.buildable
+
+
+def plain(bricks):
+    """Return the moves one by one: what has something below it before what is pressed, the lowest first."""
+    cells, steps = cells_of(bricks), bricks.step.tolist()
+    level = [min(z for *_, z in each) for each in cells]
+    below = [{a for a in range(len(cells)) if shared_studs(cells[a], cells[b])} for b in range(len(cells))]
+    above = [{b for b in range(len(cells)) if a in below[b]} for a in range(len(cells))]
+    there, found = set(), []
+    for number, step in enumerate(sorted(set(steps))):
+        waiting = [row for row in range(len(cells)) if steps[row] == step]
+        while waiting:
+            ways = [(False, level[row], row) for row in waiting if level[row] == min(level) or below[row] & there]
+            ways += [(True, level[row], row) for row in waiting if above[row] & there]
+            ways += [(False, *min((level[row], row) for row in waiting))] * (not ways)
+            pressed, _, row = min(ways)
+            waiting.remove(row)
+            there.add(row)
+            found.append((row, pressed, number))
+    return found
+
+
+@settings(deadline=None, max_examples=80)
+@given(st.integers(0, 10**6))
+def test_order_within_steps_is_that_of_plain_rules(seed):
+    """Of heaps with steps at random, every move is chosen by looking at all bricks that are left."""
+    bricks = heap(seed, most=16, size=(5, 5, 9))
+    bricks = replace(bricks, step=np.random.default_rng(seed).choice([2, 5, 9], len(bricks)).astype(np.int32))
+    assert found(Assembly(bricks, CATALOGUE))[0] == plain(bricks)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import permutations
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -97,3 +99,23 @@ def test_atoms_are_pairs_that_lie_in_one_picture(seed):
     links = {(number[one], number[other]) for one, other in before.tolist()}
     links = {link for link in links if link[0] != link[1]}
     assert {(below, k) for k in range(len(atoms)) for below in atoms.below[k]} == links
+
+
+@settings(deadline=None, max_examples=80)
+@given(st.integers(0, 10**6))
+def test_a_step_is_in_the_first_of_all_orders_that_hold(seed):
+    """Of all orders in which nothing comes before what it waits for, the one whose lowest parts come soonest."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 6))
+    corner = rng.permutation(25)[:n]
+    box = np.stack([corner % 5, corner % 5, corner // 5, corner // 5], axis=1)
+    level = rng.integers(0, 3, n)
+    rank = {part: k for k, part in enumerate(rng.permutation(n).tolist())}
+    below = [[other for other in range(n) if rank[other] < rank[part] and rng.random() < 0.4] for part in range(n)]
+    holding = [
+        order
+        for order in permutations(range(n))
+        if all(set(order[:k]).issuperset(below[part]) for k, part in enumerate(order))
+    ]
+    first = min(holding, key=lambda order: [(level[part], *box[part].tolist()) for part in order])
+    assert in_turn(rng.permutation(n).tolist(), below, box, level) == list(first)

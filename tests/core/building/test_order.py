@@ -19,6 +19,7 @@ from legorize_addon.core.building.tables import Put, Table
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.contacts import contact_graph
+from tests.core.building.heaps import cells_of, heap
 from tests.core.standing import CATALOGUE, table
 
 FOOT_BEAM_HANGER = (("3004", 0, 0, 0), ("3009", 0, 0, 3), ("3024", 5, 0, 2))
@@ -186,3 +187,29 @@ def test_every_brick_once_and_only_loose_ones_in_the_air(bricks):
     assert np.isin(found.in_air, floating).all()
     assert np.isin(found.covered, floating).all()
     assert len(found.squeezed) == len(found.wrong_end) == len(found.loose_pieces) == 0
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.integers(0, 10**6))
+def test_all_are_placed_joined_and_taken_out_once(seed):
+    """Heaps in pieces with supports: no brick is forgotten, no support is left, no submodel is joined twice."""
+    rng = np.random.default_rng(seed)
+    bricks = heap(seed, most=25, n_pieces=1 + seed % 3, size=(6, 4, 12))
+    temporary = rng.random(len(bricks)) < 0.3
+    steps, found = planned(bricks, temporary)
+    moves, cells = steps.moves, cells_of(bricks)
+    placed, removed, joined = (moves.action == action for action in (Action.PLACE, Action.REMOVE, Action.JOIN))
+    assert sorted(moves.brick[placed].tolist()) == list(range(len(bricks)))
+    assert sorted(moves.brick[removed].tolist()) == np.flatnonzero(temporary).tolist()
+    assert sorted(moves.submodel[joined].tolist()) == list(range(1, len(steps.submodels)))
+    assert len(found.wrong_end) == 0
+    for number in np.unique(moves.submodel[removed]):
+        rows = moves.brick[removed & (moves.submodel == number)].tolist()
+        for turn, row in enumerate(rows):
+            low = min(z for *_, z in cells[row])
+            squares = {(x, y) for x, y, _ in cells[row]}
+            left = {(x, y) for other in rows[turn + 1 :] for x, y, z in cells[other] if z < low}
+            assert not squares & left
+    last = {int(number): int(moves.step[joined & (moves.submodel == number)][0]) for number in moves.submodel[joined]}
+    for row in np.flatnonzero(placed | removed):
+        assert moves.step[row] <= last.get(int(moves.submodel[row]), len(steps))

@@ -5,13 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import plan_steps
-from legorize_addon.core.building.steps import Kind
+from legorize_addon.core.building.steps import MAIN, Kind
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import NOBODY
+from tests.core.building.heaps import heap
 from tests.core.standing import CATALOGUE, table
 
 MAST = [("3003", 0, 0, 3 * k) for k in range(4)]
@@ -80,3 +83,53 @@ def test_bricks_arrive_with_what_they_are_part_of():
     arrival = steps.arrival(len(NESTED))
     assert arrival[4:].tolist() == [joined] * 4
     assert (arrival[:4] <= joined).all()
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.integers(0, 10**6))
+def test_arrivals_are_those_of_moving_every_brick(seed):
+    """Heaps in pieces are built move by move, each brick with the table on which it lies; only joins move it."""
+    bricks = heap(seed, most=25, n_pieces=1 + seed % 3, size=(6, 4, 12))
+    bricks.corner[:, 2] += seed % 4
+    steps, n = planned(bricks), len(bricks)
+    where, inside, model, piece = {}, {}, [NOBODY] * n, [NOBODY] * n
+    moves = steps.moves
+    columns = (moves.action.tolist(), moves.brick.tolist(), moves.submodel.tolist(), moves.step.tolist())
+    for action, brick, submodel, step in zip(*columns, strict=True):
+        parent = steps.submodels[submodel].parent
+        came = [brick] if action == Action.PLACE else [row for row, table in where.items() if table == submodel]
+        if action == Action.JOIN:
+            assert sorted(came) == sorted(steps.all_rows(submodel).tolist())
+            assert parent < submodel
+            own = [int(bricks.corner[row, 2]) for row in came if bricks.piece[row] == steps.submodels[submodel].piece]
+            assert steps.floor(submodel, bricks) == min(own)
+        where.update(dict.fromkeys(came, submodel if action == Action.PLACE else parent))
+        inside.update(dict.fromkeys(came, submodel) if action == Action.PLACE else {})
+        for row in came:
+            model[row] = step if where[row] == MAIN else model[row]
+            if steps.submodels[where[row]].kind != Kind.SUBASSEMBLY and piece[row] == NOBODY:
+                piece[row] = step
+    assert set(where.values()) == {MAIN}
+    assert steps.submodel_of(n).tolist() == [inside[row] for row in range(n)]
+    assert steps.arrival(n).tolist() == model
+    assert steps.arrival(n, within_pieces=True).tolist() == piece
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.integers(0, 10**6))
+def test_steps_are_told_as_they_are_moved(seed):
+    """Number, table, what is put on, what is joined, and how often, of every step, found among all moves."""
+    bricks = heap(seed, most=25, n_pieces=1 + seed % 2, size=(6, 4, 12))
+    steps = planned(bricks)
+    moves, told = steps.moves, list(steps)
+    assert [step.number for step in told] == list(range(len(steps))) == sorted(set(moves.step.tolist()))
+    for step in told:
+        rows = [row for row in range(len(moves)) if moves.step[row] == step.number]
+        placed = [row for row in rows if moves.action[row] == Action.PLACE]
+        joined = [int(moves.submodel[row]) for row in rows if moves.action[row] == Action.JOIN]
+        assert step.bricks.tolist() == moves.brick[placed].tolist()
+        assert step.joined == tuple(joined)
+        assert step.action == (Action.PLACE if placed else Action.JOIN)
+        assert step.pressed == any(moves.pressed[row] for row in rows)
+        tables = {int(moves.submodel[row]) for row in placed} | {steps.submodels[each].parent for each in joined}
+        assert (step.submodel, step.times) == (min(tables), len(tables))

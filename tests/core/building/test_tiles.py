@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from legorize_addon.core.building.tiles import tile_places, tiles_of
+from legorize_addon.core.building.tiles import FLAT, SIDE, tile_places, tiles_of
 from tests.core.any_bricks import CATALOGUE, table
 
 
@@ -59,3 +61,36 @@ def test_places_of_bricks():
     assert tile_places(table(rows), CATALOGUE).tolist() == [[0, 0], [0, 0], [0, 0], [0, 1], [1, 2], [1, 0]]
     assert (tile_places(table(rows[:3]), CATALOGUE) == -1).all()
     assert tile_places(table([]), CATALOGUE).shape == (0, 2)
+
+
+@settings(deadline=None, max_examples=80)
+@given(st.integers(0, 10**6))
+def test_tiles_are_counted_from_the_corner(seed):
+    """Each part's middle square is looked for in tile after tile, of models around the limits of a mosaic."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 20))
+    low = rng.integers(0, rng.choice([12, 16, 50], 2), (n, 2)) - 20
+    side = rng.integers(0, 5, (n, 2))
+    box = np.stack([low[:, 0], low[:, 0] + side[:, 0], low[:, 1], low[:, 1] + side[:, 1]], axis=1)
+    level = rng.integers(0, rng.choice([1, 6, 7]), n)
+    wide, deep = (len(range(box[:, k].min(), box[:, k + 1].max() + 1)) for k in (0, 2))
+    flat = len(range(level.min(), level.max() + 1)) <= FLAT
+    expected = []
+    for x0, x1, y0, y1 in box.tolist():
+        middle = (x0 + (x1 - x0) // 2, y0 + (y1 - y0) // 2)
+        tiles = [
+            1 + row * len(range(0, box[:, 0].max() - box[:, 0].min() + 9, SIDE)) + column
+            for row in range(9)
+            for column in range(9)
+            if middle[0] - box[:, 0].min() in range(SIDE * column, SIDE * column + SIDE)
+            and middle[1] - box[:, 2].min() in range(SIDE * row, SIDE * row + SIDE)
+        ]
+        expected += tiles
+    found = tiles_of(box, level)
+    if flat and min(wide, deep) >= SIDE and max(wide, deep) > SIDE:
+        # numbers grow row by row, without saying by how much
+        order = np.unique(expected, return_inverse=True)[1]
+        assert (np.unique(found, return_inverse=True)[1] == order).all()
+        assert found.min() >= 1
+    else:
+        assert not found.any()

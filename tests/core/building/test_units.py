@@ -4,22 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from legorize_addon.core.building.blocking import column_pairs
-from legorize_addon.core.building.units import find_units, presses
+from legorize_addon.core.building.units import LARGEST, find_units, presses
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.contacts import contact_graph
+from tests.core.building.heaps import reached
 from tests.core.standing import CATALOGUE, table
 
 
-def units(*rows, node=None, ground=None):
+def units(*rows, node=None, ground=None, piece=None):
     """Return the units of bricks."""
     bricks = table(*rows)
     level = bricks.corner[:, 2].astype(np.int64)
     node = np.arange(len(bricks)) if node is None else np.array(node)
     ground = level == level.min() if ground is None else np.array(ground)
     pairs = contact_graph(bricks, CATALOGUE).pairs
-    return find_units(node, level, pairs, column_pairs(bricks, CATALOGUE), ground=ground)
+    return find_units(node, level, pairs, column_pairs(bricks, CATALOGUE), ground=ground, piece=piece)
 
 
 def groups(found):
@@ -112,3 +115,134 @@ def test_a_brick_takes_along_what_a_piece_would_leave_to_be_pressed():
     found = units(*bricks, node=[0, 1, 1, 2, 3, 4, 5], ground=[True, False, False, True, False, False, False])
     assert not found.pressed.any()
     assert [5, 6] in groups(found)
+
+
+class Plain:
+    """The rules of units in plain words, over sets of nodes and of pairs."""
+
+    def __init__(self, node, level, pairs, below, ground, rank, piece):
+        self.nodes = sorted(set(node))
+        self.pairs, self.blocks = (
+            {(node[a], node[b]) for a, b in those if node[a] != node[b]} for those in (pairs, below)
+        )
+        self.piece = {each: any(piece[k] for k in range(len(node)) if node[k] == each) for each in self.nodes}
+        self.level = {each: min(level[k] for k, other in enumerate(node) if other == each) for each in self.nodes}
+        self.rank = {each: max((k, rank[k]) for k, other in enumerate(node) if other == each)[1] for each in self.nodes}
+        self.held, self.pressed, self.hanger = set(), set(), {}
+        self.unit = {each: {each} for each in self.nodes}
+        self.hold({node[k] for k in range(len(node)) if ground[k]})
+        asked = set()
+        while left := self.asking - asked:
+            head = min(left, key=lambda each: (self.piece[each], self.level[each], self.rank[each], each))
+            asked.add(head)
+            self.take(head)
+        while self.untie():
+            pass
+
+    def hold(self, found):
+        """Hold what is given and all that rests on it; each of them is asked what hangs below it."""
+        self.asking = getattr(self, "asking", set())
+        while found := found - self.held:
+            self.held |= found
+            self.asking |= found
+            found = {upper for lower, upper in self.pairs if lower in found}
+
+    def take(self, head):
+        """Let a brick take along what hangs below it, or a piece have it pressed."""
+        chain = [head]
+        for each in chain:
+            for one in sorted(lower for lower, upper in self.pairs if upper == each):
+                if one not in self.held and one not in self.hanger:
+                    self.hanger[one] = each
+                    chain.append(one)
+        whole = any(self.piece[each] for each in chain)
+        for each in chain[1:]:
+            if whole:
+                self.pressed.add(each)
+            else:
+                self.join({each, head})
+        self.held |= set(chain)
+        self.hold({upper for lower, upper in self.pairs if lower in chain[1:]})
+
+    def join(self, nodes):
+        """Make the units of some nodes one."""
+        whole = set().union(*(self.unit[each] for each in nodes))
+        self.unit.update(dict.fromkeys(whole, whole))
+
+    def root(self, each):
+        """Return what is not pressed, from which a node hangs."""
+        return self.root(self.hanger[each]) if each in self.pressed else each
+
+    def before(self):
+        """Return which nodes must come before which."""
+        found = {(self.hanger[each], each) for each in self.pressed}
+        for lower, upper in self.blocks:
+            if lower not in self.pressed or self.root(lower) != self.root(upper):
+                found |= {(lower, upper)} | ({(lower, self.root(upper))} if upper in self.pressed else set())
+        return {(a, b) for a, b in found if a != b}
+
+    def untie(self):
+        """Make units that wait for each other one, or press what hangs among them; tell whether any changed."""
+        edges = {(min(self.unit[a]), min(self.unit[b])) for a, b in self.before()}
+        after = {each: {each} for each in self.nodes}
+        for _ in self.nodes:
+            for one, other in edges:
+                after[one] |= after[other]
+        heads = {min(unit) for unit in self.unit.values()}
+        knots = {frozenset(b for b in after[a] if a in after[b]) for a in heads}
+        changes = []
+        for knot in sorted(knots, key=min):
+            members = set().union(*(self.unit[each] for each in knot))
+            if len(knot) == 1:
+                continue
+            inside = [pair for pair in self.pairs if members.issuperset(pair)]
+            one = not any(self.piece[each] for each in members) and not members & self.pressed
+            if one and len(members) <= LARGEST * len(self.nodes) and reached([min(members)], inside) == members:
+                self.join(members)
+                changes.append(knot)
+            else:
+                self.unit.update({each: {each} for each in members})
+                hanging = {each for each in members if each in self.hanger} - self.pressed
+                self.pressed |= hanging
+                changes += [knot] * bool(hanging)
+        return bool(changes)
+
+
+@settings(deadline=None, max_examples=120)
+@given(st.integers(0, 10**6))
+def test_units_are_those_of_the_plain_rules(seed):
+    """Bricks at random levels, some of them in pieces, many hanging, some of which wait for each other."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 22))
+    level = np.sort(rng.integers(0, rng.choice([3, 6]), n))
+    below = np.sort(rng.integers(0, n, (int(rng.integers(0, 2 * n)), 2)), axis=1)
+    below = np.unique(below[level[below[:, 0]] < level[below[:, 1]]], axis=0).astype(np.int32)
+    pairs = below[rng.random(len(below)) < 0.8]
+    node = np.unique(np.where(rng.random(n) < rng.choice([0, 0.2]), n // 2, np.arange(n)), return_inverse=True)[1]
+    ground, rank = level == 0, rng.integers(0, 3, n)
+    ground &= rng.random(n) < rng.choice([0.4, 1])
+    piece = (np.bincount(node) > 1)[node]
+    told = {"piece": piece | (node == rng.integers(0, n))} if rng.random() < 0.5 else {}
+    found = find_units(node, level, pairs, below, ground=ground, rank=rank, **told)
+    columns = (each.tolist() for each in (node, level, pairs, below, ground, rank, told.get("piece", piece)))
+    plain = Plain(*columns)
+    expected = [
+        [row for row in range(n) if node[row] in unit]
+        for unit in map(set, {frozenset(each) for each in plain.unit.values()})
+    ]
+    assert groups(found) == sorted(expected)
+    assert found.pressed.tolist() == [each in plain.pressed for each in node.tolist()]
+    assert found.loose.tolist() == [each not in plain.held for each in node.tolist()]
+    of_node = {each: int(unit) for each, unit in zip(node.tolist(), found.unit.tolist(), strict=True)}
+    assert {tuple(pair) for pair in found.before.tolist()} == {
+        (of_node[a], of_node[b]) for a, b in plain.before() if of_node[a] != of_node[b]
+    }
+
+
+def test_a_piece_of_one_brick_takes_nothing_along():
+    """What hangs from it is pressed under it; and a piece that hangs is put on after what it hangs from."""
+    bricks = (("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3010", 0, 0, 6), ("3024", 3, 0, 5))
+    for row in (2, 3):
+        found = units(*bricks, piece=np.arange(4) == row)
+        assert found.pressed.tolist() == [False, False, False, True]
+        assert groups(found) == [[0], [1], [2], [3]]
