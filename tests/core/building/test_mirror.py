@@ -88,3 +88,19 @@ def test_images_are_those_found_by_looking_at_all_bricks(seed):
                 taken |= cells
                 rows.append((number, x, y, z))
     assert mirror_images(table(*rows), CATALOGUE).tolist() == plain(table(*rows))
+
+
+@pytest.mark.parametrize("off", range(-OFF - 1, OFF + 2))
+def test_plane_lies_two_studs_off_the_middle_at_most(off):
+    """A row that goes on at one side by some half studs still has its images, up to four."""
+    rows = [("3005", 0, 0, 0), ("3004", 3, 4, 0), ("3005", 9, 0, 0), ("3004", 5, 4, 0)]
+    # one more brick far out moves the middle of the outline
+    more = ("3024", 9 - off, 8, 0) if off < 0 else ("3024", -off, 8, 0)
+    found = mirror_images(table(*rows, more), CATALOGUE).tolist()
+    assert found == ([2, 3, 0, 1, NOBODY] if abs(off) <= OFF else [NOBODY] * 5)
+
+
+def test_of_two_planes_with_as_many_images_the_lower_one_is_taken():
+    """Two kinds of bricks in turn: half a stud below the middle and above it, three of four have images."""
+    rows = [("3005", 2, 0, 0), ("3024", 3, 3, 0), ("3005", 4, 0, 0), ("3024", 5, 3, 0)]
+    assert mirror_images(table(*rows), CATALOGUE).tolist() == [2, 1, 0, NOBODY]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -163,3 +164,22 @@ def test_ranks_and_levels_are_those_of_plain_sums(seed):
 
     expected = [int(level[row]) if due(row) is None else due(row) for row in range(n)]
     assert _due(level, temporary, before).tolist() == expected
+
+
+@pytest.mark.parametrize("n", [1, 3])
+def test_a_piece_is_put_on_in_a_step_of_its_own(n):
+    """However few bricks it has, nothing else is in its step, though a single brick lies beside it."""
+    floor = [("3003", x, y, 0) for x in range(0, 8, 2) for y in (0, 2)]
+    bricks = table(*floor, ("3003", 0, 0, 3), *(("3003", 2, 2, 3 * k) for k in range(1, n + 1)))
+    _, steps = planned(replace(bricks, piece=(np.arange(len(bricks)) > 8).astype(np.int16)))
+    [joined] = [step for step in steps if step.joined]
+    assert len(joined.bricks) == 0
+    assert joined.action == Action.JOIN
+
+
+def test_what_holds_stands_on_the_table_or_on_what_is_there():
+    """Of bricks in an order, each above the lowest level needs one below it that came before."""
+    below = {0: [], 1: [], 2: [0], 3: [2, 9], 4: [9]}
+    planner = SimpleNamespace(level={0: 5, 1: 5, 2: 8, 3: 9, 4: 9}, below=below)
+    for order, holds in (([0, 1, 2, 3], True), ([0, 2, 1], True), ([0, 1, 4], False), ([1, 2], False), ([0, 3], False)):
+        assert Planner._holds(planner, order) == holds

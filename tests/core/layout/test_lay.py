@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from typing import get_args
 
@@ -11,7 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.errors import BuildError, Cancelled
-from legorize_addon.core.layout.lay import Tier, lay, lay_unjoined
+from legorize_addon.core.layout.lay import Tier, _batches, _Listed, lay, lay_unjoined
+from legorize_addon.core.layout.problem.placements import placements
+from legorize_addon.core.layout.problem.shapes import shapes
+from legorize_addon.core.layout.problem.sheets import split
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from legorize_addon.core.shell.hollowing import hollow
@@ -170,3 +174,29 @@ def test_loose_bricks_are_left_where_joining_is_not_wanted():
     assert_covers(lay_unjoined(grid, CATALOGUE, rng=np.random.default_rng(0)), grid)
     solid = hollow(brick_grid(np.full((4, 8, 8), RED)), shell=1)
     assert rows(lay_unjoined(solid, CATALOGUE, rng=np.random.default_rng(0))) == rows(laid(solid))
+
+
+def test_progress_grows_slab_by_slab(monkeypatch):
+    """What is told of a layout in three slabs grows from 0, in three parts of the same length."""
+    monkeypatch.setattr(sys.modules[lay.__module__], "_SLAB", 40)
+    told = []
+    grid = brick_grid(np.full((6, 4, 5), RED))
+    laid(grid, progress=lambda stage, share: told.append(share) if stage == "layout" else None)
+    assert told == sorted(told)
+    assert told[0] == 0
+    assert max(told) < 1
+    assert {int(3 * share) for share in told} == {0, 1, 2}
+
+
+def test_every_other_sheet_is_laid_at_once():
+    """Each half has the sheets of even or of odd numbers, in batches below the limit unless one sheet is above it."""
+    (sheets,) = split(brick_grid(np.full((6, 3, 3), RED)))
+    among = shapes(CATALOGUE, 3, np.array([RED]), 71)
+    listed = _Listed(sheets, among, placements(sheets, among), None)
+    each = len(listed.found) // 6
+    for half in (0, 1):
+        for most, n_batches in ((np.inf, 1), (2 * each, 2), (1, 3)):
+            batches = list(_batches([listed], half, most))
+            assert len(batches) == n_batches
+            levels = np.concatenate([batch.sheets.level for batch in batches])
+            assert levels.tolist() == [3 * number for number in range(half, 6, 2)]

@@ -147,3 +147,13 @@ def test_tiles_hold_below_and_nothing_above(lower: str, upper: str, held: bool) 
     found = equations(bricks)
     assert len(found.rows) == 1 + held
     assert bool((found.contacts.by != NOBODY).any()) == held
+
+
+def test_corners_that_reach_into_each_other_push_wherever_they_stand():
+    """Two corner plates in a square of three by three: the ends of their pushes move with them, below zero as well."""
+    rows = [("2420", 0, 0, 0, 0), ("2420", 0, 1, 0, 2), ("3023", 3, 0, 0, 1), ("3005", 2, 0, 0)]
+    here = equations(table(*rows)).contacts
+    for shift in ((-7, -5), (4, 3)):
+        there = equations(table(*((number, x + shift[0], y + shift[1], z, *turn) for number, x, y, z, *turn in rows)))
+        np.testing.assert_allclose(there.contacts.point, here.point + np.array([*shift, 0]))
+        np.testing.assert_array_equal(there.contacts.direction, here.direction)

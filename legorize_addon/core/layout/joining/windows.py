@@ -177,10 +177,9 @@ def _contacts(model: _Model, beside: Ints) -> Iterator[tuple[int, ...]]:
 def _relaid(model: _Model, sheets: Sheets, among: Shapes, place: tuple[int, ...], required: Mask) -> Bricks | None:
     """Lay the bricks of one sheet around a place anew; None if the model is not better for it."""
     level, y, x = place
-    rows = np.flatnonzero((sheets.level <= level) & (level < sheets.level + sheets.height))
-    if len(rows) == 0 or sheets.colour[rows[0], y, x] == COLOUR_EMPTY:
+    sheet = _sheet_at(sheets, level)
+    if sheet is None or sheet.colour[0, y, x] == COLOUR_EMPTY:
         return None
-    sheet = sheets.take(slice(rows[0], rows[0] + 1))
     base = int(sheet.level[0])
     box = (slice(max(y - _REACH, 0), y + _REACH + 1), slice(max(x - _REACH, 0), x + _REACH + 1))
     plane = model.owner[base + 1]
@@ -200,6 +199,12 @@ def _relaid(model: _Model, sheets: Sheets, among: Shapes, place: tuple[int, ...]
         return None
     kept = model.bricks.take(np.delete(np.arange(len(model.bricks)), out))
     return gather([kept, brick_table(problem, chosen)])
+
+
+def _sheet_at(sheets: Sheets, level: int) -> Sheets | None:
+    """Return the one of some sheets that holds a plate; None if there is none."""
+    rows = np.flatnonzero((sheets.level <= level) & (level < sheets.level + sheets.height))
+    return sheets.take(slice(rows[0], rows[0] + 1)) if len(rows) else None
 
 
 def _window(sheet: Sheets, plane: Rows, out: Ints, box: tuple[slice, slice]) -> Sheets:

@@ -12,10 +12,10 @@ from legorize_addon.core.layout.joining.windows import join_by_windows
 from legorize_addon.core.layout.lay import FILLER
 from legorize_addon.core.layout.problem.shapes import shapes
 from legorize_addon.core.layout.problem.sheets import split
-from legorize_addon.core.model.bricks import Bricks
+from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import footprint
 from legorize_addon.core.model.contacts import contact_graph
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from legorize_addon.core.progress import silent
 from tests.core.layout.cells import CATALOGUE, RED, assert_covers, brick_grid
 
@@ -95,12 +95,13 @@ def test_windows_never_make_it_worse(seed):
     assert cells == grid.solid[:, 0].sum()
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(st.integers(0, 2**32 - 1))
 def test_windows_are_judged_as_the_whole_model_is(seed):
     """Whether a window is better, which is told from what lies around it, agrees with the graph of all bricks."""
     rng = np.random.default_rng(seed)
-    grid = brick_grid(rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, BLUE], (3, 4, 5), p=[0.3, 0.1, 0.4, 0.2]))
+    share = rng.choice([0.3, 0.5])
+    grid = brick_grid(rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, BLUE], (3, 4, 5), p=[share, 0.1, 0.7 - share, 0.2]))
     if not grid.solid.any():
         return
     judged, better, relaid = [], windows._better, windows._relaid
@@ -148,3 +149,35 @@ def test_cuts_are_the_placements_that_would_join_what_is_torn(seed):
             ends = [(touches[list(group), j].any(), np.delete(touches[:, j], list(group)).any()) for j in range(n)]
             expected.append([float(one and other) for one, other in ends])
     assert windows._cuts(touches, chosen, home, loose).tolist() == expected
+
+
+def test_a_plate_is_in_one_sheet():
+    """Of sheets of bricks with a gap between them, that whose three plates hold a level, or none."""
+    colour = np.full((4, 1, 1), RED)
+    colour[2] = COLOUR_EMPTY
+    (sheets,) = split(brick_grid(colour))
+    found = [windows._sheet_at(sheets, level) for level in range(-1, 13)]
+    assert [None if each is None else each.level.tolist() for each in found] == [
+        None, *[[0]] * 3, *[[3]] * 3, *[None] * 3, *[[9]] * 3, None,
+    ]  # fmt: skip
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_a_window_has_the_bricks_taken_out_and_free_cells_of_its_box(seed):
+    """Cell by cell: those of the bricks, wherever they lie, and in the box what is free and need not be covered."""
+    rng = np.random.default_rng(seed)
+    colour = rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED], (1, 4, 5))
+    colour[0, 0, 0] = RED
+    cover = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, rng.choice([Fill.OPTIONAL, Fill.REQUIRED], colour.shape))
+    cover[0, 0, 0] = Fill.REQUIRED
+    (sheet,) = split(brick_grid(colour, cover))
+    plane = np.where(colour[0] == COLOUR_EMPTY, NOBODY, rng.integers(NOBODY, 4, (4, 5)))
+    out, box = np.array([1, 3]), (slice(0, 3), slice(2, 5))
+    found = windows._window(sheet, plane, out, box)
+    for y in range(4):
+        for x in range(5):
+            free = y < 3 and x >= 2 and plane[y, x] == NOBODY and cover[0, y, x] != Fill.REQUIRED
+            inside = plane[y, x] in out or free
+            assert found.colour[0, y, x] == (colour[0, y, x] if inside else COLOUR_EMPTY)
+            assert found.required[0, y, x] == (inside and cover[0, y, x] == Fill.REQUIRED)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from itertools import product
 
 import numpy as np
@@ -142,3 +143,18 @@ def test_placements_are_found_on_many_sheets():
     assert len(found) == 300
     assert (np.diff(found.key) > 0).all()
     np.testing.assert_array_equal(found.find(found.shape, found.corner), np.arange(300))
+
+
+@given(grids)
+@settings(max_examples=20)
+def test_portions_of_sheets_change_nothing(seed):
+    """Sheet by sheet, two at a time or all at once, the placements are the same."""
+    grid = random_grid(seed, (5, 3, 4))
+    found = []
+    for entries in (1, 2 * 12, 1 << 16):
+        with pytest.MonkeyPatch.context() as patched:
+            patched.setattr(sys.modules[placements.__module__], "_ENTRIES", entries)
+            found.append(placements(split(grid)[0], shapes_for(grid)))
+    for name in ("shape", "corner", "colour", "cells", "start", "key"):
+        for other in found[1:]:
+            np.testing.assert_array_equal(getattr(found[0], name), getattr(other, name))

@@ -93,3 +93,14 @@ def test_covers_stay_covers_and_get_cheaper(seed):
         assert (times[problem.required] == 1).all()
     unrewarded = exchange(problem, chosen, everything, rng)
     assert problem.cost[unrewarded].sum() <= problem.cost[chosen].sum() + 1e-9
+
+
+def test_the_first_of_all_placements_can_be_a_rest():
+    """What is left of a cut brick is found among all placements, the one in row 0 as well."""
+    problem = problem_of(np.full((1, 3), RED))
+    better = fewer_small(problem, rows_at(problem, (2, 1, 0, 0), (1, 1, 2, 0)), np.random.default_rng(0))
+    assert extents(problem, better) == [(3, 1)]
+    chosen, offered = rows_at(problem, (3, 1, 0, 0)), rows_at(problem, (2, 1, 1, 0))
+    assert rows_at(problem, (1, 1, 0, 0)).tolist() == [0]
+    moved = exchange(problem, chosen, offered, np.random.default_rng(0), reward=np.array([5.0]))
+    assert extents(problem, moved) == [(1, 1), (2, 1)]

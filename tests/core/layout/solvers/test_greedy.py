@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from legorize_addon.core.layout.solvers import greedy
 from legorize_addon.core.layout.solvers.greedy import cover
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
@@ -94,3 +95,48 @@ def test_hanging_costs():
     touching = problem.placements.corner[:, 0] == 0
     same = problem.placements.size == 2
     assert problem.cost[touching & same].max() + 1 < problem.cost[~touching & same].min()
+
+
+def plain(problem, rng):
+    """Return what is laid by the plain rules: again and again, all that shares no cell with a better one."""
+    found, one = problem.placements, greedy._ONE
+    cells = [found.cells[start:end].tolist() for start, end in zip(found.start, found.start[1:], strict=False)]
+    chance, left, laid = rng.permutation(len(cells)), set(range(len(cells))), []
+    ties = []
+    for row in range(len(cells)):
+        x, y, sheet = found.corner[row].tolist()
+        odd = problem.sheets.level[sheet] // problem.sheets.height % 2
+        wide, deep = problem.shapes.extent[found.shape[row]].tolist()
+        on_lattice = ((x + odd * (wide // 2)) % wide == 0) + ((y + odd * (deep // 2)) % deep == 0)
+        ties.append(on_lattice * len(cells) + int(chance[row]))
+    while left:
+        price, n_cells = [0] * len(problem.required), len(problem.required)
+        through = [[row for row in left if cell in cells[row]] for cell in range(n_cells)]
+        near = [{c for row in through[k] if len(cells[row]) == 2 for c in cells[row] if c != k} for k in range(n_cells)]
+        for cell in np.flatnonzero(problem.required).tolist():
+            if through[cell]:
+                largest, offers = (how(len(cells[row]) for row in through[cell]) for how in (max, sum))
+                price[cell] += round(one * largest**-greedy._BEST) * (offers + greedy._SCARCE) // offers
+            for count, amount in greedy._PARTNERS:
+                if len(near[cell]) == count:
+                    price[cell] += amount * count
+                    for other in near[cell]:
+                        price[other] -= amount
+        merit = {row: round((1 - problem.cost[row]) * one) if len(cells[row]) > 1 else 0 for row in left}
+        score = {row: (sum(price[cell] for cell in cells[row]) + merit[row], ties[row]) for row in left}
+        won = {row for row in left if all(score[row] == max(score[other] for other in through[c]) for c in cells[row])}
+        laid += sorted(won)
+        taken = {cell for row in won for cell in cells[row]}
+        left = {row for row in left if taken.isdisjoint(cells[row])}
+    return laid
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=25)
+def test_bricks_are_those_of_the_plain_rules(seed):
+    """Small sheets over nothing, over the ground and over seams: the same bricks in the same order."""
+    rng = np.random.default_rng(seed)
+    colour, wanted = random_sheet(seed, (4, 5))
+    below = rng.choice([NOBODY, 0, 1, 2], (4, 5)) if rng.random() < 0.7 else None
+    problem = problem_of(colour, wanted, owner=below)
+    assert cover(problem, np.random.default_rng(seed)).tolist() == plain(problem, np.random.default_rng(seed))
