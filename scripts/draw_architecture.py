@@ -28,7 +28,7 @@ ROOT: Final = Path(__file__).resolve().parents[1]
 PACKAGE: Final = ROOT / "legorize_addon"
 PICTURES: Final = ROOT / "docs" / "pictures"
 
-ALONE: Final = ("core.build", "core.stages", "core.pipeline")
+ALONE: Final = ("core.build", "core.stages", "core.drafting", "core.pipeline")
 """Modules that the picture shows like packages: they join the stages."""
 
 Graph = Mapping[str, frozenset[str]]
@@ -118,8 +118,9 @@ def reduced(graph: Graph) -> dict[str, frozenset[str]]:
 
 def stages() -> list[tuple[str, tuple[str, ...]]]:
     """Return (name, packages) of each stage of the pipeline in order; a name that comes again is left out."""
-    # the pipeline has their order, and the module of the stages what each of them calls
-    trees = [ast.parse((PACKAGE / "core" / name).read_text(encoding="utf-8")) for name in ("pipeline.py", "stages.py")]
+    # the first two have their order, and the module of the stages what each of them calls
+    modules = ("drafting.py", "pipeline.py", "stages.py")
+    trees = [ast.parse((PACKAGE / "core" / name).read_text(encoding="utf-8")) for name in modules]
     source = {
         name.asname or name.name: node.module
         for tree in trees
@@ -130,7 +131,7 @@ def stages() -> list[tuple[str, tuple[str, ...]]]:
     known = {name.removeprefix("core.") for name in packages() if name not in ALONE}
     functions = {node.name: node for tree in trees for node in tree.body if isinstance(node, ast.FunctionDef)}
     found: dict[str, dict[str, None]] = {}
-    for name, block in stage_blocks(trees[0]):
+    for name, block in (each for tree in trees[:2] for each in stage_blocks(tree)):
         called = dict.fromkeys(source[each] for each in calls(block, functions) if each in source)
         found.setdefault(name, {}).update({package: None for package in called if package in known})
     return [(name, tuple(used)) for name, used in found.items()]

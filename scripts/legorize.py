@@ -47,7 +47,7 @@ try:
 
     import bpy
 
-    from legorize_addon.core.build import Finished
+    from legorize_addon.core.build import Build, Finished
     from legorize_addon.core.errors import BuildError, LegorizeError, SettingsError, enough_memory
     from legorize_addon.core.existing import Existing, StepsFrom
     from legorize_addon.core.files.folder import new_folder, temporary_of, writing
@@ -56,6 +56,8 @@ try:
     from legorize_addon.core.files.sources.pictures import PICTURES
     from legorize_addon.core.instructions import PAPERS, Booklet, layer_files, layer_pages
     from legorize_addon.core.ldraw.reader import SUFFIXES, read_file
+    from legorize_addon.core.method import Shown, method_files
+    from legorize_addon.core.model.assembly import Assembly
     from legorize_addon.core.model.bricks import Role
     from legorize_addon.core.model.catalogue import load_catalogue
     from legorize_addon.core.pipeline import judge, legorize, legorize_image
@@ -76,12 +78,15 @@ try:
     from legorize_addon.render.contact_sheet import render_contact_sheet
     from legorize_addon.render.film import Cut, make_film, render_frames
     from legorize_addon.render.still import AZIMUTH, View, render_still
+    from legorize_addon.scene.collections import clear_build
     from legorize_addon.scene.model import Source
     from legorize_addon.scene.section import AXES, Section
+    from legorize_addon.scene.state import state_of
     from legorize_addon.view.heat_map import show_heat_map
+    from legorize_addon.view.method import STEPS, MethodView, show_method
     from legorize_addon.view.show_result import show_result
     from legorize_addon.view.steps import explode
-    from legorize_addon.view.visibility import cut_away, roles_shown, show_role
+    from legorize_addon.view.visibility import cut_away, roles_shown, show_layers, show_role
 except ModuleNotFoundError as missing:
     print(
         f"The Python package {missing.name} is missing: install Legorize as an extension, or run python3 "
@@ -96,7 +101,7 @@ Timed = Callable[[str], AbstractContextManager[None]]
 SIZES: Final = ("size_by", "width", "height", "scale", "cm", "parts", "budget")
 """Settings that exclude each other; each of the others also chooses itself in the first."""
 
-IN_PICTURE: Final = ("view", "section", "outlines", "heat_map", "explode", "show_supports")
+IN_PICTURE: Final = ("view", "section", "outlines", "heat_map", "explode", "show_supports", "top_layer")
 """Flags that only change the picture."""
 
 LAST_FRAME: Final = 1_048_574
@@ -170,6 +175,11 @@ class Wanted(NamedTuple):
     frames: bool
     save_blend: bool
     bound: bool
+    picture_of: str
+    top_layer: int
+    single_layer: bool
+    method: bool
+    trajectories: str
     instructions: bool
     layers: bool
     actual_size: bool
@@ -193,10 +203,23 @@ class Wanted(NamedTuple):
             if getattr(self, name) and not drawn:
                 flag = name.replace("_", "-")
                 raise SettingsError(f"--{flag} only changes the picture: add --render, or leave it out.")
+        if self.picture_of != "model":
+            self._check_step()
+        if self.single_layer and not self.top_layer:
+            raise SettingsError("--single-layer needs to know which one: add --top-layer.")
         if not self.frames and not (self.film and self.save_blend):
             raise SettingsError("--no-frames leaves a film to others: add --save-blend, and --animate or --turntable.")
         if self.actual_size and not self.layers:
             raise SettingsError("--actual-size only changes layer maps: add --layers, or leave it out.")
+
+    def _check_step(self) -> None:
+        """Refuse what a step of the method has not got."""
+        if not self.render:
+            raise SettingsError("--picture-of only changes the picture: add --render, or leave it out.")
+        for name in ("heat_map", "explode", "show_supports"):
+            if getattr(self, name):
+                flag = name.replace("_", "-")
+                raise SettingsError(f"--{flag} is for the finished model: leave it or --picture-of out.")
 
 
 class Parser(argparse.ArgumentParser):
@@ -218,6 +241,8 @@ def main(arguments: Sequence[str]) -> int:
         wanted = Wanted(**{name: options.pop(name) for name in Wanted._fields})
         wanted.check()
         taken.check()
+        if (wanted.method or wanted.picture_of != "model") and (taken.is_picture or taken.is_bricks):
+            raise SettingsError("--method and --picture-of show how meshes are built: leave them out.")
         if wanted.bound and taken.is_picture:
             raise SettingsError("There is no bound for mosaics: leave --bound out.")
         settings = settings_of(options)
@@ -249,6 +274,7 @@ def parser() -> Parser:
     add_source(made)
     add_pictures(made)
     add_film(made)
+    add_method(made)
     add_paper(made)
     made.add_argument(
         "--bound", action="store_true",
@@ -313,6 +339,29 @@ def add_pictures(made: Parser) -> None:
         "--contact-sheet", metavar="N", type=pictures, default=0,
         help="write N pictures of the building order side by side in one image, contact-sheet.png",
     )  # fmt: skip
+
+
+def add_method(made: Parser) -> None:
+    """Add the flags that show the steps of the method."""
+    made.add_argument(
+        "--method", action="store_true",
+        help="write what the steps before the layout look like: trajectories and hollowing, with supports, as a map "
+        "of each layer, the tree of the trajectories, and models of unit bricks, method/tree.txt and so on",
+    )  # fmt: skip
+    made.add_argument(
+        "--trajectories", choices=get_args(Shown), default="sides",
+        help="draw trajectories by their side, exterior blue and interior green, or in the colours of their bricks "
+        "(default: sides)",
+    )  # fmt: skip
+    made.add_argument(
+        "--picture-of", choices=("model", *STEPS), default="model",
+        help="what the picture shows: the model, or a step of the method (default: model)",
+    )  # fmt: skip
+    made.add_argument(
+        "--top-layer", metavar="N", type=layer_number, default=0,
+        help="draw the lowest N layers in the picture (default: all)",
+    )  # fmt: skip
+    made.add_argument("--single-layer", action="store_true", help="draw only the highest of these layers")
 
 
 def add_film(made: Parser) -> None:
@@ -440,6 +489,13 @@ def pictures(text: str) -> int:
     return int(text)
 
 
+def layer_number(text: str) -> int:
+    """Return the number of a layer."""
+    if not (text.isdecimal() and int(text) >= 1):
+        raise argparse.ArgumentTypeError(f"{text!r} is not the number of a layer, from 1")
+    return int(text)
+
+
 def film_frames(text: str) -> int:
     """Return a number of frames."""
     if not (text.isdecimal() and 1 <= int(text) <= MOST_FRAMES):
@@ -486,7 +542,12 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         folder = stack.enter_context(new_folder(out, names=CERTAIN))
         stop.temporary = temporary_of(folder)
         # in builds: measured without a proof at 48 to 192 studs, guessed for the proof and the pictures
-        later = {"report": 0.03 + wanted.bound, "files": 0.03, "layer maps": 0.2 * wanted.layers}
+        later = {
+            "report": 0.03 + wanted.bound,
+            "files": 0.03,
+            "layer maps": 0.2 * wanted.layers,
+            "method maps": 0.1 * wanted.method,
+        }
         later["booklet"] = 3.0 * wanted.instructions
         later["pictures"] = float(wanted.any_picture) + 20.0 * (wanted.film and wanted.frames)
         built = 1 / (1 + sum(later.values()))
@@ -502,6 +563,9 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
         if wanted.layers:
             with rest.stage("layer maps") as progress, writing(out):
                 write_layers(build, folder / "layers", wanted, progress)
+        if wanted.method:
+            with rest.stage("method maps") as progress, writing(out):
+                write_method(build, folder / "method", wanted, source.stem, progress)
         if wanted.instructions:
             with rest.stage("booklet") as progress, writing(out):
                 write_booklet(build, folder, wanted, source.stem, progress)
@@ -582,6 +646,17 @@ def write_layers(build: Finished, folder: Path, wanted: Wanted, progress: Progre
         (folder / name).write_text(text, encoding="utf-8", newline="")
 
 
+def write_method(build: Finished, folder: Path, wanted: Wanted, title: str, progress: Progress) -> None:
+    """Write what shows the steps of the method."""
+    if not isinstance(build, Build):
+        raise TypeError("only meshes have trajectories")
+    supports = Assembly(build.supports.removed, load_catalogue())
+    options = {"title": title, "shown": wanted.trajectories, "catalogue": load_catalogue(), "progress": progress}
+    for name, text in method_files(build.draft, supports, **options):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8", newline="")
+
+
 def write_booklet(build: Finished, folder: Path, wanted: Wanted, title: str, progress: Progress) -> None:
     """Write the booklet."""
     plan, paper = build.supports, PAPERS[wanted.paper]
@@ -628,10 +703,9 @@ def show(build: Finished, folder: Path, wanted: Wanted, source: Source, progress
     scene = bpy.context.scene
     shown = show_result(scene, build, source, mm_per_unit=mm_per_unit())
     if wanted.render:
-        with posed(shown, wanted):
-            view = wanted.view or ("section" if wanted.section else "front_right")
-            with quiet():
-                render_still(scene, folder / "render.png", view=view, outlines=wanted.outlines)
+        view = wanted.view or ("section" if wanted.section else "front_right")
+        with pictured(shown, build, wanted, source.name) as pose, pose, quiet():
+            render_still(scene, folder / "render.png", view=view, outlines=wanted.outlines)
     if wanted.contact_sheet:
         path = folder / "contact-sheet.png"
         with quiet():
@@ -650,19 +724,43 @@ def show(build: Finished, folder: Path, wanted: Wanted, source: Source, progress
 
 
 @contextmanager
+def pictured(
+    shown: bpy.types.Collection, build: Finished, wanted: Wanted, name: str
+) -> Iterator[AbstractContextManager[None]]:
+    """Yield the pose of what the picture shows: the model, or a step of the method in its place."""
+    scene = bpy.context.scene
+    if not isinstance(build, Build) or wanted.picture_of == "model":
+        yield posed(shown, wanted)
+        return
+    scene.collection.children.unlink(shown)
+    view = MethodView(wanted.picture_of, wanted.trajectories, beside=False)
+    step = show_method(scene, build.draft, name, view=view, mm_per_unit=mm_per_unit(), detail="high")
+    yield posed(step, wanted)
+    clear_build(scene, step)
+    scene.collection.children.link(shown)
+
+
+@contextmanager
 def posed(shown: bpy.types.Collection, wanted: Wanted) -> Iterator[None]:
     """Show a build as it is wanted in the picture, and then as it was before."""
     supports = wanted.show_supports and Role.SUPPORT_OUTSIDE in roles_shown(shown)
     cut_away(shown, wanted.section or Section())
-    show_heat_map(shown, visible=wanted.heat_map)
-    explode(shown, wanted.explode)
+    if wanted.heat_map:
+        show_heat_map(shown, visible=True)
+    if wanted.explode:
+        explode(shown, wanted.explode)
+    layers = state_of(shown).layers
+    show_layers(bpy.context.scene, shown, min(wanted.top_layer or layers, layers), single=wanted.single_layer)
     if supports:
         show_role(shown, Role.SUPPORT_OUTSIDE, visible=True)
     yield
     if supports:
         show_role(shown, Role.SUPPORT_OUTSIDE, visible=False)
-    explode(shown, 0.0)
-    show_heat_map(shown, visible=False)
+    show_layers(bpy.context.scene, shown, layers)
+    if wanted.explode:
+        explode(shown, 0.0)
+    if wanted.heat_map:
+        show_heat_map(shown, visible=False)
     cut_away(shown, Section())
 
 

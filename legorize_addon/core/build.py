@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +42,46 @@ class Cut:
     layer: NDArray[np.int32]
     plate: NDArray[np.int8]
     marks: Marks | None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Draft:
+    """What is known of a model of a mesh before its bricks are laid: the result of every stage until then.
+
+    Attributes
+    ----------
+    mesh : TriangleMesh
+        The repaired mesh in the size of the model, in mm.
+    repairs : Repairs
+        What was repaired.
+    scale : float
+        Model mm per world mm.
+    turn : (4, 4) float64 array
+        From world mm to those of the mesh that stands upright, before it is scaled.
+    surface : SurfaceColours
+        The brick colour of every texel.
+    cut : Cut
+        The mesh cut in slices.
+    trajectories : Trajectories
+        The coloured loops.
+    offsets : Offsets
+        What closes horizontal faces.
+    grid : UnitGrid
+        All unit bricks, before hollowing.
+    hollow : UnitGrid
+        Required and optional cells.
+    """
+
+    mesh: TriangleMesh
+    repairs: Repairs
+    scale: float
+    turn: Floats
+    surface: SurfaceColours
+    cut: Cut
+    trajectories: Trajectories
+    offsets: Offsets
+    grid: UnitGrid
+    hollow: UnitGrid
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -162,6 +202,11 @@ class Build(Finished):
     offsets: Offsets
     grid: UnitGrid
     hollow: UnitGrid
+
+    @property
+    def draft(self) -> Draft:
+        """What was known before the bricks were laid; its cells are those that they cover in the end."""
+        return Draft(**{entry.name: getattr(self, entry.name) for entry in fields(Draft)})
 
     @property
     def origin(self) -> Floats:

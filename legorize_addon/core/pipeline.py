@@ -1,4 +1,4 @@
-"""The stages in order: the one place that knows it."""
+"""The stages in order: with those of :mod:`.drafting`, which come first, the one place that knows it."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from .build import Build, Judged, Mosaic
 from .building import Proof, prove_steps
+from .drafting import drafted
 from .errors import enough_memory
 from .estimate import COUNTED, check_limits, estimate
 from .existing import (
@@ -42,22 +43,14 @@ from .report import (
     remarks_on_split,
 )
 from .settings import Settings
-from .shell import make_cohesive
 from .shortage import with_enough_parts
-from .slicing import fit_grid, link_loops
 from .stages import (
     Run,
     brace,
     carry,
     check_stability,
-    close_overhangs,
-    cut_mesh,
-    find_colours,
-    hollow_out,
     lay_bricks,
     make_plan,
-    make_unit_grid,
-    prepare_mesh,
     strengthen_joints,
 )
 from .statics import Stability, stability
@@ -97,23 +90,9 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
 def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Build:
     """Go through the stages."""
     check_limits(expected := estimate(mesh, settings), settings)
-    run = Run.of(settings, Overall(expected.stages, progress))
-    plates, given = settings.plates != "none", mesh
-    with run.stage("mesh"):
-        mesh, repairs, turn, scale, unseen = prepare_mesh(run, mesh)
-    with run.stage("colours"):
-        surface = find_colours(run, mesh, given)
-    with run.stage("slicing"):
-        frame = fit_grid(mesh, symmetric=settings.symmetric, plates=plates)
-        cut = cut_mesh(run, mesh, surface, frame)
-    with run.stage("trajectories"):
-        trajectories = link_loops(mesh, cut.slices, surface, chord_deviation=settings.chord_deviation)
-    with run.stage("unit bricks"):
-        grid = make_unit_grid(run, mesh, repairs, trajectories, surface, frame, cut)
-    with run.stage("overhangs"):
-        grid, offsets = close_overhangs(run, grid)
-    with run.stage("hollowing"):
-        shell = make_cohesive(hollow_out(run, grid), plates=plates)
+    run, plates = Run.of(settings, Overall(expected.stages, progress)), settings.plates != "none"
+    made, unseen = drafted(run, mesh)
+    shell = made.hollow
     with run.stage("layout"):
         bricks, shell = lay_bricks(run, shell)
     with run.stage("ties"):
@@ -136,13 +115,14 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     proof = _prove(run, plan)
     run.progress.finish()
     notes = (
-        *repairs.sentences(), *unseen, *remarks_on_dithering(mesh, settings.dithering),
+        *made.repairs.sentences(), *unseen, *remarks_on_dithering(made.mesh, settings.dithering),
         *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
     )  # fmt: skip
     return Build(
-        settings=settings, mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut,
-        trajectories=trajectories, offsets=offsets, grid=grid, hollow=shell, assembly=plan.final, stability=found,
-        supports=plan, joints=joints, **run.parts.files, proof=proof, notes=notes, timings=run.timings,
+        settings=settings, mesh=made.mesh, repairs=made.repairs, scale=made.scale, turn=made.turn,
+        surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
+        hollow=shell, assembly=plan.final, stability=found, supports=plan, joints=joints, **run.parts.files,
+        proof=proof, notes=notes, timings=run.timings,
     )  # fmt: skip
 
 

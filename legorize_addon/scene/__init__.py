@@ -16,12 +16,14 @@ from .builds import (
     damage,
     is_own,
     layers_of,
+    line_objects,
     n_deleted,
     point_objects,
     show_sources,
     sources_of,
 )
 from .collections import clear_build, read_bricks, show_build, steps_of
+from .curves import add_lines
 from .hidden_sources import orphans, show_orphans
 from .instancing import (
     GHOST_KEY,
@@ -71,6 +73,7 @@ __all__ = [
     "Model",
     "Section",
     "Source",
+    "add_lines",
     "animated_tree",
     "beyond",
     "box_corners",
@@ -92,6 +95,7 @@ __all__ = [
     "is_own",
     "layer_collections",
     "layers_of",
+    "line_objects",
     "middles",
     "n_deleted",
     "orphans",

@@ -19,6 +19,8 @@ from .state import VERSION, is_build, state_of
 LAYER_KEY: Final = "legorize_layer"
 ROLE_KEY: Final = "legorize_role"
 OWN_KEY: Final = "legorize_own"
+LINES_KEY: Final = "legorize_lines"
+"""Key, on curves, of the trajectories in a layer of a build."""
 
 
 def builds(scene: bpy.types.Scene) -> list[bpy.types.Collection]:
@@ -96,10 +98,17 @@ def point_objects(build: bpy.types.Collection) -> list[bpy.types.Object]:
 
 
 def own_objects(build: bpy.types.Collection) -> list[bpy.types.Object]:
-    """Return all objects that a build brought and that are in it still: its root, its plane, its points."""
+    """Return all objects that a build brought and that are in it still: its root, its plane, its points, its lines."""
     state = state_of(build)
     there = set(build.all_objects)
-    return [thing for thing in (state.root, state.plane) if thing in there and is_own(thing)] + point_objects(build)
+    frame = [thing for thing in (state.root, state.plane) if thing in there and is_own(thing)]
+    return [*frame, *point_objects(build), *line_objects(build)]
+
+
+def line_objects(build: bpy.types.Collection) -> list[bpy.types.Object]:
+    """Return the curves of a build, one a layer that has any."""
+    own = (thing for thing in build.all_objects if is_own(thing) and thing.type == "CURVE")
+    return [thing for thing in own if LINES_KEY in thing.data]
 
 
 def is_own(thing: bpy.types.Object) -> bool:

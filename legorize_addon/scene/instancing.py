@@ -15,6 +15,7 @@ MATERIAL_KEY: Final = "legorize_colour"
 HEAT_KEY: Final = "legorize_heat"
 PALE_KEY: Final = "legorize_pale"
 GHOST_KEY: Final = "legorize_ghost"
+LINE_KEY: Final = "legorize_line"
 MODIFIER_NAME: Final = "Bricks"
 
 
@@ -66,7 +67,7 @@ def get_input(modifier: bpy.types.NodesModifier, name: str) -> Any:
 
 def is_brick_material(material: bpy.types.Material) -> bool:
     """Tell whether a material is one that :func:`plastic` made."""
-    return any(isinstance(material.get(key), int) for key in (MATERIAL_KEY, HEAT_KEY, PALE_KEY, GHOST_KEY))
+    return any(isinstance(material.get(key), int) for key in (MATERIAL_KEY, HEAT_KEY, PALE_KEY, GHOST_KEY, LINE_KEY))
 
 
 def colour_material(colour: Colour) -> bpy.types.Material:

@@ -13,7 +13,7 @@ from typing import Final
 import bpy
 
 from .brick_tree import HEAT_PARTS, PARTS, SECTION, brick_trees
-from .builds import is_own
+from .builds import LINES_KEY, is_own
 from .instancing import bricks_modifier, get_input, is_brick_material, set_input
 from .part_meshes import MESH_KEY, PART_KEY
 from .state import BuildState
@@ -39,6 +39,7 @@ def sweep() -> None:
     variants = {variant for tree in doomed for collection in tree for variant in collection.objects}
     bpy.data.batch_remove([*variants, *(collection for tree in doomed for collection in tree)])
     _remove_unused(mesh for mesh in bpy.data.meshes if MESH_KEY in mesh or POINTS_KEY in mesh)
+    _remove_unused(curve for curve in bpy.data.curves if LINES_KEY in curve)
     _remove_unused(material for material in bpy.data.materials if is_brick_material(material))
     _remove_unused(brick_trees())
 

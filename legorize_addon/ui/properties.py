@@ -24,12 +24,18 @@ from ..view import (
     show_layers,
     show_role,
     show_steps,
+    show_trajectories,
     steps_done,
+    trajectories_shown,
 )
 from .settings_properties import LegorizeSettings, label
 
 CUTS: Final = ("none", *AXES)
 CUT_ITEMS: Final = [("none", "Off", ""), *((axis, axis.upper(), "") for axis in AXES)]
+LINE_ITEMS: Final = [
+    ("sides", "Blue and Green", "Exterior trajectories blue, interior ones green"),
+    ("colours", "Brick Colours", "Each part of a trajectory in the colour of its bricks"),
+]
 ROLE_TEXTS: Final = {
     Role.SHELL: "the bricks that can be seen from outside",
     Role.INSIDE: "the bricks inside that carry others",
@@ -178,6 +184,17 @@ def _update_detail(self: bpy.types.PropertyGroup, context: bpy.types.Context) ->
         set_detail(state_of(build).parts, load_catalogue(), self.detail)
 
 
+def _trajectories(self: bpy.types.PropertyGroup) -> bool:
+    build = current_build(self.id_data)
+    return bool(build) and trajectories_shown(build)
+
+
+def _set_trajectories(self: bpy.types.PropertyGroup, value: bool) -> None:
+    build = _whole_build(self)
+    if build:
+        show_trajectories(build, visible=value)
+
+
 def _role_property(role: Role) -> Any:
     """Return the Blender property that shows or hides a role."""
 
@@ -292,6 +309,17 @@ class LegorizeView(bpy.types.PropertyGroup):
         "yellow half, red none, black loaded beyond its friction, magenta hangs in the air",
         get=_heat_map,
         set=_set_heat_map,
+    )
+    lines: EnumProperty(
+        name="Trajectories",
+        description="Colours of the trajectories that are shown or written next",
+        items=LINE_ITEMS,
+    )
+    trajectories: BoolProperty(
+        name="Show trajectories",
+        description="Show the trajectories of the layers that are shown, in the viewport and in renders",
+        get=_trajectories,
+        set=_set_trajectories,
     )
     detail: EnumProperty(
         name="Detail",

@@ -12,6 +12,7 @@ from . import (
     instructions,
     learning,
     looks,
+    method,
     mosaic,
     panels,
     parts,
@@ -20,8 +21,7 @@ from . import (
 
 _PARTS = (
     properties, build, build_larger, export, instructions, animation, learning, looks, parts, everything, existing,
-    panels,
-    mosaic,
+    panels, mosaic, method,
 )  # fmt: skip
 
 

@@ -6,6 +6,16 @@ from .animation import Animation, animate, animation_of
 from .heat_map import LEGEND, has_margins, heat_map_shown, show_heat_map
 from .highlight import can_highlight, highlight_step, highlighted
 from .lots import show_lot, shown_lot
+from .method import (
+    STEP_KEY,
+    STEPS,
+    MethodView,
+    Step,
+    has_trajectories,
+    show_method,
+    show_trajectories,
+    trajectories_shown,
+)
 from .show_result import show_result
 from .steps import check_steps, explode, exploded, n_pieces, n_steps, steps_done
 from .visibility import (
@@ -23,7 +33,11 @@ from .visibility import (
 
 __all__ = [
     "LEGEND",
+    "STEPS",
+    "STEP_KEY",
     "Animation",
+    "MethodView",
+    "Step",
     "animate",
     "animation_of",
     "can_highlight",
@@ -33,6 +47,7 @@ __all__ = [
     "explode",
     "exploded",
     "has_margins",
+    "has_trajectories",
     "heat_map_shown",
     "highlight_step",
     "highlighted",
@@ -44,11 +59,14 @@ __all__ = [
     "show_heat_map",
     "show_layers",
     "show_lot",
+    "show_method",
     "show_result",
     "show_role",
     "show_steps",
+    "show_trajectories",
     "shown_corners",
     "shown_lot",
     "steps_done",
     "stop_animation",
+    "trajectories_shown",
 ]

@@ -30,6 +30,7 @@ from ..scene import (
     has_input,
     layer_collections,
     layers_of,
+    line_objects,
     middles,
     place_plane,
     point_objects,
@@ -196,17 +197,20 @@ def shown_corners(build: bpy.types.Collection) -> Floats:
 
     Returns
     -------
-    (8 n, 3) float64 array
-        In model mm.
+    (n, 3) float64 array
+        In model mm; those of trajectories that are shown are among them.
 
     Raises
     ------
     BuildError
         No brick is left.
     """
+    lines = _line_corners(build)
+    if len(lines) and not _shown_points(build):
+        return lines
     bricks, shown, found = _in_renders(build)
     way = ways(build, found, steps_done(build))[shown]
-    return box_corners(bricks.take(shown), load_catalogue()) + np.repeat(way, 8, axis=0)
+    return np.concatenate([box_corners(bricks.take(shown), load_catalogue()) + np.repeat(way, 8, axis=0), lines])
 
 
 def corners_while_building(build: bpy.types.Collection) -> Floats:
@@ -255,10 +259,25 @@ def readable(context: bpy.types.Context, objects: Sequence[bpy.types.Object]) ->
 def _in_renders(build: bpy.types.Collection) -> tuple[Bricks, Mask, list[bpy.types.Object]]:
     """Return the bricks of the objects that renders show, which of them are seen, and the objects."""
     check_whole(build)
-    hidden = {points for layer in layers_of(build) if layer.hide_render for points in layer.objects}
-    found = [points for points in point_objects(build) if not points.hide_render and points not in hidden]
+    found = _shown_points(build)
     bricks = bricks_of(build, found)
     shown = ~beyond(state_of(build).plane, middles(bricks, load_catalogue())) & bricks_there(build, found)
     if not shown.any():
         raise BuildError(f"The section hides all bricks of {build.name!r}: move it.")
     return bricks, shown, found
+
+
+def _shown_points(build: bpy.types.Collection) -> list[bpy.types.Object]:
+    """Return the objects of bricks that renders show."""
+    return _in_shown_layers(build, point_objects(build))
+
+
+def _line_corners(build: bpy.types.Collection) -> Floats:
+    """Return the corners of the boxes of the lines that renders show, (n, 3) in model mm."""
+    found = _in_shown_layers(build, line_objects(build))
+    return np.array([tuple(corner) for thing in found for corner in thing.bound_box], dtype=np.float64).reshape(-1, 3)
+
+
+def _in_shown_layers(build: bpy.types.Collection, things: Sequence[bpy.types.Object]) -> list[bpy.types.Object]:
+    hidden = {thing for layer in layers_of(build) if layer.hide_render for thing in layer.objects}
+    return [thing for thing in things if not thing.hide_render and thing not in hidden]

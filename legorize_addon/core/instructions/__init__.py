@@ -9,6 +9,7 @@ from .shades import TINTS, pale, tint_for, tinted
 
 if TYPE_CHECKING:
     from .booklet import Booklet
+    from .canvas import Group, Item, Page, Paint, Path, Rgb, Text, lines, rectangle
     from .layer_maps import layer_files, layer_pages
     from .legend import lettered
     from .paper import PAPERS
@@ -17,9 +18,29 @@ else:
     __getattr__ = on_demand(
         __name__,
         booklet=("Booklet",),
+        canvas=("Group", "Item", "Page", "Paint", "Path", "Rgb", "Text", "lines", "rectangle"),
         layer_maps=("layer_files", "layer_pages"),
         legend=("lettered",),
         paper=("PAPERS",),
     )
 
-__all__ = ["PAPERS", "TINTS", "Booklet", "layer_files", "layer_pages", "lettered", "pale", "tint_for", "tinted"]
+__all__ = [
+    "PAPERS",
+    "TINTS",
+    "Booklet",
+    "Group",
+    "Item",
+    "Page",
+    "Paint",
+    "Path",
+    "Rgb",
+    "Text",
+    "layer_files",
+    "layer_pages",
+    "lettered",
+    "lines",
+    "pale",
+    "rectangle",
+    "tint_for",
+    "tinted",
+]

@@ -1,0 +1,94 @@
+"""The stages before the layout, in order: from the mesh to the cells that are to be covered."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Final
+
+from .build import Draft
+from .errors import SettingsError, enough_memory
+from .estimate import COUNTED, check_limits, estimate
+from .mesh import TriangleMesh
+from .native import watched
+from .progress import Overall, Progress, silent
+from .settings import Settings
+from .shell import make_cohesive
+from .slicing import fit_grid, link_loops
+from .stages import Run, close_overhangs, cut_mesh, find_colours, hollow_out, make_unit_grid, prepare_mesh
+
+STAGES: Final = ("mesh", "colours", "slicing", "trajectories", "unit bricks", "overhangs", "hollowing")
+"""Their names."""
+
+
+@enough_memory()
+def draft_model(mesh: TriangleMesh, settings: Settings, progress: Progress = silent) -> Draft:
+    """Go with a mesh as far as there is no brick yet: trajectories, unit bricks, hollowing.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        As read, in world mm.
+    settings : Settings
+        A size that counts bricks or costs is found by building: give the width instead.
+    progress : Progress
+        Called with the stage and the share that is done.
+
+    Returns
+    -------
+    Draft
+
+    Raises
+    ------
+    LegorizeError
+        The mesh or the settings cannot be used, in one sentence.
+    """
+    if settings.size_by in COUNTED:
+        raise SettingsError(f"size_by is {settings.size_by!r}, a size that only building finds: choose the width.")
+    check_limits(expected := estimate(mesh, settings), settings)
+    return watched(partial(_draft_model, mesh, settings, {name: expected.stages[name] for name in STAGES}), progress)
+
+
+def _draft_model(mesh: TriangleMesh, settings: Settings, seconds: dict[str, float], progress: Progress) -> Draft:
+    """Go through the stages alone."""
+    run = Run.of(settings, Overall(seconds, progress))
+    made, _ = drafted(run, mesh)
+    run.progress.finish()
+    return made
+
+
+def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
+    """Go through the stages of a run before its layout.
+
+    Parameters
+    ----------
+    run : Run
+    given : TriangleMesh
+        As read, in world mm.
+
+    Returns
+    -------
+    draft : Draft
+    unseen : tuple of str
+        Remarks on parts of the mesh that cannot be seen.
+    """
+    settings, plates = run.settings, run.settings.plates != "none"
+    with run.stage("mesh"):
+        mesh, repairs, turn, scale, unseen = prepare_mesh(run, given)
+    with run.stage("colours"):
+        surface = find_colours(run, mesh, given)
+    with run.stage("slicing"):
+        frame = fit_grid(mesh, symmetric=settings.symmetric, plates=plates)
+        cut = cut_mesh(run, mesh, surface, frame)
+    with run.stage("trajectories"):
+        trajectories = link_loops(mesh, cut.slices, surface, chord_deviation=settings.chord_deviation)
+    with run.stage("unit bricks"):
+        grid = make_unit_grid(run, mesh, repairs, trajectories, surface, frame, cut)
+    with run.stage("overhangs"):
+        grid, offsets = close_overhangs(run, grid)
+    with run.stage("hollowing"):
+        shell = make_cohesive(hollow_out(run, grid), plates=plates)
+    made = Draft(
+        mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut, trajectories=trajectories,
+        offsets=offsets, grid=grid, hollow=shell,
+    )  # fmt: skip
+    return made, unseen
