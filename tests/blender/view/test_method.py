@@ -62,7 +62,7 @@ def test_layers_hide_trajectories_too():
 
 
 def test_unit_bricks_and_hollowing_are_models_of_their_own():
-    """Each has its bricks, takes the place of the step shown before, stands beside the model, and goes without trace."""
+    """Each has its bricks, takes the place of the step shown before, stands beside it, and goes without trace."""
     before = len(bpy.data.curves), len(bpy.data.materials), len(bpy.data.meshes)
     build = shown("unit-bricks")
     assert len(read_bricks(build)) == len(initial_model(draft().grid, CATALOGUE))

@@ -66,7 +66,8 @@ def test_hollowed_model_tells_kinds_by_colour():
     np.testing.assert_array_equal(cells_of(bricks, cover.shape), shell.solid)
     x, y, z = bricks.corner.T
     given, fill = colour[z // 3, z % 3, y, x], cover[z // 3, z % 3, y, x]
-    np.testing.assert_array_equal(bricks.colour[(given >= 0) & (fill != Fill.OPTIONAL)], given[(given >= 0) & (fill != Fill.OPTIONAL)])
+    seen = (given >= 0) & (fill != Fill.OPTIONAL)
+    np.testing.assert_array_equal(bricks.colour[seen], given[seen])
     assert set(bricks.colour[fill == Fill.OPTIONAL].tolist()) == {OPTIONAL}
     assert set(bricks.colour[bricks.role == Role.SUPPORT_INSIDE].tolist()) == {PILLARS}
     assert CARRYING in bricks.colour
