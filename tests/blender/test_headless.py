@@ -386,6 +386,57 @@ def test_layer_maps(flags: list[str], script: ModuleType, tmp_path: Path) -> Non
     assert any("matrix(8 0 0 -8 " in text for text in texts) == bool(flags)
 
 
+def test_method_files(script: ModuleType, tmp_path: Path) -> None:
+    """The steps before the layout, with the supports in the maps."""
+    add_arm()
+    source = str(save(tmp_path / "box.blend"))
+    assert script.main([source, "--out", str(tmp_path / "out"), *ARM, "--method"]) == 0
+    made = tmp_path / "out" / "method"
+    assert {path.name for path in made.iterdir()} == {
+        *("tree.txt", "unit-bricks.ldr", "hollowing.ldr", "trajectories", "hollowing"),
+    }
+    assert any("support outside" in path.read_text(encoding="utf-8") for path in (made / "hollowing").iterdir())
+
+
+def test_picture_of_a_layer_of_a_step(script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The picture shows one layer of the unit bricks alone; afterwards the model is in the scene as ever."""
+    seen = []
+
+    def draw(scene: bpy.types.Scene, path: Path, **options: object) -> None:
+        """Note what is seen."""
+        [build] = scene_builds(scene)
+        seen.append((build.name, shown_bricks(build)))
+
+    monkeypatch.setattr(script, "render_still", draw)
+    add_box(BOX)
+    flags = ["--width", "8", "--render", "--picture-of", "unit-bricks", "--top-layer", "2", "--single-layer"]
+    assert script.main([str(save(tmp_path / "box.blend")), "--out", str(tmp_path / "out"), *flags]) == 0
+    [(name, bricks)] = seen
+    assert name.endswith("unit bricks")
+    assert set((bricks.corner[:, 2] // 3).tolist()) == {1}
+    [build] = scene_builds(bpy.context.scene)
+    assert len(read_bricks(build)) == report(tmp_path / "out")["counts"]["bricks"]
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        (["--picture-of", "hollowing"], "add --render"),
+        (["--render", "--picture-of", "hollowing", "--heat-map"], "finished model"),
+        (["--render", "--single-layer"], "add --top-layer"),
+        (["--top-layer", "2"], "add --render"),
+        (["--render", "--top-layer", "0"], "number of a layer"),
+    ],
+)
+def test_flags_of_the_method_without_effect(
+    flags: list[str], words: str, script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One sentence, and nothing written."""
+    assert script.main(["any.obj", "--out", str(tmp_path / "out"), *flags]) == 1
+    assert words in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 def test_booklet(script: ModuleType, tmp_path: Path) -> None:
     """The flag writes the booklet of the steps in both forms, named after the file."""
     add_arm()

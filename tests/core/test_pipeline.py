@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from legorize_addon.core import pipeline
+from legorize_addon.core import drafting
 from legorize_addon.core.build import Build
 from legorize_addon.core.errors import BuildError, Cancelled, LegorizeError, LimitError, MeshError, SettingsError
 from legorize_addon.core.mesh.size import model_scale
@@ -455,7 +455,7 @@ def test_progress_is_told_while_a_stage_is_silent(monkeypatch):
         if heard[-3:] == [heard[-1]] * 3 and stage == "overhangs":
             enough.set()
 
-    silent = pipeline.close_overhangs
-    monkeypatch.setattr(pipeline, "close_overhangs", lambda *args, **kw: enough.wait(60) and silent(*args, **kw))
+    silent = drafting.close_overhangs
+    monkeypatch.setattr(drafting, "close_overhangs", lambda *args, **kw: enough.wait(60) and silent(*args, **kw))
     assert len(legorize(box((0, 0, 0), (40, 40, 40)), SMALL, hear).bricks)
     assert [share for _, share in heard] == sorted(share for _, share in heard)

@@ -69,7 +69,7 @@ def built(mesh, dithering, **options) -> UnitGrid:
 
     settings = Settings(dithering=dithering, **{"width": WIDE} | options)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("legorize_addon.core.pipeline.close_overhangs", stop)
+        patch.setattr("legorize_addon.core.drafting.close_overhangs", stop)
         with pytest.raises(ReachedError) as reached:
             legorize(mesh, settings)
     return reached.value.grid
