@@ -9,12 +9,14 @@ from .shown import has_surface, image_of
 
 if TYPE_CHECKING:
     from .objects import read_objects
+    from .outlines import read_outline
     from .pictures import load_picture, picture_from
 else:
     # the panel only asks what has a surface
     __getattr__ = on_demand(
         __name__,
         objects=("read_objects",),
+        outlines=("read_outline",),
         pictures=("load_picture", "picture_from"),
     )
 
@@ -24,4 +26,5 @@ __all__ = [
     "load_picture",
     "picture_from",
     "read_objects",
+    "read_outline",
 ]

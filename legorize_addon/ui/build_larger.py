@@ -7,9 +7,10 @@ from typing import Final
 
 import bpy
 
+from .tab import PIXELS_PER_LETTER
+
 WIDTH: Final = 400
-PIXELS_PER_LETTER: Final = 8
-"""Widths of the question and of a letter in it: Blender does not wrap texts."""
+"""Width of the question in pixels."""
 
 
 def ask(reason: str) -> None:
@@ -38,7 +39,7 @@ class LEGORIZE_OT_build_larger(bpy.types.Operator):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the sentence."""
         lines = self.layout.column(align=True)
-        for row, line in enumerate(textwrap.wrap(self.reason, WIDTH // PIXELS_PER_LETTER)):
+        for row, line in enumerate(textwrap.wrap(self.reason, int(WIDTH / PIXELS_PER_LETTER))):
             lines.label(text=line, icon="BLANK1" if row else "QUESTION")
 
     def execute(self, context: bpy.types.Context) -> set[str]:

@@ -1,17 +1,13 @@
-"""The sidebar tab "Legorize": the button, the settings, the view, the result."""
+"""The sidebar tab "Legorize": what is built and the button, what came of it, and all settings."""
 
 from __future__ import annotations
 
-import textwrap
-from collections.abc import Mapping, Sequence
-from dataclasses import Field, fields
-from types import MappingProxyType
+from collections.abc import Mapping
 from typing import Any, Final
 
 import bpy
 
 from ..core.progress import duration
-from ..core.settings import Settings, has_effect
 from ..core.shopping import SECONDS_A_BRICK
 from ..core.units import BRICK, STUD
 from ..scene import builds, check_lines, damage, orphans, state_of
@@ -21,37 +17,29 @@ from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_a
 from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
 from .everything import LEGORIZE_OT_export_folder
 from .existing import LEGORIZE_OT_again, LEGORIZE_OT_open_ldraw
+from .expectation import expected
 from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
 from .instructions import LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps
-from .learning import LEGORIZE_OT_forget, LEGORIZE_OT_learn
 from .looks import draw_looks
+from .palette import LEGORIZE_PT_palette
 from .parts import LEGORIZE_OT_export_list, LEGORIZE_OT_list_parts, LEGORIZE_OT_show_all
 from .progress_text import progress_text
 from .properties import current_build
+from .requests import chosen_sources
+from .settings_panels import GROUPS, SETTINGS_PANELS, SIZE, draw_settings
+from .tab import Tab, draw_wrapped
 
 MM_PER_CM: Final = 10.0
-BUTTONS: Final = MappingProxyType({"Bricks": (LEGORIZE_OT_learn, LEGORIZE_OT_forget)})
-"""Operators below the settings of a group."""
-
-PIXELS_PER_LETTER: Final = 8.0
-"""Width of a letter in the sidebar, with room for the icon: Blender does not wrap texts."""
 
 
-class _Tab:
-    """Where every panel stands."""
-
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Legorize"
-
-
-class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
-    """The button, or how far it has come."""
+class LEGORIZE_PT_main(Tab, bpy.types.Panel):
+    """What is built, how large, how it looks, what that comes to, and the button; or how far it has come."""
 
     bl_label = "Legorize"
+    entries = tuple(GROUPS[SIZE])
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the button or the progress bar, and which build the other panels are about."""
+        """Draw all that most people choose, from top to bottom in the order in which they choose it."""
         running = job.running()
         if running:
             stage, share = running.progress
@@ -59,6 +47,14 @@ class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
             self.layout.progress(factor=share, type="BAR", text=text)
             self.layout.label(text="Esc stops")
             return
+        sources = [source.name for source in chosen_sources(context)]
+        if sources:
+            self.layout.label(text=", ".join(sources), icon="MESH_DATA")
+        else:
+            self.layout.label(text="Select an object", icon="INFO")
+        draw_looks(self.layout)
+        draw_settings(self.layout, context.scene.legorize.settings, self.entries)
+        self._draw_expected(context)
         button = self.layout.column()
         button.scale_y = 1.6
         button.operator(LEGORIZE_OT_build.bl_idname, icon="MOD_BUILD")
@@ -67,86 +63,28 @@ class LEGORIZE_PT_main(_Tab, bpy.types.Panel):
         if len(builds(context.scene)) > 1:
             self.layout.prop(context.scene.legorize, "build")
         self._draw_damage(context)
-        draw_looks(self.layout)
         self.layout.operator(LEGORIZE_OT_open_ldraw.bl_idname, icon="IMPORT")
+
+    def _draw_expected(self, context: bpy.types.Context) -> None:
+        """Draw what the settings will come to."""
+        lines = self.layout.column(align=True)
+        for line in expected(context):
+            draw_wrapped(context, lines, line, "NONE")
 
     def _draw_damage(self, context: bpy.types.Context) -> None:
         """Draw what was deleted in Blender's own way, and the button that repairs it."""
         lost = [entry.source.name for entry in orphans(context.scene)]
         if lost:
-            _wrapped(context, self.layout, f"Hidden, although the model was deleted: {', '.join(lost)}", "ERROR")
+            draw_wrapped(context, self.layout, f"Hidden, although the model was deleted: {', '.join(lost)}", "ERROR")
             self.layout.operator(LEGORIZE_OT_show_originals.bl_idname, icon="HIDE_OFF")
         build = current_build(context.scene)
         sentence = build and damage(build)
         if sentence:
-            _wrapped(context, self.layout, sentence, "ERROR")
+            draw_wrapped(context, self.layout, sentence, "ERROR")
             self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
 
 
-class _SettingsPanel(_Tab):
-    """The settings of one group.
-
-    Attributes
-    ----------
-    entries : tuple of Field
-        The settings, in their order.
-    buttons : tuple of type
-        Operators below them.
-    """
-
-    bl_parent_id = "LEGORIZE_PT_main"
-    entries: tuple[Field[Any], ...] = ()
-    buttons: tuple[type[bpy.types.Operator], ...] = ()
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw the group's settings, those without effect in grey; locked while a job runs."""
-        self.layout.enabled = job.running() is None
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
-        group = context.scene.legorize.settings
-        for entry in self.entries:
-            counts = has_effect(entry, group)
-            # of several numbers for one thing, the panel has the chosen one
-            if counts or entry.name not in entry.metadata["needs"]:
-                row = self.layout.row()
-                row.active = counts
-                row.prop(group, entry.name)
-        for button in self.buttons:
-            self.layout.operator(button.bl_idname)
-
-
-class LEGORIZE_PT_advanced(_Tab, bpy.types.Panel):
-    """Holds the panels of all settings but the size."""
-
-    bl_parent_id = "LEGORIZE_PT_main"
-    bl_label = "Advanced"
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Draw nothing but the panels inside."""
-
-
-def _settings_panels() -> tuple[type, ...]:
-    """Return one panel for each group of settings, in their order; the first one is open, the others in Advanced."""
-    groups: dict[str, list[Field[Any]]] = {}
-    for entry in fields(Settings):
-        groups.setdefault(entry.metadata["group"], []).append(entry)
-    return tuple(_settings_panel(group, entries, advanced=i > 0) for i, (group, entries) in enumerate(groups.items()))
-
-
-def _settings_panel(group: str, entries: Sequence[Field[Any]], *, advanced: bool) -> type:
-    members = {
-        "__doc__": f"The settings of the group {group}.",
-        "bl_label": group,
-        "bl_parent_id": "LEGORIZE_PT_advanced" if advanced else "LEGORIZE_PT_main",
-        "bl_options": {"DEFAULT_CLOSED"} if advanced else set(),
-        "entries": tuple(entries),
-        "buttons": BUTTONS.get(group, ()),
-    }
-    return type(f"LEGORIZE_PT_{group.lower()}", (_SettingsPanel, bpy.types.Panel), members)
-
-
-class _BuildPanel(_Tab):
+class _BuildPanel(Tab):
     """What is about a build, and is not there without one."""
 
     bl_parent_id = "LEGORIZE_PT_main"
@@ -213,7 +151,7 @@ class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):
         for text in (*_figures(state.summary), *_building_figures(state.building)):
             column.label(text=text)
         for note in state.notes:
-            _wrapped(context, self.layout, note, "ERROR")
+            draw_wrapped(context, self.layout, note, "ERROR")
         self.layout.operator(LEGORIZE_OT_again.bl_idname, icon="FILE_REFRESH")
         self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
 
@@ -227,13 +165,13 @@ class LEGORIZE_PT_stability(_BuildPanel, bpy.types.Panel):
         """Draw the verdict, what is weak, and the switch of the heat map."""
         build = current_build(context.scene)
         for text, icon in check_lines(state_of(build).check):
-            _wrapped(context, self.layout, text, icon)
+            draw_wrapped(context, self.layout, text, icon)
         view = context.scene.legorize
         switch = self.layout.row()
         switch.enabled = has_margins(build) and job.running() is None
         switch.prop(view, "heat_map")
         if view.heat_map:
-            _wrapped(context, self.layout, LEGEND, "INFO")
+            draw_wrapped(context, self.layout, LEGEND, "INFO")
 
 
 class LEGORIZE_PT_lots(_BuildPanel, bpy.types.Panel):
@@ -280,14 +218,6 @@ def _draw_animation(layout: bpy.types.UILayout, build: bpy.types.Collection) -> 
     buttons.operator(LEGORIZE_OT_film.bl_idname, text="Film", icon="RENDER_ANIMATION")
 
 
-def _wrapped(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str) -> None:
-    """Draw a text in as many lines as it takes, the first one with an icon."""
-    width = int(context.region.width / (PIXELS_PER_LETTER * context.preferences.system.ui_scale))
-    lines = layout.column(align=True)
-    for row, line in enumerate(textwrap.wrap(text, max(width, 20))):
-        lines.label(text=line, icon="BLANK1" if row else icon)
-
-
 def _figures(summary: Any) -> tuple[str, ...]:
     x, y, layers = summary["studs_x"], summary["studs_y"], summary["layers"]
     size = [length / MM_PER_CM for length in (x * STUD, y * STUD, layers * BRICK)]
@@ -319,18 +249,15 @@ def _building_figures(building: Mapping[str, Any] | None) -> tuple[str, ...]:
     return tuple(lines)
 
 
-_SIZE, *_OTHERS = _settings_panels()
-
 # what came out stands above the settings that few people change
 classes = (
     LEGORIZE_PT_main,
-    _SIZE,
+    LEGORIZE_PT_palette,
     LEGORIZE_PT_result,
     LEGORIZE_PT_stability,
     LEGORIZE_PT_layers,
     LEGORIZE_PT_lots,
     LEGORIZE_PT_export,
-    LEGORIZE_PT_advanced,
-    *_OTHERS,
+    *SETTINGS_PANELS,
 )
 register, unregister = bpy.utils.register_classes_factory(classes)

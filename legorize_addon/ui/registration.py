@@ -8,20 +8,22 @@ from . import (
     build_larger,
     everything,
     existing,
+    expectation,
     export,
     instructions,
     learning,
     looks,
     method,
     mosaic,
+    palette,
     panels,
     parts,
     properties,
 )
 
 _PARTS = (
-    properties, build, build_larger, export, instructions, animation, learning, looks, parts, everything, existing,
-    panels, mosaic, method,
+    properties, expectation, build, build_larger, export, instructions, animation, learning, looks, parts, everything,
+    existing, palette, panels, mosaic, method,
 )  # fmt: skip
 
 

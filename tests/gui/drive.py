@@ -20,6 +20,7 @@ import bpy
 SAMPLE, FOLDER = sys.argv[sys.argv.index("--") + 1 :]
 TAB = "Legorize"
 BUTTON = "LEGORIZE_OT_build"
+ESTIMATE = 165  # pixels from the top of the tab to its lines
 BUTTON_HEIGHT = 40  # pixels, with the gap below it
 LIMIT = 300.0  # seconds that any one wait may take
 
@@ -276,10 +277,10 @@ def n_instances() -> int:
 
 
 def click_button(seen: dict[str, Any]) -> Wait:
-    """Click down the tab's first rows until the operator runs."""
+    """Click down from the lines of the estimate, where a click does nothing, until the operator runs."""
     region = region_of(view_area(), "UI")
     x = region.x + int(region.width * 0.4)
-    for below_top in range(30, 120, 8):
+    for below_top in range(ESTIMATE, ESTIMATE + 140, 8):
         y = region.y + region.height - below_top
         simulate("MOUSEMOVE", "NOTHING", x, y)
         yield 0.2

@@ -1,0 +1,27 @@
+"""The sidebar tab of all panels, and texts in it."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import Final
+
+import bpy
+
+PIXELS_PER_LETTER: Final = 8.0
+"""Width of a letter in the sidebar, with room for the icon: Blender does not wrap texts."""
+
+
+class Tab:
+    """Where every panel stands."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Legorize"
+
+
+def draw_wrapped(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str) -> None:
+    """Draw a text in as many lines as it takes, the first one with an icon."""
+    width = int(context.region.width / (PIXELS_PER_LETTER * context.preferences.system.ui_scale))
+    lines = layout.column(align=True)
+    for row, line in enumerate(textwrap.wrap(text, max(width, 20))):
+        lines.label(text=line, icon="BLANK1" if row else icon)
