@@ -17,7 +17,7 @@ from mathutils import Euler, Vector
 
 from ..core.arrays import Floats
 from ..core.errors import BuildError
-from ..scene import builds, damage, state_of
+from ..scene import builds, damage, world_from_mm
 
 FOCAL_LENGTH: Final = 85.0
 MARGIN: Final = 0.08
@@ -62,7 +62,7 @@ def model_corners(studio: bpy.types.Scene, corners_of: Callable[[bpy.types.Colle
     """Return the corners of all bricks in world units, shape (n, 3)."""
     found = []
     for build in studio.collection.children:
-        matrix = np.array(state_of(build).root.matrix_world)
+        matrix = np.array(world_from_mm(build))
         found.append(corners_of(build) @ matrix[:3, :3].T + matrix[:3, 3])
     if not found:
         raise BuildError("The scene has no brick model to render: legorize an object first.")

@@ -40,7 +40,7 @@ from .instancing import (
 )
 from .model import Model, Source
 from .part_meshes import PART_KEY, Detail, detail_of, parts_collection, parts_in_use, set_detail
-from .placing import layer_collections
+from .placing import layer_collections, world_from_mm
 from .section import AXES, Section, beyond, hidden_side, place_plane
 from .shared_parts import own_parts, sweep
 from .state import state_of
@@ -118,4 +118,5 @@ __all__ = [
     "sweep",
     "there_after",
     "way_after",
+    "world_from_mm",
 ]

@@ -45,7 +45,7 @@ from .instancing import add_bricks_modifier, colour_material
 from .kept_steps import read_steps
 from .model import Model, Source
 from .part_meshes import Detail, parts_collection, parts_in_use
-from .placing import Place, upright
+from .placing import Place, hang, middle_of, upright
 from .section import Section, add_plane
 from .shared_parts import POINTS_KEY, leave_plane, sweep
 from .state import BUILD_KEY as BUILD_KEY
@@ -102,8 +102,11 @@ def show_build(
         clear_build(scene, each)
     build = bpy.data.collections.new(f"Legorize {source.name}")
     place.collection.children.link(build)
-    root = _add_root(build, place.moved @ upright(model.origin, 1.0 / (model.scale * model.mm_per_unit)), place.parent)
-    plane = _own(build, add_plane(build.name, root))
+    facts = _table_facts(bricks, catalogue)
+    first = upright(np.add(model.origin, facts["middle"]).tolist(), 1.0 / (model.scale * model.mm_per_unit))
+    root = _add_root(build, place.moved @ first, place.parent)
+    plane = _own(build, add_plane(build.name))
+    hang(plane, root, facts["middle"])
     parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, source.name)
     _add_layers(build, bricks, variant.reshape(-1), _more(model), catalogue, plane, parts)
     hidden = [as_before(scene, each) for each in source.objects]
@@ -119,7 +122,7 @@ def show_build(
         parts=parts,
         settings={} if source.settings is None else asdict(source.settings),
         notes=list(source.notes),
-        **_table_facts(bricks, catalogue),
+        **facts,
         **figures(model.assembly, model.stability, model.steps),
     )
     remember(scene, hidden)
@@ -252,19 +255,21 @@ def _add_layers(
             points = _own(collection, bpy.data.objects.new(name, mesh))
             points[ROLE_KEY] = int(role)
             mesh[POINTS_KEY] = True
-            points.parent = plane.parent
+            points.parent, points.matrix_parent_inverse = plane.parent, plane.matrix_parent_inverse
             add_bricks_modifier(points, own_parts, plane)
 
 
 def _table_facts(bricks: Bricks, catalogue: Catalogue) -> dict[str, Any]:
     """Return the fields of a state that follow from the table of bricks."""
     corners = box_corners(bricks, catalogue)
+    extent = {"low": corners.min(axis=0).tolist(), "high": corners.max(axis=0).tolist()}
     return {
         "roles": [Role(role) for role in np.unique(bricks.role).tolist()],
         "part_numbers": [part.number for part in catalogue.parts],
         "layers": n_layers(bricks),
         "top_layer": n_layers(bricks),
-        "extent": {"low": corners.min(axis=0).tolist(), "high": corners.max(axis=0).tolist()},
+        "extent": extent,
+        "middle": middle_of(extent),
     }
 
 

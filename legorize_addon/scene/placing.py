@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Final, NamedTuple
 
 import bpy
@@ -56,13 +56,32 @@ def layer_collections(entry: bpy.types.LayerCollection) -> Iterator[bpy.types.La
         yield from layer_collections(child)
 
 
+def middle_of(extent: Mapping[str, Sequence[float]]) -> tuple[float, float, float]:
+    """Return where the root of a new build is: below the middle of its bricks, on the ground, in mm."""
+    low, high = extent["low"], extent["high"]
+    return (low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]
+
+
+def hang(thing: bpy.types.Object, root: bpy.types.Object, middle: Sequence[float]) -> None:
+    """Make an object whose coordinates are the model's, in mm, a child of the root."""
+    thing.parent = root
+    thing.matrix_parent_inverse = Matrix.Translation(-Vector(middle))
+
+
+def world_from_mm(build: bpy.types.Collection) -> Matrix:
+    """Return the matrix from the model's coordinates, in mm, to the world."""
+    state = state_of(build)
+    return state.root.matrix_world @ Matrix.Translation(-Vector(state.middle))
+
+
 def upright(origin: Sequence[float], unit_per_mm: float) -> Matrix:
-    """Return where a root stands that nobody moved."""
+    """Return where a root stands that nobody moved, if its place in the model is at an origin in mm of the object."""
     return Matrix.LocRotScale(Vector(origin) * unit_per_mm, None, Vector([unit_per_mm] * 3))
 
 
 def _moved(state: BuildState) -> Matrix:
     """Return what was done to a root since it was made."""
-    first, now = upright(state.origin, state.unit_per_mm), state.root.matrix_basis
+    first = upright(np.add(state.origin, state.middle).tolist(), state.unit_per_mm)
+    now = state.root.matrix_basis
     same = np.allclose(np.array(first), np.array(now), rtol=ROUNDING, atol=ROUNDING * state.unit_per_mm)
     return Matrix() if same else now @ first.inverted()

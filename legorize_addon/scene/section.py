@@ -55,25 +55,22 @@ class Section:
     flip: bool = False
 
 
-def add_plane(name: str, root: bpy.types.Object) -> bpy.types.Object:
+def add_plane(name: str) -> bpy.types.Object:
     """Return a new plane that hides nothing.
 
     Parameters
     ----------
     name : str
         Name of the build.
-    root : bpy.types.Object
-        Parent of the build's objects, in whose coordinates bricks are in mm.
 
     Returns
     -------
     bpy.types.Object
-        An empty, hidden itself, in no collection yet.
+        An empty, hidden itself, in no collection and without a parent yet.
     """
     plane = bpy.data.objects.new(f"{name} section", None)
     plane.empty_display_type = "SINGLE_ARROW"
     plane.hide_viewport = plane.hide_render = True
-    plane.parent = root
     place_plane(plane, Section(), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
     return plane
 

@@ -92,6 +92,8 @@ def leave_plane(scene: bpy.types.Scene, plane: bpy.types.Object, own: Iterable[b
         if points.parent not in new:
             new[points.parent] = plane.copy()
             new[points.parent].parent = points.parent
+            # which a new parent unsets
+            new[points.parent].matrix_parent_inverse = points.matrix_parent_inverse
             points.users_collection[0].objects.link(new[points.parent])
         set_input(modifier, SECTION, new[points.parent])
 

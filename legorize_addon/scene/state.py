@@ -100,7 +100,7 @@ class BuildState:
 
     @property
     def root(self) -> bpy.types.Object | None:
-        """Parent of all that the build shows; in its coordinates bricks are in mm."""
+        """Parent of all that the build shows, whose coordinates are in mm from its middle."""
         return self._pointer("root", bpy.types.Object)
 
     @property
@@ -133,6 +133,12 @@ class BuildState:
     def origin(self) -> tuple[float, float, float]:
         """Corner of the grid in model mm."""
         x, y, z = self._group["origin"]
+        return float(x), float(y), float(z)
+
+    @property
+    def middle(self) -> tuple[float, float, float]:
+        """Where the root is in the model, in mm from the corner of the grid; at this corner in earlier versions."""
+        x, y, z = self._group.get("middle", (0.0, 0.0, 0.0))
         return float(x), float(y), float(z)
 
     @property

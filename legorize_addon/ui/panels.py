@@ -223,7 +223,7 @@ def _figures(summary: Any) -> tuple[str, ...]:
     size = [length / MM_PER_CM for length in (x * STUD, y * STUD, layers * BRICK)]
     return (
         f"{summary['bricks']} bricks, {summary['mass']:.0f} g",
-        f"{summary['parts']} parts, {summary['colours']} colours",
+        f"{summary['parts']} kinds of parts, {summary['colours']} colours",
         f"{x} x {y} studs, {layers} layers",
         "{:.1f} x {:.1f} x {:.1f} cm".format(*size),
     )

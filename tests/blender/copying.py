@@ -26,6 +26,7 @@ def duplicate_collection(build: bpy.types.Collection, *, linked: bool = False) -
             copy.children.link(copies[child])
     for thing, copy in things.items():
         copy.parent = things.get(thing.parent, thing.parent)
+        copy.matrix_parent_inverse = thing.matrix_parent_inverse  # as Blender's own copies keep it
         if thing.data is not None and not linked:
             copy.data = thing.data.copy()
         for _ in copy.modifiers:
