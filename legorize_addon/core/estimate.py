@@ -96,15 +96,6 @@ class Estimate:
         """About how many CPU seconds all stages take."""
         return sum(self.stages.values())
 
-    def lines(self) -> tuple[str, str, str]:
-        """Return the estimate in three short lines: the size in studs, that in cm, and what it costs."""
-        wide, deep = (max(1, round(studs)) for studs in self.studs)
-        return (
-            f"{_number(wide)} x {_number(deep)} studs, {_number(self.layers)} layers",
-            "{:.1f} x {:.1f} x {:.1f} cm".format(*self.cm),
-            f"about {_number(self.bricks)} bricks, {duration(self.seconds)}, {_number(self.megabytes)} MB",
-        )
-
     def sentence(self) -> str:
         """Return the estimate in a sentence for the user, without a full stop."""
         wide, deep = (max(1, round(studs)) for studs in self.studs)

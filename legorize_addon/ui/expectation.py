@@ -16,6 +16,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..core.errors import LegorizeError
+from ..core.progress import duration
 from ..core.settings import Settings
 from . import job
 from .requests import by_uid, chosen_sources
@@ -83,7 +84,18 @@ def _lines(mesh: TriangleMesh, settings: Settings) -> tuple[str, ...]:
     # these modules are loaded once there is something to estimate
     from ..core.estimate import estimate
 
-    return estimate(mesh, settings).lines()
+    found = estimate(mesh, settings)
+    wide, deep = (max(1, round(studs)) for studs in found.studs)
+    return (
+        f"{wide} x {deep} studs, {found.layers} layers",
+        "{:.1f} x {:.1f} x {:.1f} cm".format(*found.cm),
+        f"about {_rounded(found.bricks)} bricks, {duration(found.seconds)}, {_rounded(found.megabytes)} MB",
+    )
+
+
+def _rounded(number: float) -> str:
+    """Return three digits of a number: an estimate has no more."""
+    return f"{round(float(f'{number:.3g}')):,}"
 
 
 def _read_soon(sources: Sequence[int]) -> None:

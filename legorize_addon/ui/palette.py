@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 from typing import Any, Final
 
 import bpy
@@ -23,15 +24,16 @@ PIXELS: Final = 32
 RARE: Final = 0.75
 """Share of the parts below which a colour counts as hard to buy: more than one part in four is then not made in it."""
 
-_icons: dict[str, bpy.utils.previews.ImagePreviewCollection] = {}
+
+@cache
+def _swatches() -> bpy.utils.previews.ImagePreviewCollection:
+    """Return the pictures that were made so far, by the codes of the colours."""
+    return bpy.utils.previews.new()
 
 
 def swatch(colour: Colour) -> int:
     """Return the number of an icon that is filled with a colour."""
-    if "swatches" not in _icons:
-        _icons["swatches"] = bpy.utils.previews.new()
-    known = _icons["swatches"]
-    name = str(colour.code)
+    known, name = _swatches(), str(colour.code)
     if name not in known:
         pixels = np.ones((PIXELS, PIXELS, 4), dtype=np.float32)
         pixels[..., :3] = np.array(colour.rgb) / 255
@@ -200,5 +202,5 @@ def register() -> None:
 def unregister() -> None:
     """Undo :func:`register`, and free the swatches."""
     _unregister_classes()
-    if "swatches" in _icons:
-        bpy.utils.previews.remove(_icons.pop("swatches"))
+    bpy.utils.previews.remove(_swatches())
+    _swatches.cache_clear()

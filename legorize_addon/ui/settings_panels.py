@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import Field, fields
+from itertools import groupby
 from types import MappingProxyType
 from typing import Any, Final
 
@@ -17,9 +18,10 @@ from .tab import Tab
 BUTTONS: Final = MappingProxyType({"Bricks": (LEGORIZE_OT_learn, LEGORIZE_OT_forget)})
 """Operators below the settings of a group."""
 
-GROUPS: Final[dict[str, list[Field[Any]]]] = {}
-for _entry in fields(Settings):
-    GROUPS.setdefault(_entry.metadata["group"], []).append(_entry)
+GROUPS: Final[dict[str, list[Field[Any]]]] = {
+    name: list(entries) for name, entries in groupby(fields(Settings), key=lambda entry: entry.metadata["group"])
+}
+"""The settings by their groups, in their order."""
 
 SIZE, *_OTHERS = GROUPS
 """The group of settings that stands beside the button, and those in Advanced."""

@@ -38,7 +38,7 @@ def test_an_estimate_is_the_same_as_of_what_is_built() -> None:
     assert np.allclose(np.ptp(bare.vertices, axis=0), np.ptp(mesh.vertices, axis=0))
     assert len(bare.faces) == len(mesh.faces)
     assert [image.shape for image in bare.images] == [image.shape for image in mesh.images]
-    assert estimate(bare, Settings()).lines() == estimate(mesh, Settings()).lines()
+    assert estimate(bare, Settings()) == estimate(mesh, Settings())
 
 
 def test_instances_count() -> None:

@@ -52,7 +52,7 @@ def test_own_looks_come_back() -> None:
 def test_results_stand_above_the_settings() -> None:
     """The button, the size, what came out, and then all that few people change, closed."""
     names = [panel.bl_label for panel in panels.classes]
-    assert names[:2] == ["Legorize", "Result"]
+    assert names[:3] == ["Legorize", "Palette", "Result"]
     assert names.index("Result") < names.index("Advanced") < names.index("Colours")
     inside = {
         panel.bl_label for panel in panels.classes if getattr(panel, "bl_parent_id", "") == "LEGORIZE_PT_advanced"

@@ -86,9 +86,9 @@ def test_swatches_have_the_colours() -> None:
     for _ in range(2):
         for colour in CATALOGUE.colours:
             swatch(colour)
-    assert set(palette._icons["swatches"]) == {str(code) for code in ALL}
+    assert set(palette._swatches()) == {str(code) for code in ALL}
     red = CATALOGUE.colours[CATALOGUE.colour_row(4)]
-    pixel = palette._icons["swatches"]["4"].icon_pixels_float[:3]
+    pixel = palette._swatches()["4"].icon_pixels_float[:3]
     assert [round(255 * channel) for channel in pixel] == list(red.rgb)
 
 
