@@ -129,9 +129,11 @@ def figures(build: Build) -> Row:
 
 
 def mirrored(bricks: Bricks, step: NDArray[np.int32]) -> float | None:
-    """Return the share of bricks with an image that are placed no more than a step before or after it."""
+    """Return the share of bricks with an image in their piece that are placed at most a step before or after it."""
     image = mirror_images(bricks, load_catalogue())
+    # pieces are built one after the other
     paired = np.flatnonzero((image != NOBODY) & (image != np.arange(len(image))))
+    paired = paired[bricks.piece[paired] == bricks.piece[image[paired]]]
     return float((np.abs(step[paired] - step[image[paired]]) <= 1).mean()) if len(paired) else None
 
 
@@ -157,8 +159,8 @@ def _large(build: Build, step: Step) -> bool:
 def _arriving(build: Build, step: Step) -> int:
     """Return the bricks that a step brings, those of sub-assemblies included."""
     steps = build.supports.steps
-    small = [each for each in step.joined if steps.submodels[each].kind == Kind.SUBASSEMBLY]
-    return len(step.bricks) + sum(len(steps.all_rows(each)) for each in small)
+    small = [steps.all_rows(each) for each in step.joined if steps.submodels[each].kind == Kind.SUBASSEMBLY]
+    return len(np.unique(np.concatenate([step.bricks, *small])))
 
 
 def _span(box: NDArray[np.int64]) -> int:

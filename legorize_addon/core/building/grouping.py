@@ -15,7 +15,7 @@ import numpy as np
 from ..arrays import Floats, Ints, Mask
 from ..model import NOBODY, Rows
 from ..progress import Progress, silent
-from .items import REACH, Atoms, Items
+from .items import REACH, Atoms, Items, span
 from .tidying import Tidying
 
 FEW: Final = 5
@@ -135,7 +135,7 @@ class _Grouping:
             ready, higher = ready[soon], higher[soon]
         else:
             # one layer after the other, unless there is too little
-            most = LAYER - 1 if step.size >= FEW else LAYER if step.size > 1 else 3 * LAYER
+            most = LAYER - 1 if step.size >= FEW else 2 * LAYER if step.size > 1 else 3 * LAYER
             ready, higher = ready[higher <= most], higher[higher <= most]
         if not len(ready):
             return None
@@ -155,9 +155,13 @@ class _Grouping:
             # what rests on images of the same step can follow them
             if image != NOBODY and not self.done[image]:
                 below = [each for each in self.atoms.below[image] if not self.done[each]]
-                if set(below) <= set(found):
+                if set(below) <= set(found) and self._has_room([*found, image]):
                     found.append(image)
         return self._filled(found, FEW, unpaired=True) if found else found
+
+    def _has_room(self, step: list[int]) -> bool:
+        """Whether a step may hold some atoms: images need not have as many bricks."""
+        return int(self.size[step].sum()) <= self.atoms.most and span(self.box[step]) <= REACH
 
 
 class _Begun:

@@ -3,8 +3,8 @@
 On each table bricks come from above, those below in a stud column first. What
 hangs is put on with what it hangs from, as a sub-assembly that is built by
 itself in the same way; pieces of a split model are put on like that, too. A
-sub-assembly is built right before the step that needs it, and equal ones that
-are needed soon are built together.
+sub-assembly is built right before the step that needs it, or in that step if it
+is small, and equal ones that are needed soon are built together.
 """
 
 from __future__ import annotations
@@ -21,8 +21,11 @@ from ..progress import Progress, silent
 from .contacts import building_contacts
 from .items import MOST, REACH, span
 from .moves import Action, Moves
-from .steps import MAIN, Steps
-from .tables import Planner, Put, Table
+from .steps import MAIN, Kind, Steps
+from .tables import Planner, Put, Shape, Table
+
+SMALL: Final = 4
+"""Bricks of a sub-assembly at most that is built in the step that puts it on: fewer than a step of its own is worth."""
 
 SOON: Final = 12
 """Steps ahead for which an equal sub-assembly is built together with the first."""
@@ -87,6 +90,8 @@ class _Writer:
         self.built: set[int] = set()
         # the first of equal submodels that are built together
         self.like: dict[int, int] = {}
+        # the first of each shape that is built in the step that puts it on
+        self.inside: dict[Shape, int] = {}
 
     def build(self, numbers: Sequence[int]) -> None:
         """Build equal submodels, and before each step what it needs."""
@@ -95,9 +100,9 @@ class _Writer:
         for turn in range(len(tables[0].steps)):
             self._prepare(tables, turn)
             self.step += 1
+            self.inside.clear()
             for number, table in zip(numbers, tables, strict=True):
-                for put in table.steps[turn]:
-                    self._note(number, put)
+                self._note(number, table.steps[turn])
         for turn in range(len(tables[0].removals)):
             self.step += 1
             for number, table in zip(numbers, tables, strict=True):
@@ -122,9 +127,10 @@ class _Writer:
         What the mirrored step after it needs is built before both, so that they follow each other.
         """
         ahead = [[put.submodel for table in tables for put in table.steps[each]] for each in _next(tables, turn)]
-        soon = [number for numbers in ahead for number in numbers if number != NOBODY]
+        ahead = [[each for each in numbers if each != NOBODY and not self._small(each)] for numbers in ahead]
+        soon = [number for numbers in ahead for number in numbers]
         both = len(ahead) > 1 and self._mirrored(tables[0], turn)
-        needed = [number for numbers in ahead[: 1 + both] for number in numbers if number != NOBODY]
+        needed = [number for numbers in ahead[: 1 + both] for number in numbers]
         for number in needed:
             for each in (number, *self._images(number, needed)):
                 if each not in self.built:
@@ -161,11 +167,31 @@ class _Writer:
         self.like.update(dict.fromkeys(alike, min(alike)))
         self.build(sorted(alike))
 
-    def _note(self, number: int, put: Put) -> None:
-        if put.submodel == NOBODY:
-            self._row(Action.PLACE, put.brick, number, pressed=put.pressed)
-        else:
-            self._row(Action.JOIN, NOBODY, put.submodel, pressed=False)
+    def _small(self, number: int) -> bool:
+        """Whether a submodel is built in the step that puts it on."""
+        return (
+            self.planner.submodels[number].kind == Kind.SUBASSEMBLY
+            and len(self.planner.all_rows(number)) <= SMALL
+            and len(self.planner.tables[number].steps) == 1
+        )
+
+    def _note(self, number: int, step: Sequence[Put]) -> None:
+        """Note what is put on in a step, and before that the small submodels that are built in it."""
+        for put in step:
+            if put.submodel != NOBODY and put.submodel not in self.built:
+                self._build_inside(put.submodel)
+        for put in step:
+            if put.submodel == NOBODY:
+                self._row(Action.PLACE, put.brick, number, pressed=put.pressed)
+            else:
+                self._row(Action.JOIN, NOBODY, put.submodel, pressed=False)
+
+    def _build_inside(self, number: int) -> None:
+        """Build a small submodel in the step at hand."""
+        self.built.add(number)
+        [step] = self.planner.tables[number].steps
+        self._note(number, step)
+        self.like[number] = self.inside.setdefault(self.planner.shape[number], number)
 
     def _row(self, action: Action, brick: int, submodel: int, *, pressed: bool) -> None:
         piece = self.planner.submodels[submodel].piece

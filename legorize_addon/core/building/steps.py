@@ -96,6 +96,9 @@ class Step:
         Whether a brick is pressed from below.
     times : int
         How many equal submodels are built at once.
+    made : tuple of int
+        Numbers of the small submodels among ``joined`` that are built in the step
+        itself; ``bricks`` has theirs as well.
     """
 
     number: int
@@ -105,6 +108,7 @@ class Step:
     joined: tuple[int, ...]
     pressed: bool
     times: int
+    made: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -132,6 +136,11 @@ class Steps:
         for moves in np.split(np.arange(len(self.moves)), ends):
             if len(moves):
                 yield self._step(moves)
+
+    def times(self, step: Step, number: int) -> int:
+        """Return how many submodels a step builds that are like one of those in which it is done."""
+        alike = sum(self.submodels[each].like == self.submodels[number].like for each in step.made)
+        return alike or step.times
 
     def all_rows(self, number: int) -> Ints:
         """Return the rows of a submodel and of all that is put onto it, supports included."""
@@ -194,14 +203,18 @@ class Steps:
         bricks = moves.brick[rows[action != Action.JOIN]].astype(np.int64)
         found = Action.JOIN if not len(bricks) else Action(int(action[action != Action.JOIN][0]))
         # a join is done where the joined one belongs
-        where = [self.submodels[each].parent for each in moves.submodel[joins].tolist()]
-        where += moves.submodel[rows[action != Action.JOIN]].tolist()
+        where = {self.submodels[each].parent for each in moves.submodel[joins].tolist()}
+        where.update(moves.submodel[rows[action != Action.JOIN]].tolist())
+        joined = tuple(moves.submodel[joins].tolist())
+        made = tuple(each for each in joined if each in where)
+        where.difference_update(made)
         return Step(
             number=int(moves.step[rows[0]]),
             submodel=min(where),
             action=found,
             bricks=bricks,
-            joined=tuple(moves.submodel[joins].tolist()),
+            joined=joined,
             pressed=bool(moves.pressed[rows].any()),
-            times=len(set(where)),
+            times=len(where),
+            made=made,
         )

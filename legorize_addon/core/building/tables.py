@@ -219,17 +219,19 @@ class Planner:
         )
 
     def _images(self, rows: Ints, unit: Ints, n: int) -> Ints:
-        """Return the mirrored unit of each: that to which the images of all its bricks belong."""
+        """Return the mirrored unit of each: the one to which the images of most of its bricks belong, if each is so."""
         of_row = np.full(len(self.bricks) + 1, NOBODY, dtype=np.int64)
         of_row[rows] = unit
         other = of_row[self.image[rows]]
-        low, high = np.full(n, n), np.full(n, NOBODY)
-        np.minimum.at(low, unit, other)
-        np.maximum.at(high, unit, other)
-        size = np.bincount(unit, minlength=n)
-        found = np.where((low == high) & (low != NOBODY), low, NOBODY)
-        same = (found != NOBODY) & (size[found] == size)
-        return np.where(same & (found != np.arange(n)), found, NOBODY)
+        known = other != NOBODY
+        both, count = np.unique(unit[known] * n + other[known], return_counts=True)
+        # of several that have as many, the first one
+        best = np.lexsort((both, -count, both // n))
+        own, first = np.unique(both[best] // n, return_index=True)
+        found = np.full(n + 1, NOBODY, dtype=np.int64)
+        found[own] = both[best][first] % n
+        mutual = found[found[:n]] == np.arange(n)
+        return np.where(mutual & (found[:n] != np.arange(n)), found[:n], NOBODY)
 
     def _removals(self, gone: Ints) -> list[list[int]]:
         """Return the steps in which supports are taken out, from below."""

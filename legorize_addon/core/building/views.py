@@ -48,7 +48,7 @@ def quarter_turns(steps: Steps, assembly: Assembly) -> NDArray[np.int8]:
     for step in steps:
         for each in step.joined:
             table[table == each] = step.submodel
-        rows = np.concatenate([step.bricks, *(steps.all_rows(each) for each in step.joined)]).astype(np.int64)
+        rows = np.unique(np.concatenate([step.bricks, *(steps.all_rows(each) for each in step.joined)]))
         seen.placed[step.bricks] = step.action != Action.REMOVE
         if step.action != Action.REMOVE and steps.submodels[step.submodel].kind != Kind.SUBASSEMBLY:
             turns[step.number] = seen.turn(rows[seen.placed[rows]], table == step.submodel, int(last[step.submodel]))

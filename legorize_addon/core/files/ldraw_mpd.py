@@ -62,7 +62,8 @@ class _Document:
         self.name = f"model-{name}" if name.lower().removesuffix(".ldr") in taken else name
         self.of_submodel: dict[int, list[Step]] = {}
         for step in steps:
-            self.of_submodel.setdefault(step.submodel, []).append(step)
+            for each in (*step.made, step.submodel):
+                self.of_submodel.setdefault(each, []).append(step)
         self.hidden = self._hidden()
         self.turns = quarter_turns(steps, assembly).tolist()
 
@@ -92,7 +93,7 @@ class _Document:
         own = set(submodel.rows.tolist())
         steps = self.of_submodel.get(submodel.number, [])
         for step in steps:
-            yield f"0 // Step {step.number + 1}{_remark(step)}"
+            yield f"0 // Step {step.number + 1}{_remark(step, self.steps.times(step, submodel.number))}"
             if step.action == Action.REMOVE:
                 yield f'0 !LPUB REMOVE GROUP "{_group(step.number)}"'
             # equal ones are built in the same steps, and written once
@@ -104,8 +105,9 @@ class _Document:
             for number in step.joined:
                 if self.steps.submodels[number].parent == submodel.number:
                     yield self._call(number)
-            yield _end(self.turns[step.number], turned)
-            turned = self.turns[step.number]
+            turn = self.turns[step.number] if submodel.number == step.submodel else 0
+            yield _end(turn, turned)
+            turned = turn
         for step in steps:
             if step.action == Action.REMOVE:
                 yield f"0 GROUP {sum(row in own for row in step.bricks.tolist())} {_group(step.number)}"
@@ -142,8 +144,8 @@ def _group(step: int) -> str:
     return f"supports-{step + 1}"
 
 
-def _remark(step: Step) -> str:
+def _remark(step: Step, times: int) -> str:
     """Return the comment lines of a step."""
     if step.action == Action.REMOVE:
         return ": take these supports out"
-    return (f", {step.times} times" if step.times > 1 else "") + (", pressed from below" if step.pressed else "")
+    return (f", {times} times" if times > 1 else "") + (", pressed from below" if step.pressed else "")

@@ -35,7 +35,7 @@ def title_of(panels: Panels, panel: Panel) -> str:
         return "Take out the supports"
     if len(panel.new) > len(panel.placed):
         return f"Put on {_names(panels.names, panel.shot.joined)}"
-    return panels.names[step.submodel]
+    return panels.names[panel.shot.submodel]
 
 
 def _names(names: Mapping[int, str], joined: Sequence[int]) -> str:
@@ -67,7 +67,7 @@ def header(panels: Panels, panel: Panel, room: float) -> Callout:
     number = f"{panel.shot.step.number + 1}{panel.letter}"
     x = width(number, _NUMBER, bold=True) + 4
     items.append(Text(number, 0, _NUMBER * 0.78, _NUMBER, bold=True))
-    times = panel.shot.step.times
+    times = panel.shot.times
     if times > 1:
         items.append(Text(f"{times}x", 0, _NUMBER * 0.78 + 7, 5, bold=True, colour=GREY))
     y = 0.0

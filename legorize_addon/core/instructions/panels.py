@@ -83,10 +83,11 @@ class Panels:
         self._pale = np.array([pale(_rgb(row)) for row in own], dtype=np.int64).reshape(-1, 3)
         self.names = submodel_names(steps)
         self._views: dict[int, View] = {}
+        self._letters = dict.fromkeys(range(len(steps)), 0)
 
     def of(self, shot: Shot) -> list[Panel]:
         """Return the pictures of a step; of one table they are to be asked for in order."""
-        table = shot.step.submodel
+        table, step = shot.submodel, shot.step
         before = first = self._views.get(table, FRONT)
         fresh = not len(shot.before)
         found = []
@@ -94,13 +95,16 @@ class Panels:
             found.append((scene, None if scene.view == before or fresh else before))
             before, fresh = scene.view, False
         self._views[table] = before
-        letters = [chr(ord("a") + number) for number in range(len(found))] if len(found) > 1 else [""]
+        start = self._letters[step.number]
+        self._letters[step.number] += len(found)
+        lettered = not shot.alone or len(found) > 1
+        letters = [chr(ord("a") + start + number) if lettered else "" for number in range(len(found))]
         panels, stays = [], shot.stays
         for letter, (scene, turned) in zip(letters, found, strict=True):
             drawn = np.setdiff1d(stays, scene.left_out)
             listed = scene.new[np.isin(scene.new, shot.placed)]
             low, high = extent(scene.sight)
-            last = letter in ("", letters[-1])
+            last = letter == letters[-1] and table == step.submodel
             panels.append(
                 Panel(shot, letter, last, scene.view, drawn, scene.new, scene.left_out, listed, turned, high - low,
                       scene.shares)
@@ -165,8 +169,9 @@ def submodel_names(steps: Steps) -> dict[int, str]:
     names |= {each.number: "" for each in steps.submodels if each.kind == Kind.MAIN}
     count = 0
     for step in steps:
-        first = steps.submodels[step.submodel].like
-        if first not in names:
-            count += 1
-            names[first] = f"Sub-assembly {count}"
+        for table in (*step.made, step.submodel):
+            first = steps.submodels[table].like
+            if first not in names:
+                count += 1
+                names[first] = f"Sub-assembly {count}"
     return {each.number: names.get(each.number) or names.get(each.like, "") for each in steps.submodels}

@@ -18,6 +18,12 @@ class Shot:
     Attributes
     ----------
     step : Step
+    submodel : int
+        The table: that of the step, or a small submodel that is built in it.
+    times : int
+        How many equal submodels are built at once.
+    alone : bool
+        Whether nothing else is to be seen of the step.
     placed : (k,) int64 array
         Rows of the bricks that are placed or taken out one by one, of one of several equal submodels.
     joined : tuple of int
@@ -29,6 +35,9 @@ class Shot:
     """
 
     step: Step
+    submodel: int
+    times: int
+    alone: bool
     placed: Ints
     joined: tuple[int, ...]
     came: Ints
@@ -59,18 +68,22 @@ def shots(steps: Steps, *, temporary: Mask) -> Iterator[Shot]:
     Yields
     ------
     Shot
-        One a step, in order.
+        One a step, in order, and before it one for each kind of small submodel
+        that is built in it.
     """
     on_table = {each.number: np.zeros(len(temporary), dtype=bool) for each in steps.submodels}
     for step in steps:
-        there = on_table[step.submodel]
-        own = steps.submodels[step.submodel].rows
-        placed = step.bricks[np.isin(step.bricks, own)]
-        joined = tuple(each for each in step.joined if steps.submodels[each].parent == step.submodel)
-        came = np.concatenate([np.zeros(0, np.int64), *(_finished(steps, each, temporary) for each in joined)])
-        yield Shot(step, placed, joined, came, np.flatnonzero(there))
-        there[placed] = step.action != Action.REMOVE
-        there[came] = True
+        # equal ones are shown once
+        tables = [each for each in step.made if steps.submodels[each].like == each]
+        for table in (*tables, step.submodel):
+            there = on_table[table]
+            placed = step.bricks[np.isin(step.bricks, steps.submodels[table].rows)]
+            joined = tuple(each for each in step.joined if steps.submodels[each].parent == table)
+            came = np.concatenate([np.zeros(0, np.int64), *(_finished(steps, each, temporary) for each in joined)])
+            times = steps.times(step, table)
+            yield Shot(step, table, times, not tables, placed, joined, came, np.flatnonzero(there))
+            there[placed] = step.action != Action.REMOVE
+            there[came] = True
 
 
 def _finished(steps: Steps, number: int, temporary: Mask) -> Ints:

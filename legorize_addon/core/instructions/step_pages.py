@@ -85,7 +85,7 @@ def scales(panels: Panels, found: Sequence[Panel], paper: Paper) -> dict[int, fl
     """
     largest = {each.number: np.ones(2) for each in panels.steps.submodels}
     for panel in found:
-        table = panel.shot.step.submodel
+        table = panel.shot.submodel
         largest[table] = np.maximum(largest[table], panel.size * MM)
     page = page_cell(paper)
     half = page._replace(width=(page.width - GAP) / 2)
@@ -125,7 +125,7 @@ class _Layout:
 
     def items(self, panel: Panel, cell: Cell) -> Iterator[Item]:
         """Yield a picture in its cell, with a colour behind it if it is built by itself."""
-        table = panel.shot.step.submodel
+        table = panel.shot.submodel
         if self._panels.steps.submodels[table].kind != Kind.MAIN:
             yield rectangle(*cell, Paint(fill=SUB))
         line = Paint(stroke=(205, 208, 212), width=0.25)
@@ -140,7 +140,7 @@ class _Layout:
 
     def _fits(self, panel: Panel, cell: Cell) -> bool:
         wide, high = cell.width - 2 * _INSET, cell.height - 2 * _INSET
-        across, down = panel.size * MM * self._scale[panel.shot.step.submodel]
+        across, down = panel.size * MM * self._scale[panel.shot.submodel]
         if across > wide or down > high:
             return False
         key = id(panel), wide

@@ -14,7 +14,7 @@ from legorize_addon.core.building import tables
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.items import MOST
 from legorize_addon.core.building.moves import Action
-from legorize_addon.core.building.order import plan_steps
+from legorize_addon.core.building.order import SMALL, plan_steps
 from legorize_addon.core.building.steps import Kind
 from legorize_addon.core.building.tables import Planner, _due, _off_middle
 from legorize_addon.core.model.assembly import Assembly
@@ -22,11 +22,14 @@ from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.progress import silent
 from tests.core.standing import CATALOGUE, table
 
+HANGING = (10, 9, 8, 11)
+"""Where plates hang from an arm, in x."""
 
-def comb(*places, colour=None):
-    """Return a bench on which arms lie at some places, each with a plate that hangs from its end."""
+
+def comb(*places, colour=None, hanging=1):
+    """Return a bench on which arms lie at some places, each with plates that hang from its end."""
     rows = [("3008", 0, y, 0) for y in range(0, 16)]
-    arms = [[("3010", 7, y, 3), ("3024", 10, y, 2)] for y in places]
+    arms = [[("3009", 7, y, 3), *(("3024", x, y, 2) for x in HANGING[:hanging])] for y in places]
     bricks = table(*rows, *(row for arm in arms for row in arm))
     if colour is not None:
         bricks.colour[-1] = colour
@@ -52,31 +55,58 @@ def test_equal_sub_assemblies_have_the_same_shape():
 
 
 def test_equal_sub_assemblies_are_built_together():
-    """Four of them in one step, each brick once, and each is put on by itself."""
-    bricks = comb(0, 4, 8, 12)
+    """Two of five bricks in a step of their own, each brick once, and each is put on by itself."""
+    bricks = comb(0, 4, hanging=SMALL)
     _, steps = planned(bricks)
     small = [each for each in steps.submodels if each.kind == Kind.SUBASSEMBLY]
     assert {each.like for each in small} == {small[0].number}
     [made] = [step for step in steps if step.times > 1]
-    assert made.times == 4
-    assert sorted(made.bricks.tolist()) == list(range(16, 24))
+    assert made.times == 2
+    assert not made.joined
+    assert sorted(made.bricks.tolist()) == list(range(16, 26))
     moves = steps.moves
-    assert (moves.action == Action.JOIN).sum() == 4
+    assert (moves.action == Action.JOIN).sum() == 2
     for one, other in zip(small[0].rows.tolist(), small[1].rows.tolist(), strict=True):
         assert bricks.part[one] == bricks.part[other]
 
 
 def test_other_colours_are_built_by_themselves():
     """What is not equal is not built together."""
-    _, steps = planned(comb(0, 4, colour=15))
+    _, steps = planned(comb(0, 4, colour=15, hanging=SMALL))
     assert {step.times for step in steps} == {1}
+    _, steps = planned(comb(0, 4, colour=15))
+    assert {steps.times(step, each) for step in steps for each in step.made} == {1}
 
 
-def test_a_small_sub_assembly_is_one_step():
-    """What has few bricks is one picture, nested or not."""
-    _, steps = planned(comb(0))
-    small = next(each.number for each in steps.submodels if each.kind == Kind.SUBASSEMBLY)
-    assert sum(step.submodel == small for step in steps) == 1
+@pytest.mark.parametrize("hanging", [1, SMALL - 1, SMALL])
+def test_a_small_sub_assembly_is_built_in_the_step_that_puts_it_on(hanging):
+    """Up to four bricks; larger ones have a step of their own before that, and both are one picture."""
+    _, steps = planned(comb(0, hanging=hanging))
+    [small] = [each.number for each in steps.submodels if each.kind == Kind.SUBASSEMBLY]
+    [put_on] = [step for step in steps if small in step.joined]
+    own = [step for step in steps if step.submodel == small]
+    assert len(own) == (hanging == SMALL)
+    assert put_on.made == (() if own else (small,))
+    bricks = steps.all_rows(small)
+    assert np.isin(bricks, (own or [put_on])[0].bricks).all()
+    assert put_on.submodel == 0
+
+
+def test_equal_small_ones_are_built_at_once():
+    """Three that are put on in one step are one model, three times; each is put on where it belongs."""
+    _, steps = planned(comb(0, 4, 8))
+    [step] = [step for step in steps if step.made]
+    assert [steps.submodels[each].like for each in step.made] == [step.made[0]] * 3
+    assert [steps.times(step, each) for each in (*step.made, 0)] == [3, 3, 3, 1]
+    assert len(np.unique(step.bricks)) == len(step.bricks)
+
+
+def test_small_ones_of_another_step_are_built_there():
+    """Of four in a row the last is too far away for the same picture: it is built when it is wanted."""
+    _, steps = planned(comb(0, 4, 8, 12))
+    made = [step.made for step in steps if step.made]
+    assert sorted(map(len, made)) == [1, 3]
+    assert all(steps.submodels[each].like == numbers[0] for numbers in made for each in numbers)
 
 
 @pytest.mark.parametrize("n", [MOST, MOST + 1])

@@ -8,11 +8,16 @@ import pytest
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.steps import Kind
 from legorize_addon.core.instructions.lattice import FRONT
+from legorize_addon.core.instructions.panel_layout import title_of
 from legorize_addon.core.instructions.panels import Panels, submodel_names
 from legorize_addon.core.instructions.shades import SUPPORT_TINT
 from legorize_addon.core.instructions.sightlines import ENOUGH
-from tests.core.any_bricks import CATALOGUE
-from tests.core.instructions.built import arm, pair
+from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.supports.assembly_plan import plan_assembly
+from tests.core.any_bricks import CATALOGUE, table
+from tests.core.instructions.built import BRICK, LONG, PART, arm, pair
+
+PLATE = PART["3024"]
 
 
 def panels_of(plan):
@@ -57,6 +62,20 @@ def test_the_first_picture_of_a_table_is_not_turned():
         first = panels.of(shot)[0]
         if not len(shot.before):
             assert first.turned is None
+
+
+def test_small_sub_assemblies_are_pictures_of_the_step_that_puts_them_on():
+    """An arm with a plate below its end: 1a shows the two, and in what follows they are put on."""
+    bricks = table([(BRICK, 0, 0, 0, 0, 4, 0, 0, 0), (LONG, 0, 0, 3, 0, 4, 0, 0, 0), (PLATE, 7, 0, 2, 0, 4, 0, 0, 0)])
+    panels = panels_of(plan_assembly(Assembly(bricks, CATALOGUE), deepest=3))
+    inner, outer = panels.shots
+    [first], last = panels.of(inner), panels.of(outer)[-1]
+    assert (first.letter, first.last, title_of(panels, first)) == ("a", False, "Sub-assembly 1")
+    assert first.new.tolist() == [2, 1]
+    assert last.letter > "a"
+    assert last.last
+    assert outer.came.tolist() == [2, 1]
+    assert inner.step is outer.step
 
 
 def test_submodels_have_names_in_their_order():

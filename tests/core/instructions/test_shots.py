@@ -16,8 +16,8 @@ def test_in_the_end_the_model_is_there(model):
     """After the last step all bricks that stay are on the first table, and no support."""
     plan = model()
     seen = list(shots(plan.steps, temporary=plan.temporary))
-    assert [shot.step.number for shot in seen] == list(range(len(plan.steps)))
-    last = [shot for shot in seen if shot.step.submodel == MAIN][-1]
+    assert [shot.step.number for shot in seen if shot.submodel == shot.step.submodel] == list(range(len(plan.steps)))
+    last = [shot for shot in seen if shot.submodel == MAIN][-1]
     there = np.union1d(last.stays, last.new if last.step.action != Action.REMOVE else last.new[:0])
     assert there.tolist() == np.flatnonzero(~plan.temporary).tolist()
 
