@@ -328,7 +328,7 @@ _SECONDS: Final[Mapping[str, _Features]] = MappingProxyType({
 """CPU seconds of the stages. Those of strengthening and stability were fitted to eight models at 24 and 48 studs. With
 bracing, which is a guess, they are rough: models of one size differ fiftyfold, by how weak they are."""
 
-TIERS: Final = MappingProxyType({"fast": 0.3, "standard": 1.0, "exact": 6.0})
+TIERS: Final = MappingProxyType({"fast": 0.3, "standard": 1.0, "exact": 6.0, "learned": 8.0})
 """Time of each tier of the layout, as a multiple of the standard one."""
 
 PROOF: Final = 3.0

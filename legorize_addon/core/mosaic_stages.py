@@ -60,7 +60,9 @@ def _made(run: Run) -> NDArray[np.bool_]:
 
 def lay_mosaic(run: Run, canvas: Canvas, colour: NDArray[np.int16]) -> Covered:
     """Lay the base of a mosaic, its image and its border."""
-    settings, catalogue = run.settings, run.catalogue
+    settings, catalogue, tier = run.settings, run.catalogue, run.settings.layout
+    if tier == "learned":
+        raise SettingsError("layout is 'learned', which knows no mosaics: choose one of fast, standard, exact.")
     base_colour = _colour(catalogue, settings.base_colour, "base_colour")
     base = lay_base(canvas.size, settings.mosaic_base, int(catalogue.codes[base_colour]), run.parts.catalogue)
     size = np.array([[part.length, part.width] for part in catalogue.parts])[base.part]
@@ -77,7 +79,7 @@ def lay_mosaic(run: Run, canvas: Canvas, colour: NDArray[np.int16]) -> Covered:
     found: list[Covered] = []
 
     def lay(catalogue: Catalogue) -> Bricks:
-        found.append(cover_base(studs, base, settings.mosaic, catalogue, tier=settings.layout, rng=run.rng))
+        found.append(cover_base(studs, base, settings.mosaic, catalogue, tier=tier, rng=run.rng))
         return found[-1].bricks
 
     chosen = run.parts.laid(lay)

@@ -47,7 +47,7 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
         "paper": Preset(
             "As Published",
             "Each step as in the paper, where that is a setting: seven dominant colours of the whole image, longest "
-            "trajectories, the layer above alone, trees; weaker than the default.",
+            "trajectories, the layer above alone, the learned fill, trees; weaker than the default.",
             {
                 "colours": 7,
                 "sampling": "image",
@@ -57,6 +57,7 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
                 "fewer_parts": 0.0,
                 "symmetric": False,
                 "hollow_rule": "upper",
+                "layout": "learned",
                 "supports": "tree",
             },
         ),

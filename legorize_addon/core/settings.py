@@ -122,10 +122,11 @@ class Settings:
     open_bottom: bool = setting(
         False, "Open bottom", "Leave the bottom of the model open.", group="Inside", needs=("hollow",))
 
-    layout: Literal["fast", "standard", "exact"] = setting(
+    layout: Literal["fast", "standard", "exact", "learned"] = setting(
         "standard", "Layout", "How much work goes into few and well bonded bricks.", group="Bricks", words={
             "fast": "a quick choice", "standard": "linear programmes",
-            "exact": "the fewest bricks that can be found, which takes several times as long"})
+            "exact": "the fewest bricks that can be found, which takes several times as long",
+            "learned": "a trained machine chooses every brick, layer by layer, as in the paper"})
     learned: bool = setting(
         True, "Use learning", "Let the fast layout exchange bricks as a trained support vector machine proposes.",
         group="Bricks", needs=("layout", "fast"))

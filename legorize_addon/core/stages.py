@@ -16,7 +16,7 @@ from .arrays import Floats, Mask
 from .build import Cut
 from .colours import SurfaceColours, chosen_palette, count_texels, surface_colours
 from .estimate import AGAIN
-from .layout import FILLER, Alike, Manner, lay
+from .layout import FILLER, Alike, Manner, lay, lay_learned
 from .layout.learning import NO_EXCHANGES, learned_table, samples_text
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
 from .model import Assembly, Bricks, Catalogue, Fill, UnitGrid, load_catalogue
@@ -226,6 +226,9 @@ def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
 
 def lay_freely(run: Run, shell: UnitGrid) -> Bricks:
     """Lay the bricks, whether the model is symmetric or not."""
+    filler = _filler(run.palette, run.catalogue)
+    if run.settings.layout == "learned":
+        return run.parts.laid(partial(lay_learned, shell, rng=run.rng, filler=filler, progress=run.progress))
     return run.parts.laid(
         partial(
             lay,
@@ -233,7 +236,7 @@ def lay_freely(run: Run, shell: UnitGrid) -> Bricks:
             rng=run.rng,
             tier=run.settings.layout,
             exchanges=run.exchanges,
-            filler=_filler(run.palette, run.catalogue),
+            filler=filler,
             progress=run.progress,
         )
     )
@@ -243,6 +246,9 @@ def lay_bricks(run: Run, shell: UnitGrid) -> tuple[Bricks, UnitGrid]:
     """Lay the bricks, and the halves of a symmetric model alike; return the cells that they cover as well."""
     run.parts.check_volume(int(np.count_nonzero(shell.cover == Fill.REQUIRED)))
     bricks = lay_freely(run, shell)
+    if run.settings.layout == "learned":
+        # the energies of its machine have the mirror images
+        return bricks, shell
     # where parts differ in price or weight, or few are owned, their number does not say what a layout costs
     if not run.settings.symmetric or run.parts.minds_lots:
         return bricks, shell

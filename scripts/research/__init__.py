@@ -19,6 +19,8 @@
 ``train_layout``  makes the samples of the learned exchanges, and judges what was learned
 ``training_models``  the models that these samples are taken from
 ``layout_controls``  what the exchanges are worth without learning
+``train_fill``    makes the samples of the learned fill, and judges what was learned
+``fill_controls``  what its search is worth with something else to decide
 ``make_samples``  models and paints the sample
 ``rooster``       its shape and colours
 ================  ==================================================================

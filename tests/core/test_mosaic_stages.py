@@ -118,3 +118,9 @@ def test_steps_can_be_proven():
     assert mosaic.proof is not None
     assert not len(mosaic.proof.collapsing)
     assert not len(mosaic.proof.undecided)
+
+
+def test_the_learned_fill_knows_no_mosaics():
+    """It is refused with what to choose instead."""
+    with pytest.raises(SettingsError, match="choose one of fast, standard, exact"):
+        legorize_image(painted(np.full((4, 4), 4)), Settings(width=8, layout="learned"))

@@ -1,10 +1,11 @@
-"""Which bricks cover the cells: :func:`lay` in its three tiers, and the joining of their result into one model."""
+"""Which bricks cover the cells: :func:`lay` in three tiers, :func:`lay_learned` as in the paper; then all is joined."""
 
 from __future__ import annotations
 
 from .again import as_good, cells_of, lay_again
 from .alike import Alike
 from .lay import FILLER, Manner, lay
+from .lay_learned import lay_learned
 from .recolour import recolour_visible
 
 __all__ = [
@@ -15,5 +16,6 @@ __all__ = [
     "cells_of",
     "lay",
     "lay_again",
+    "lay_learned",
     "recolour_visible",
 ]

@@ -267,7 +267,7 @@ def _laid(problem: Problem, owner: Rows, first: int, way: Way, worth: Mask | Non
     if worth is not None:
         chosen = improved(problem, chosen, rng, worth)
     covering = problem.owner(chosen)
-    _check_covered(sheets, problem.required & (covering == NOBODY))
+    check_covered(sheets, problem.required & (covering == NOBODY))
     here = np.full(sheets.colour.shape, NOBODY, dtype=np.int32)
     here.reshape(-1)[sheets.cells] = np.where(covering == NOBODY, NOBODY, first + covering)
     # bricks and plates of a layer share its planes
@@ -277,7 +277,8 @@ def _laid(problem: Problem, owner: Rows, first: int, way: Way, worth: Mask | Non
     return brick_table(problem, chosen)
 
 
-def _check_covered(sheets: Sheets, missing: Mask) -> None:
+def check_covered(sheets: Sheets, missing: Mask) -> None:
+    """Refuse cells, (n_cells,), that nothing covers."""
     if not missing.any():
         return
     code = sheets.colour.reshape(-1)[sheets.cells[missing]][0]

@@ -28,7 +28,7 @@ LARGEST: Final = 16
 RING: Final = 24
 """Cells around the longest brick, 2 x 8."""
 
-_CORNER_AREA: Final = 4
+CORNER_AREA: Final = 4
 """What the paper counts for the corner part: 1 x 2 x 2."""
 
 _AROUND: Final = tuple((y, x) for y in (-1, 0, 1) for x in (-1, 0, 1) if (y, x) != (0, 0))
@@ -141,7 +141,7 @@ def efficiency(size: Index, corner: Mask) -> float:
     float
         1 for single studs, 0 for 2 x 8.
     """
-    area = np.where(corner, _CORNER_AREA, size)
+    area = np.where(corner, CORNER_AREA, size)
     return _mean((LARGEST - area) / (LARGEST - 1))
 
 
