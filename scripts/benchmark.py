@@ -11,6 +11,7 @@
     python scripts/benchmark.py sizes     [MESH ...] [--out DIR]   as large as numbers of parts allow
     python scripts/benchmark.py masses    [MESH ...] [--out DIR]   grams against bricks
     python scripts/benchmark.py detail    [MESH ...] [--judge DIR] what plates gain and cost
+    python scripts/benchmark.py published [MESH ...] [--out DIR]   as in the paper, beside the default
     python scripts/benchmark.py hollowing [MESH ...] [--out DIR]   against a shell of two cells
     python scripts/benchmark.py stability [MESH ...] [--out DIR]   against HiGHS, and the StableLego cases
     python scripts/benchmark.py goals     [MESH ...] [--out DIR]   every goal of the layout, in one table
@@ -60,6 +61,7 @@ from scripts.benchmarks import (  # noqa: E402
     mosaics,
     mutation,
     pipeline,
+    published,
     purchase,
     slicing,
     stability,
@@ -183,6 +185,9 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
         "detail": of_models(
             "what plates gain and cost", detail.measure, numbers("--widths", [32, 64], "studs"),
             folder("--judge", "folder with judge.py, which else is not asked"), needs_out=True,
+        ),
+        "published": of_models(
+            "models as in the paper beside the default", published.measure, numbers("--widths", [32, 48], "studs")
         ),
         "hollowing": of_models("what hollowing leaves", hollowing.measure, number("--width", 64, "studs")),
         "stability": of_models(

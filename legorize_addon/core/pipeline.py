@@ -115,7 +115,7 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     proof = _prove(run, plan)
     run.progress.finish()
     notes = (
-        *made.repairs.sentences(), *unseen, *remarks_on_dithering(made.mesh, settings.dithering),
+        *made.repairs.sentences(), *unseen, *remarks_on_dithering(made.mesh, settings.dithering), *run.learning,
         *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
     )  # fmt: skip
     return Build(

@@ -46,8 +46,8 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
         ),
         "paper": Preset(
             "As Published",
-            "Each step as in the paper, where that is a setting: seven dominant colours of the whole image, longest "
-            "trajectories, the layer above alone, the learned fill, trees; weaker than the default.",
+            "Each step as in the paper: seven dominant colours of the whole image, longest trajectories, the layer "
+            "above alone, the learned fill, trees of eleven bricks, nothing strengthened; weaker than the default.",
             {
                 "colours": 7,
                 "sampling": "image",
@@ -55,10 +55,14 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
                 "fine_texture": "texels",
                 "chord_deviation": 0.4,
                 "fewer_parts": 0.0,
+                "superposition": "middle",
                 "symmetric": False,
                 "hollow_rule": "upper",
+                "ceilings": "pillars",
                 "layout": "learned",
                 "supports": "tree",
+                "support_parts": "paper",
+                "strengthen": False,
             },
         ),
     }

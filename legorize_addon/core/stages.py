@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -17,7 +17,7 @@ from .build import Cut
 from .colours import SurfaceColours, chosen_palette, count_texels, surface_colours
 from .estimate import AGAIN
 from .layout import FILLER, Alike, Manner, lay, lay_learned
-from .layout.learning import NO_EXCHANGES, learned_table, samples_text
+from .layout.learning import NO_EXCHANGES, FillLog, grades_text, learned_table, samples_text
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
 from .model import Assembly, Bricks, Catalogue, Fill, UnitGrid, load_catalogue
 from .part_choice import PartChoice
@@ -26,7 +26,16 @@ from .settings import Settings
 from .shell import hollow
 from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_layers, levels_of, slice_mesh
 from .statics import PROGRAMME, Effort, Stability, stability
-from .supports import AssemblyPlan, Wish, add_bracing, add_pillars, parts_of_supports, plan_assembly, strengthen
+from .supports import (
+    AssemblyPlan,
+    Wish,
+    add_bracing,
+    add_pillars,
+    of_the_paper,
+    parts_of_supports,
+    plan_assembly,
+    strengthen,
+)
 from .texturing import reduce_images, remarks_on_unseen, seen_part
 from .unit_bricks import (
     Detail,
@@ -62,6 +71,8 @@ class Run:
         Of the stage at work.
     timings : dict of str to float
         CPU seconds of the stages that are done.
+    learning : list of str
+        What was done in each step of the learned fill.
     """
 
     settings: Settings
@@ -72,6 +83,7 @@ class Run:
     rng: np.random.Generator
     progress: Overall
     timings: dict[str, float]
+    learning: list[str]
 
     @classmethod
     def of(cls, settings: Settings, progress: Overall) -> Self:
@@ -79,7 +91,7 @@ class Run:
         catalogue = load_catalogue()
         palette = chosen_palette(settings.palette, catalogue)
         parts, rng = PartChoice.of(settings, catalogue), np.random.default_rng(settings.seed)
-        return cls(settings, catalogue, parts, palette, _exchanges(settings), rng, progress, {})
+        return cls(settings, catalogue, parts, palette, _exchanges(settings), rng, progress, {}, [])
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
@@ -196,7 +208,8 @@ def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail
     marked = np.bincount(layer, minlength=frame.n_layers) == PLATES_PER_BRICK
     if settings.plates == "all":
         return Detail(marked, 0.0)
-    return Detail(marked, settings.plate_gain, settings.fewer_parts)
+    middle = settings.superposition == "middle"
+    return Detail(marked, settings.plate_gain, settings.fewer_parts, middle=middle)
 
 
 def close_overhangs(run: Run, grid: UnitGrid) -> tuple[UnitGrid, Offsets]:
@@ -225,21 +238,18 @@ def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
 
 
 def lay_freely(run: Run, shell: UnitGrid) -> Bricks:
-    """Lay the bricks, whether the model is symmetric or not."""
+    """Lay the bricks, whether the model is symmetric or not; note what a machine decided."""
+    settings, log = run.settings, FillLog()
+    way: Callable[..., Bricks]
+    if settings.layout == "learned":
+        way = partial(lay_learned, learned_from=settings.learned_from, log=log)
+    else:
+        way = partial(lay, tier=settings.layout, exchanges=run.exchanges)
     filler = _filler(run.palette, run.catalogue)
-    if run.settings.layout == "learned":
-        return run.parts.laid(partial(lay_learned, shell, rng=run.rng, filler=filler, progress=run.progress))
-    return run.parts.laid(
-        partial(
-            lay,
-            shell,
-            rng=run.rng,
-            tier=run.settings.layout,
-            exchanges=run.exchanges,
-            filler=filler,
-            progress=run.progress,
-        )
-    )
+    bricks = run.parts.laid(partial(way, shell, rng=run.rng, filler=filler, progress=run.progress))
+    if settings.layout == "learned":
+        run.learning[:] = log.sentences(shell, sum(run.timings.values()), len(bricks))
+    return bricks
 
 
 def lay_bricks(run: Run, shell: UnitGrid) -> tuple[Bricks, UnitGrid]:
@@ -267,7 +277,9 @@ def _parts_of_supports(run: Run, bricks: Bricks) -> float:
 
 
 def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid, Stability | None]:
-    """Tie what is weak; say how it stands as well, if it does."""
+    """Tie what is weak, if that is wanted; say how it stands as well, if it does."""
+    if not run.settings.strengthen:
+        return bricks, shell, None
     return strengthen(
         bricks,
         shell,
@@ -280,7 +292,11 @@ def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks
 
 def carry(run: Run, assembly: Assembly) -> Assembly:
     """Put pillars under what floats, if there may be supports."""
-    return assembly if run.settings.supports == "none" else add_pillars(assembly)
+    if run.settings.supports == "none":
+        return assembly
+    if run.settings.support_parts == "all":
+        return add_pillars(assembly)
+    return Assembly(add_pillars(Assembly(assembly.bricks, of_the_paper(run.catalogue))).bricks, run.catalogue)
 
 
 def check_stability(run: Run, assembly: Assembly, near: Stability | None) -> Stability:
@@ -294,9 +310,9 @@ def check_stability(run: Run, assembly: Assembly, near: Stability | None) -> Sta
 
 
 def brace(run: Run, assembly: Assembly, found: Stability) -> tuple[Assembly, Stability]:
-    """Put pillars under what studs do not bear, if there may be supports, and keep to the owned parts."""
+    """Put pillars under what studs do not bear, if that is wanted, and keep to the owned parts."""
     settings = run.settings
-    if settings.supports != "none":
+    if settings.supports != "none" and settings.strengthen:
         options = {"clutch": settings.clutch, "spare": settings.spare}
         assembly, found = add_bracing(assembly, found, **options, progress=run.progress)
     settled = run.parts.settled(assembly)
@@ -307,12 +323,14 @@ def brace(run: Run, assembly: Assembly, found: Stability) -> tuple[Assembly, Sta
 
 def make_plan(run: Run, assembly: Assembly) -> AssemblyPlan:
     """Put supports under the pieces, find the building order, and take the parts from those that are owned."""
-    settings = run.settings
+    settings, few = run.settings, run.settings.support_parts == "paper"
+    planned = partial(plan_assembly, deepest=settings.hanging, clutch=settings.clutch, long_bricks=few)
 
     def plan(catalogue: Catalogue | None, wish: Wish) -> AssemblyPlan:
         """Plan with supports of a kind, and of the parts of a catalogue if there is one."""
+        catalogue = of_the_paper(catalogue or run.catalogue) if few else catalogue
         model = assembly if catalogue is None else Assembly(assembly.bricks, catalogue)
-        return plan_assembly(model, wish=wish, deepest=settings.hanging, clutch=settings.clutch, progress=run.progress)
+        return planned(model, wish=wish, progress=run.progress)
 
     return run.parts.supplied(plan, settings.supports)
 
@@ -323,7 +341,7 @@ def _exchanges(settings: Settings) -> Mask | None:
         return learned_table(settings.learned_from)
     if settings.learned_from:
         # a wrong file is reported now, not when another layout is chosen
-        samples_text(settings.learned_from)
+        (grades_text if settings.layout == "learned" else samples_text)(settings.learned_from)
     return None if settings.learned else NO_EXCHANGES
 
 

@@ -67,55 +67,63 @@ class Lessons:
         Of the file to write.
     seed : int
         Draws the samples.
+    of_fill : bool
+        Whether the machine of the learned layout learns, or that of the fast one.
     """
 
     models: tuple[Lesson, ...]
     text: str
     version: int
     seed: int
+    of_fill: bool
 
     def work(self, progress: Progress) -> str:
         """Return the text of the next version; no Blender in here."""
-        from ..core.layout.learning import learn_more
+        from ..core.layout.learning import learn_more, learn_more_grades
 
         turns, n = enumerate(self.models), len(self.models)
         laid = [model.laid(part(progress, _LAYING * turn / n, _LAYING * (turn + 1) / n)) for turn, model in turns]
         progress("learning", _LAYING)
         rng = np.random.default_rng(self.seed)
-        names = [model.name for model in self.models]
-        return learn_more(self.text, laid, load_catalogue(), rng, names=names, version=self.version)
+        named = {"names": [model.name for model in self.models], "version": self.version}
+        if self.of_fill:
+            return learn_more_grades(self.text, [grid for grid, _ in laid], load_catalogue(), rng, **named)
+        return learn_more(self.text, laid, load_catalogue(), rng, **named)
 
 
 class LEGORIZE_OT_learn(Working, bpy.types.Operator):
-    """Teach the machine of the quick layout by the chosen models."""
+    """Teach the machine of the learned layout, or that of the fast one, by the chosen models."""
 
     bl_idname = "legorize.learn"
     bl_label = "Learn from Models"
     bl_description = (
-        "Learn from the selected brick models or objects which exchanges of bricks save parts, and add this to the "
-        "training of the fast layout; the earlier training is kept as a file"
+        "Learn from the selected brick models or objects which bricks are good ones, for the learned layout if that is "
+        "chosen, or which exchanges of bricks save parts, for the fast one; the earlier training is kept as a file"
     )
     bl_options = {"REGISTER", "UNDO"}
 
     nothing_chosen = "Select brick models, or objects with a surface."
 
     def _take_order(self, context: bpy.types.Context) -> Lessons:
-        from ..core.layout.learning import samples_text, version_of
+        from ..core.layout.learning import grades_text, grades_version, samples_text, version_of
 
         settings = settings_of(context.scene.legorize.settings)
-        text = samples_text(resolved(settings.learned_from))
-        version = max(version_of(text), *own_versions()) + 1
-        return Lessons(tuple(_lessons(context, settings)), text, version, settings.seed)
+        of_fill, path = settings.layout == "learned", resolved(settings.learned_from)
+        text = grades_text(path) if of_fill else samples_text(path)
+        version = max(grades_version(text) if of_fill else version_of(text), *own_versions()) + 1
+        return Lessons(tuple(_lessons(context, settings)), text, version, settings.seed, of_fill)
 
     def _show(self, context: bpy.types.Context, order: Lessons, text: str) -> set[str]:
         from ..core.files import write_whole
-        from ..core.layout.learning import read
+        from ..core.layout.learning import read, read_graded
 
         path, name = new_file(order.version)
         write_whole(path, text)
         context.scene.legorize.settings.learned_from = name
-        samples, facts = read(text)
-        told = f"Learned version {order.version} from {len(samples.pays)} samples, {len(order.models)} models more than"
+        samples, facts = read_graded(text) if order.of_fill else read(text)
+        told = (
+            f"Learned version {order.version} from {len(samples.model)} samples, {len(order.models)} models more than"
+        )
         self.report({"INFO"}, f"{told} before ({facts['cross-validation']}): {path}.")
         return {"FINISHED"}
 
@@ -125,7 +133,7 @@ class LEGORIZE_OT_forget(Reporting, bpy.types.Operator):
 
     bl_idname = "legorize.forget"
     bl_label = "Reset to Built-in Training"
-    bl_description = "Let the fast layout use its built-in training again; your training files are kept"
+    bl_description = "Use the built-in training again; your training files are kept"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod

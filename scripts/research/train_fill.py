@@ -30,6 +30,7 @@ from legorize_addon.core.layout.learning.grade_training import (  # noqa: E402 -
     EACH_GRADE,
     TrainedGrades,
     balanced,
+    cheapest,
     fewest,
     graded_of,
     train_grades,
@@ -37,7 +38,8 @@ from legorize_addon.core.layout.learning.grade_training import (  # noqa: E402 -
 )
 from legorize_addon.core.layout.learning.grading import Graded, Grader  # noqa: E402
 from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402
-from scripts.research.fill_controls import judged_fill  # noqa: E402
+from scripts.benchmarks.tables import write  # noqa: E402
+from scripts.research.fill_controls import HELD_BACK, judged_fill  # noqa: E402
 from scripts.research.training_models import KINDS, built  # noqa: E402
 
 SHIPPED: Final = ROOT / "assets" / "fill_svm.csv"
@@ -57,15 +59,23 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--out", metavar="FILE", type=Path, default=SHIPPED, help="where to write the samples")
     parser.add_argument("meshes", metavar="MESH", type=Path, nargs="*", help="model files for the report")
     parser.add_argument("--report", action="store_true", help="judge the built-in training instead of training anew")
-    parser.add_argument("--width", type=int, default=32, help="studs of the model files (default: %(default)s)")
+    parser.add_argument("--widths", type=int, nargs="+", default=[32], metavar="N", help="studs of the model files")
+    parser.add_argument("--held-back", type=int, default=HELD_BACK, help="unseen models of each kind in the report")
+    parser.add_argument(
+        "--pool", metavar="FILE", type=Path, help="candidates judged so far (.npz), to go on from there"
+    )
+    parser.add_argument("--tables", metavar="FOLDER", type=Path, help="where to write the report as CSV and JSON")
     parser.add_argument("--each", type=int, default=EACH, help="models of each kind (default: %(default)s)")
     parser.add_argument("--samples", type=int, default=EACH_GRADE, help="of each grade (default: %(default)s)")
     options = parser.parse_args(arguments)
     if options.report:
         text = SHIPPED.read_text(encoding="utf-8")
-        print(judged_fill(options.meshes, width=options.width, text=text, each=options.each))
+        tables = judged_fill(options.meshes, widths=options.widths, text=text, each=options.held_back)
+        print("\n".join(table.markdown() for table in tables))
+        if options.tables:
+            write(options.tables, "fill", tables)
         return 0
-    text = trained(seed=0, each=options.each, n=options.samples)
+    text = trained(seed=0, each=options.each, n=options.samples, kept=options.pool)
     unfinished = options.out.with_suffix(".part")
     unfinished.write_text(text, encoding="utf-8", newline="\n")
     unfinished.replace(options.out)
@@ -73,7 +83,7 @@ def main(arguments: Sequence[str]) -> int:
     return 0
 
 
-def trained(*, seed: int, each: int, n: int) -> str:
+def trained(*, seed: int, each: int, n: int, kept: Path | None = None) -> str:
     """Train on models made by chance.
 
     Parameters
@@ -84,23 +94,34 @@ def trained(*, seed: int, each: int, n: int) -> str:
         Models of each kind.
     n : int
         Samples of each grade.
+    kept : Path, optional
+        File of the candidates judged so far: from there a training that was stopped goes on, to the same result.
 
     Returns
     -------
     str
         The file to ship.
     """
-    rng, catalogue = np.random.default_rng(seed), load_catalogue()
+    catalogue = load_catalogue()
     grids = [built(kind, number)[0] for kind in KINDS for number in range(each)]
-    pool = graded_of(grids, catalogue, rng)
-    for _ in range(_MOST_ROUNDS):
+    pool, done = read_pool(kept) if kept and kept.exists() else (None, 0)
+    while pool is None or (fewest(pool) < n and done < _MOST_ROUNDS):
+        choose = cheapest if pool is None else Grader.of(pool, c=_FIRST[0], gamma=_FIRST[1]).choose
+        # every round has its own numbers, so that it does not matter where a training was stopped
+        pool = graded_of(grids, catalogue, np.random.default_rng([seed, done]), choose=choose, known=pool)
+        done += 1
         print(np.bincount(pool.grade), "candidates judged of each grade", file=sys.stderr, flush=True)
-        if fewest(pool) >= n:
-            break
-        machine = Grader.of(pool, c=_FIRST[0], gamma=_FIRST[1])
-        pool = graded_of(grids, catalogue, rng, choose=machine.choose, known=pool)
+        if kept:
+            np.savez(kept, energies=pool.energies, grade=pool.grade, model=pool.model, done=done)
+    rng = np.random.default_rng([seed, _MOST_ROUNDS])
     result = train_grades(balanced(pool, rng, n), rng)
     return written_grades(result, facts(seed, each, pool, result))
+
+
+def read_pool(kept: Path) -> tuple[Graded, int]:
+    """Return the candidates judged so far, and in how many rounds."""
+    with np.load(kept) as found:
+        return Graded(found["energies"], found["grade"], found["model"]), int(found["done"])
 
 
 def facts(seed: int, each: int, pool: Graded, result: TrainedGrades) -> dict[str, str]:

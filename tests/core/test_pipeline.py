@@ -18,6 +18,7 @@ from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import footprint, load_catalogue
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, Fill
 from legorize_addon.core.pipeline import legorize
+from legorize_addon.core.presets import preset_values
 from legorize_addon.core.settings import Settings
 from tests.core.light import holes
 from tests.core.solids import box, joined, mesh_of, moebius, reversed_mesh, sheet, sphere, tube, without
@@ -319,12 +320,13 @@ def test_meshes_of_every_kind_are_built(name):
         {"symmetric": False},
         {"cusp": 9.6, "chord_deviation": 1.0},
         {"colours": 1},
+        preset_values("paper"),
     ],
     ids=str,
 )
 def test_settings_of_every_kind_are_built(options):
     """Whatever is chosen, the result holds together as a result."""
-    build = legorize(blob(n=8, size=32), Settings(width=14, **options))
+    build = legorize(blob(n=8, size=32), Settings(**{"width": 14, **options}))
     check(build)
     assert build.settings.width == 14
 

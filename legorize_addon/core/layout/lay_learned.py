@@ -8,7 +8,7 @@ from ..errors import BuildError
 from ..model import Bricks, Catalogue, Fill, UnitGrid
 from ..progress import Progress, silent
 from .lay import FILLER, check_covered, join_loose, sheets_and_shapes
-from .learning import Grader, Layer, decided, fill_upwards, shipped_grader
+from .learning import FillLog, Layer, decided, fill_upwards, learned_grader
 from .problem import Index
 
 
@@ -17,7 +17,8 @@ def lay_learned(
     catalogue: Catalogue,
     *,
     rng: np.random.Generator,
-    grader: Grader | None = None,
+    learned_from: str = "",
+    log: FillLog | None = None,
     filler: int = FILLER,
     progress: Progress = silent,
 ) -> Bricks:
@@ -31,8 +32,10 @@ def lay_learned(
         Parts and colours.
     rng : numpy.random.Generator
         Draws the windows that are filled; the same state gives the same bricks.
-    grader : Grader, optional
-        The machine; by default the one of the built-in training.
+    learned_from : str
+        File of the machine's samples; empty for the built-in training.
+    log : FillLog, optional
+        Is told what is done.
     filler : int
         LDraw code of hidden bricks.
     progress : Progress
@@ -47,16 +50,22 @@ def lay_learned(
     ------
     BuildError
         There is nothing to build, or a required cell cannot be covered.
+    SettingsError
+        The file is no file of samples.
     """
     if not (grid.cover == Fill.REQUIRED).any():
         raise BuildError("The model has no cells to build: make it larger.")
     work = sheets_and_shapes(grid, catalogue, filler)
-    choose = (grader or shipped_grader()).choose
+    log = FillLog() if log is None else log
+    with log.timed("training"):
+        grader, log.facts = learned_grader(learned_from)
+    choose = log.watched(grader)
 
     def fill(layer: Layer) -> Index:
         chosen = decided(layer, choose, rng)
         check_covered(layer.problem.sheets, layer.problem.required & (layer.problem.owner(chosen) < 0))
         return chosen
 
-    bricks = fill_upwards(grid, work, fill, check=check_covered, progress=progress)
+    with log.timed("filling"):
+        bricks = fill_upwards(grid, work, fill, check=check_covered, progress=progress)
     return join_loose(bricks, grid, catalogue, work, rng, progress)

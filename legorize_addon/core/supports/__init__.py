@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .assembly_plan import KINDS, AssemblyPlan, Wish, plan_as_given, plan_assembly
+from .boxes import of_the_paper
 from .bracing import add_bracing
 from .demand import parts_of_supports
 from .pillars import add_pillars
@@ -19,6 +20,7 @@ __all__ = [
     "Wish",
     "add_bracing",
     "add_pillars",
+    "of_the_paper",
     "parts_of_supports",
     "plan_as_given",
     "plan_assembly",

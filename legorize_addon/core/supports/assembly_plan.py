@@ -162,6 +162,7 @@ def plan_assembly(
     wish: Wish = "best",
     deepest: int,
     clutch: float = HOLD,
+    long_bricks: bool = False,
     progress: Progress = silent,
 ) -> AssemblyPlan:
     """Put supports under a model, piece by piece, and find the order in which it is built.
@@ -178,6 +179,8 @@ def plan_assembly(
         Plates that bricks may hang one under another while building.
     clutch : float
         Pull in N that one contact point bears.
+    long_bricks : bool
+        Whether trees carry wide undersides by bricks of eight studs, see :mod:`.chassis`.
     progress : Progress
 
     Returns
@@ -192,7 +195,8 @@ def plan_assembly(
         # supports of the first piece are still there when the others are joined to it
         room = clearance_around(assembly.graph) if number == 0 and len(numbers) > 1 else None
         rows = np.flatnonzero(assembly.bricks.piece == number)
-        pieces.append(_piece(assembly, rows, room, wish, deepest, partial(plan_supports, clutch=clutch, progress=here)))
+        look = partial(plan_supports, clutch=clutch, long_bricks=long_bricks, progress=here)
+        pieces.append(_piece(assembly, rows, room, wish, deepest, look))
     pillars = [_numbered(piece.pillars, number) for piece, number in zip(pieces, numbers, strict=True)]
     added = [_numbered(piece.plan.supports, number) for piece, number in zip(pieces, numbers, strict=True)]
     everything = concatenate([assembly.bricks, *pillars, *added])

@@ -7,6 +7,7 @@ corner in studs and plates, and its size in the same.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -29,6 +30,18 @@ INSIDE_COLOUR: Final = 4
 TALL: Final = 3 * PLATES_PER_BRICK
 """Height of a tall brick in plates."""
 
+_PAPER: Final = (
+    *(
+        (length, width, PLATES_PER_BRICK)
+        for width, lengths in ((1, (1, 2, 3, 4, 6, 8)), (2, (2, 3, 4, 6, 8)))
+        for length in lengths
+    ),
+    *((length, 2, TALL) for length in (2, 4)),
+    (1, 1, 1),
+)
+"""Longer side, shorter side and height of what supports are made of in the paper: eleven bricks, the two of eight studs
+that its chassis lies on, and the plate of one stud, without which no contact between whole bricks is reached."""
+
 
 def boxes_of(rows: Iterable[tuple[int, int, int, int, int, int]]) -> Boxes:
     """Return rows as an array, (n, 6) int32."""
@@ -49,6 +62,29 @@ def sizes_in(catalogue: Catalogue, colour: int) -> dict[tuple[int, int, int], in
         for row, part in enumerate(catalogue.parts)
         if made[row] and part.use == "model" and not part.corner
     }
+
+
+def of_the_paper(catalogue: Catalogue) -> Catalogue:
+    """Return a catalogue in which only those parts can be had that supports are made of in the paper.
+
+    Parameters
+    ----------
+    catalogue : Catalogue
+
+    Returns
+    -------
+    Catalogue
+        With the same parts and colours.
+
+    References
+    ----------
+    Paper, section on segmentation (the three types of bricks) and on supports (the chassis).
+    """
+    kept = [
+        (part.length, part.width, part.height) in _PAPER and part.use == "model" and not part.corner
+        for part in catalogue.parts
+    ]
+    return replace(catalogue, exists=catalogue.exists & np.array(kept)[:, None])
 
 
 def split_missing(boxes: Boxes, sizes: Collection[tuple[int, int, int]]) -> Boxes:

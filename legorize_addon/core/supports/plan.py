@@ -20,6 +20,7 @@ from ..progress import Progress, part, silent
 from ..statics import Effort, stability
 from .beams import beams
 from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, merge_upwards, sizes_in, split_missing
+from .chassis import carried_by, chassis, without
 from .columns import columns
 from .demand import Demand
 from .stacks import widen
@@ -92,6 +93,7 @@ def plan_supports(
     *,
     ways: Sequence[Way],
     clutch: float,
+    long_bricks: bool = False,
     progress: Progress = silent,
 ) -> Plan:
     """Put supports under a piece.
@@ -107,6 +109,8 @@ def plan_supports(
         shall be put under the piece.
     clutch : float
         Pull in N that one contact point bears.
+    long_bricks : bool, optional
+        Whether trees carry wide undersides by bricks of eight studs, see :func:`~.chassis.chassis`.
     progress : Progress, optional
         Told how far the search is.
 
@@ -121,12 +125,12 @@ def plan_supports(
         trying = part(progress, turn / len(ways), (turn + 1) / len(ways))
         trying("supports", 0.0)
         # contacts are added, never taken away: what is too heavy to begin with stays so
-        first = _laid(contacts, need, assembly.catalogue, way)
+        first = _laid(contacts, need, assembly.catalogue, way, long_bricks=long_bricks)
         if best is not None and (
             not len(contacts.cells) or _worth(best, assembly.catalogue) <= (False, _mass(first, assembly.catalogue))
         ):
             continue
-        found = _settled(assembly, need, contacts, way, clutch, trying)
+        found = _settled(assembly, need, contacts, way, clutch, trying, long_bricks=long_bricks)
         if best is None or _worth(found, assembly.catalogue) < _worth(best, assembly.catalogue):
             best = found
     return _bare(assembly, need, contacts, progress) if best is None else best
@@ -148,11 +152,13 @@ def _settled(
     way: Way,
     clutch: float,
     progress: Progress,
+    *,
+    long_bricks: bool,
 ) -> Plan:
     """Add contacts and straighten branches until all stands and bears, or nothing more helps."""
     for left in reversed(range(ROUNDS)):
         trying = part(progress, 1 - (left + 1) / ROUNDS, 1 - left / ROUNDS)
-        supports = _laid(contacts, need, assembly.catalogue, way)
+        supports = _laid(contacts, need, assembly.catalogue, way, long_bricks=long_bricks)
         # what the last round finds is not laid any more
         falling, braces = _falling(assembly, supports, contacts, need, add=left > 0, progress=trying)
         giving, bears = np.zeros(len(contacts.cells), dtype=bool), True
@@ -212,10 +218,12 @@ def _falling(
     ), braces
 
 
-def _laid(contacts: SupportContacts, need: Demand, catalogue: Catalogue, way: Way) -> Bricks:
+def _laid(contacts: SupportContacts, need: Demand, catalogue: Catalogue, way: Way, *, long_bricks: bool) -> Bricks:
     """Return the bricks of all supports, in the cells of the model's grid."""
     if way == "tree":
-        boxes = tree(contacts.cells, contacts.load, need.room, straight=contacts.straight)
+        wide = chassis(need.undersides, contacts.cells, need.room) if long_bricks else np.zeros((0, 6), dtype=np.int32)
+        cells, load, straight = carried_by(wide, contacts.cells, contacts.load, contacts.straight)
+        boxes = np.concatenate([wide, tree(cells, load, without(need.room, wide), straight=straight)])
     elif way == "columns":
         boxes = columns(contacts.cells.tolist(), need.room)
     else:

@@ -18,14 +18,20 @@ of volume and of colour are our own.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
+from scipy.ndimage import label
 
 from ..arrays import Floats, Mask
 from ..model import COLOUR_ANY, COLOUR_EMPTY
 from ..units import PLATES_PER_BRICK
 from .colour_votes import CLEAR, Ballot, Codes, cost_in
 from .smoothing import smooth_colours, smooth_shapes
+
+_ROW: Final = np.zeros((3, 3, 3), dtype=bool)
+_ROW[1, 1] = True
+"""What touches a cell along x."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,11 +49,15 @@ class Detail:
     worth : float
         Error, as above, to accept for one part less: neighbouring columns become alike where that costs less. 0 decides
         every column by itself.
+    middle : bool
+        Whether bricks end where their middle plate does if all three end at different places, and every column is
+        decided by itself; else where their volume is best.
     """
 
     marked: Mask
     least_gain: float
     worth: float = 0.0
+    middle: bool = False
 
 
 def settle_plates(solid: Mask, share: Floats, detail: Detail) -> Mask:
@@ -72,7 +82,7 @@ def settle_plates(solid: Mask, share: Floats, detail: Detail) -> Mask:
     -------
     (n_plates, n_y, n_x) bool array
     """
-    if detail.worth == 0:
+    if detail.worth == 0 or detail.middle:
         return _settled_alone(solid, share, detail)
     every = _settled_alone(solid, share, replace(detail, least_gain=0.0))
     return smooth_shapes(every, share, least_gain=detail.least_gain, worth=detail.worth)
@@ -88,12 +98,39 @@ def _settled_alone(solid: Mask, share: Floats, detail: Detail) -> Mask:
     # cells that were added although less than half covered are thin; they and what carries them stay
     thin = (there & (inside < 0.5)).any(axis=1)
     resting = _resting(plates)[layer, y, x]
-    drop = (none < full) & resting & ~thin
+    drop = (~superposed(plates)[layer, y, x] if detail.middle else none < full) & resting & ~thin
     gain = np.where(drop, none, full) - error
     round_ = ~detail.marked[layer] | (gain < detail.least_gain)
     kept = plates.copy()
     kept[layer[round_], :, y[round_], x[round_]] = ~drop[round_, None]
     return kept.reshape(solid.shape)
+
+
+def superposed(plates: Mask) -> Mask:
+    """Make bricks of plates by the paper's three rules of superposition, along rows.
+
+    Parameters
+    ----------
+    plates : (n_layers, 3, n_y, n_x) bool array
+
+    Returns
+    -------
+    (n_layers, n_y, n_x) bool array
+        Where all three plates end at one place, or two of them do, the brick ends there (first and second rule); where
+        all end at different places, it ends where the middle plate does (third rule), and not where the median does.
+
+    References
+    ----------
+    Paper, section on local high resolution: "the problem is solved along one direction only", here along x.
+    """
+    low, middle, top = np.moveaxis(plates, 1, 0)
+    # the middle plate alone ends elsewhere; whether the two others end at one place shows beside these cells
+    alone = (middle != low) & (middle != top)
+    apart = np.pad(low != top, ((0, 0), (0, 0), (1, 1)))
+    number, _ = label(alone, structure=_ROW)
+    third = np.unique(number[alone & (apart[..., :-2] | apart[..., 2:])])
+    chosen: Mask = np.where(alone & np.isin(number, third), middle, plates.sum(axis=1) >= 2)
+    return chosen
 
 
 def _resting(plates: Mask) -> Mask:

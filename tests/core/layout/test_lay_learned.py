@@ -20,7 +20,7 @@ def laid(grid, **options):
 
 
 @given(st.integers(0, 2**32 - 1), st.booleans())
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=5, deadline=None)
 def test_what_every_layout_keeps(seed, plates):
     """Required cells once, optional cells at most once; colours kept; parts exist; nothing overlaps."""
     grid = random_grid(seed, plates)

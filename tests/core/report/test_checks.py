@@ -22,6 +22,13 @@ def test_good_model_fails_nothing() -> None:
     assert failed_checks(GOOD) == []
 
 
+def test_strength_that_was_not_asked_for_is_no_fault() -> None:
+    """Without strengthening the verdict says how the model stands."""
+    weak = GOOD | {"stability": GOOD["stability"] | {"stable": False}}
+    assert len(failed_checks(weak | {"settings": {"strengthen": True}})) == 1
+    assert failed_checks(weak | {"settings": {"strengthen": False}}) == []
+
+
 @pytest.mark.parametrize(
     ("place", "value", "words"),
     [

@@ -8,7 +8,14 @@ from hypothesis import given
 
 from legorize_addon.core.model.bricks import NOBODY, Role
 from legorize_addon.core.model.contacts import contact_graph
-from legorize_addon.core.supports.boxes import boxes_of, bricks_of_boxes, merge_upwards, sizes_in, split_missing
+from legorize_addon.core.supports.boxes import (
+    boxes_of,
+    bricks_of_boxes,
+    merge_upwards,
+    of_the_paper,
+    sizes_in,
+    split_missing,
+)
 from legorize_addon.core.supports.columns import pillars
 from scripts.research.full_columns import full_columns
 from tests.core.supports.places import CATALOGUE, WHITE, ceilings, owners, triples
@@ -28,6 +35,15 @@ def test_no_boxes():
     """An empty list is an array of no rows, and no bricks."""
     assert boxes_of([]).shape == (0, 6)
     assert len(bricks_of(boxes_of([]))) == len(merge_upwards(boxes_of([]), CATALOGUE, WHITE)) == 0
+
+
+def test_parts_of_the_paper():
+    """Five bricks one stud wide, four two studs wide, two tall ones, and those of eight studs; one plate."""
+    narrow = {(length, 1, 3) for length in (1, 2, 3, 4, 6, 8)}
+    wide = {(length, 2, 3) for length in (2, 3, 4, 6, 8)}
+    few = of_the_paper(CATALOGUE)
+    assert set(sizes_in(few, WHITE)) == narrow | wide | {(2, 2, 9), (4, 2, 9)} | {(1, 1, 1)}
+    assert few.parts == CATALOGUE.parts
 
 
 @pytest.mark.parametrize("n", range(10))

@@ -13,7 +13,7 @@ from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.unit_bricks.colour_votes import Ballot
-from legorize_addon.core.unit_bricks.plates import Detail, settle_colours, settle_plates
+from legorize_addon.core.unit_bricks.plates import Detail, settle_colours, settle_plates, superposed
 from tests.core.solids import box, sphere, volume
 from tests.core.textured import painted, turned_about_z
 
@@ -49,6 +49,18 @@ def test_one_plate_of_three_becomes_nothing(share):
 def test_three_plates_are_a_brick():
     """Three plates in one grid are one brick (first rule)."""
     assert rounded((1, 1, 1)) == [True] * 3
+
+
+def test_the_third_rule_to_the_letter():
+    """Three plates that end at different places become a brick up to the one in the middle; two that agree decide."""
+    for ends in product(range(1, 7), repeat=3):
+        plates = np.array([[place < end for place in range(8)] for end in ends])[:, None]
+        wanted = ends[1] if len(set(ends)) == 3 else sorted(ends)[1]
+        for mirrored in (plates, plates[:, :, ::-1]):
+            assert superposed(mirrored[None]).sum() == wanted
+        shares = np.concatenate([np.ones((3, 1, 8)), plates])
+        found = settle_plates(shares >= 0.5, shares, Detail(np.array([True, True]), 1.0, middle=True))[3:]
+        np.testing.assert_array_equal(found[:, 0].sum(axis=1), [wanted] * 3)
 
 
 def test_boundary_is_where_the_middle_plate_ends():

@@ -5,7 +5,9 @@ into windows of bricks that lie together. Then the bricks of all windows are tak
 up, and the machine decides anew: in each window the cell with the fewest ways left
 comes next; behind every brick that may lie there the window is filled to its end;
 and the machine chooses by the energies that come out. The first time what it
-decides counts in any case, later in other windows if it costs less.
+decides counts in any case; later, in other windows, it decides as well which of
+the two fills is kept. What a layout costs is never looked at: all that is known of
+that is in the labels that the machine learned from.
 
 References
 ----------
@@ -42,11 +44,8 @@ from .layer import Layer
 from .simulation import NONE, Outcome, Windows, measured, simulate
 from .windows import Lists, grouped
 
-PASSES: Final = 6
-"""How often the windows are filled: three orders of the simulation, twice each."""
-
-_LEAST_GAIN: Final = 1e-6
-"""Bricks that a window must save; keeps rounding errors from going in circles."""
+PASSES: Final = 3
+"""How often the windows are filled: once in each order of the simulation. Six times save 1 % and take twice as long."""
 
 Choice = Callable[[Outcome, Index, np.random.Generator], Index]
 """From what came out behind the candidates (columns, -1 where there are fewer) to the number of one, (n_windows,)."""
@@ -153,7 +152,13 @@ def simulated(layer: Layer) -> Index:
 
 
 def decided(
-    layer: Layer, choose: Choice, rng: np.random.Generator, *, passes: int = PASSES, watch: Watcher | None = None
+    layer: Layer,
+    choose: Choice,
+    rng: np.random.Generator,
+    *,
+    passes: int = PASSES,
+    keep: Choice | None = None,
+    watch: Watcher | None = None,
 ) -> Index:
     """Fill a layer by decisions.
 
@@ -166,6 +171,8 @@ def decided(
         Draws the windows.
     passes : int
         How often the windows are filled.
+    keep : callable, optional
+        Chooses between what lies in a window and its new fill, in this order; by default whoever chooses bricks.
     watch : callable, optional
         Sees every decision.
 
@@ -181,13 +188,27 @@ def decided(
         laid = np.zeros(len(layer.cost), dtype=bool)
         laid[chosen] = True
         found = refilled(layer, windows, laid, choose, rng, watch)
-        new, old = (
-            measured(layer, windows, laid, each[:, None]).cost[:, 0] for each in (found, _columns(windows, laid))
+        better = _preferred(
+            measured(layer, windows, laid, _beside(_columns(windows, laid), found)), keep or choose, rng
         )
-        better = (new < old - _LEAST_GAIN) | (turn == 0)
+        better |= turn == 0
         rows = windows.rows_of(found, len(laid))[better]
         chosen = np.concatenate([chosen[~better[window]], rows[rows < len(laid)]])
     return np.sort(chosen)
+
+
+def _preferred(outcome: Outcome, choose: Choice, rng: np.random.Generator) -> Mask:
+    """Return for which windows the second of two fills is chosen."""
+    preferred: Mask = choose(outcome, np.zeros(outcome.cost.shape, dtype=np.intp), rng) == 1
+    return preferred
+
+
+def _beside(one: Index, other: Index) -> Index:
+    """Return two fills of each window, (n_windows, 2, n_bricks)."""
+    width = max(one.shape[1], other.shape[1])
+    return np.stack(
+        [np.pad(each, ((0, 0), (0, width - each.shape[1])), constant_values=NONE) for each in (one, other)], axis=1
+    )
 
 
 def _columns(windows: Windows, laid: Mask) -> Index:

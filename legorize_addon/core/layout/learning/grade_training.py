@@ -18,7 +18,7 @@ from ...errors import BuildError
 from ...model import Catalogue, UnitGrid
 from ..problem import Index, Sheets, shapes, split
 from .fill import Choice, decided, fill_upwards
-from .grading import COLUMNS, GRADES, Graded, Grader, relative
+from .grading import COLUMNS, GRADES, Graded, Grader, drawn_best, relative
 from .layer import Layer
 from .regret import regrets
 from .simulation import Outcome, Windows
@@ -36,6 +36,10 @@ _STRAY: Final = 0.3
 
 _JUDGED: Final = 150
 """Candidates judged for each model and round."""
+
+_LIKELY: Final = 3
+"""Candidates judged at a decision because the simulation ends cheapest behind them, beside one by chance: bricks of the
+first two grades are rare."""
 
 GRADE_COSTS: Final = (1.0, 8.0, 64.0)
 GRADE_GAMMAS: Final = (0.125, 0.5, 2.0, 8.0)
@@ -84,9 +88,7 @@ def strayed(choose: Choice) -> Choice:
 
 def cheapest(outcome: Outcome, candidates: Index, rng: np.random.Generator) -> Index:
     """Choose the candidate behind which the simulation costs least, as :data:`~.fill.Choice`."""
-    del rng
-    best: Index = np.where(candidates >= 0, np.round(outcome.cost, 6), np.inf).argmin(axis=1)
-    return best
+    return drawn_best(-np.round(outcome.cost, 6), candidates, rng)
 
 
 def graded_of(
@@ -125,6 +127,8 @@ def graded_of(
         for row in rng.permutation(len(every)):
             above, judge = every[row]
             new = np.array([each.tobytes() not in seen for each in above])
+            # the cheapest come first
+            new &= (np.cumsum(new) <= _LIKELY) | (np.arange(len(new)) == rng.integers(len(new)))
             if not new.any():
                 continue
             seen.update(each.tobytes() for each in above)
@@ -143,7 +147,9 @@ def _all_decisions(grid: UnitGrid, catalogue: Catalogue, rng: np.random.Generato
     def watch(layer: Layer, windows: Windows, laid: Mask, before: Index, candidates: Index, outcome: Outcome) -> None:
         above = relative(outcome, candidates)
         for window in np.flatnonzero((candidates >= 0).sum(axis=1) > 1).tolist():
-            first = np.unique(above[window, candidates[window] >= 0], axis=0, return_index=True)[1]
+            cheapest_first = np.argsort(np.round(outcome.cost[window, candidates[window] >= 0], 6), kind="stable")
+            kinds = np.unique(above[window, cheapest_first], axis=0, return_index=True)[1]
+            first = cheapest_first[np.sort(kinds)]
 
             def judge(which: Mask, window: int = window, first: Index = first) -> Floats:
                 return regrets(layer, windows, laid, window, before[window], candidates[window, first[which]])

@@ -96,6 +96,25 @@ def relative(outcome: Outcome, candidates: Index) -> Whole:
     return rounded
 
 
+def drawn_best(score: Floats, candidates: Index, rng: np.random.Generator) -> Index:
+    """Return the candidate of the highest score in each window, one of equal ones by chance: order must not decide.
+
+    Parameters
+    ----------
+    score : (n_windows, n_candidates) float64 array
+    candidates : (n_windows, n_candidates) intp array
+        -1 where there is none.
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    (n_windows,) intp array
+    """
+    there = np.where(candidates >= 0, score, -np.inf)
+    best: Index = np.where(there == there.max(axis=1, keepdims=True), rng.random(there.shape), -1).argmax(axis=1)
+    return best
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Grader:
     """A trained machine, as arrays.
@@ -180,15 +199,13 @@ class Grader:
         return scores
 
     def choose(self, outcome: Outcome, candidates: Index, rng: np.random.Generator) -> Index:
-        """Choose a candidate for each window, as :data:`~.fill.Choice`."""
-        del rng
+        """Choose a candidate for each window, as :data:`~.fill.Choice`; one of equal ones by chance."""
         above = relative(outcome, candidates)
         # many end alike, and the machine is asked once for each kind
         codes = above.reshape(-1, above.shape[2]).astype(np.int64) @ (np.int64(1) << np.array([45, 30, 15, 0]))
         _, first, kind = np.unique(codes, return_index=True, return_inverse=True)
         score = self.scores(above.reshape(-1, above.shape[2])[first])[kind.reshape(-1)].reshape(candidates.shape)
-        best: Index = np.where(candidates >= 0, score, -np.inf).argmax(axis=1)
-        return best
+        return drawn_best(score, candidates, rng)
 
 
 def _weights(dual: Floats, n_support: Index) -> Floats:
