@@ -37,6 +37,10 @@ def main(path: str) -> None:
     points = [each for each in builds[0].all_objects if each.type == "MESH"]
     found["bricks"] = sum(len(each.data.vertices) for each in points)
     found["source_faces"] = len(source.data.polygons)
+    kept = bpy.context.preferences.addons[NAME].preferences
+    kept.palette = "4, 15"
+    bpy.ops.wm.read_homefile(use_empty=True)
+    found["palette"] = bpy.context.scene.legorize.settings.palette
     learning = importlib.import_module(f"{NAME}.legorize_addon.ui.learned_files")
     found["own_folder"] = str(learning.own_folder())
     bpy.ops.preferences.addon_disable(module=NAME)

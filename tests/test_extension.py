@@ -115,6 +115,7 @@ def test_installed_from_disk(extension: Path, tmp_path: Path) -> None:
     assert found["status"] == ["FINISHED"]
     assert found["bricks"] > 10
     assert found["source_faces"] == 6
+    assert found["palette"] == "4, 15"
     assert found["left_behind"] == []
     assert Path(found["own_folder"]).parts[-4:] == (".user", "user_default", "legorize", "learned")
     # it is the libraries of the zip that were used, not those of this environment

@@ -13,17 +13,19 @@ from . import (
     instructions,
     learning,
     looks,
+    menus,
     method,
     mosaic,
     palette,
     panels,
     parts,
+    preferences,
     properties,
 )
 
 _PARTS = (
     properties, expectation, build, build_larger, export, instructions, animation, learning, looks, parts, everything,
-    existing, palette, panels, mosaic, method,
+    existing, palette, panels, mosaic, method, menus, preferences,
 )  # fmt: skip
 
 
