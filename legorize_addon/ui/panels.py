@@ -28,6 +28,7 @@ from .properties import current_build
 from .requests import chosen_sources
 from .settings_panels import GROUPS, SETTINGS_PANELS, SIZE, draw_settings
 from .tab import Tab, draw_wrapped
+from .weakest import LEGORIZE_OT_show_weakest
 
 MM_PER_CM: Final = 10.0
 
@@ -170,6 +171,7 @@ class LEGORIZE_PT_stability(_BuildPanel, bpy.types.Panel):
         switch = self.layout.row()
         switch.enabled = has_margins(build) and job.running() is None
         switch.prop(view, "heat_map")
+        switch.operator(LEGORIZE_OT_show_weakest.bl_idname, text="Weakest", icon="ZOOM_SELECTED")
         if view.heat_map:
             draw_wrapped(context, self.layout, LEGEND, "INFO")
 

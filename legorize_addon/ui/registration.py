@@ -21,11 +21,12 @@ from . import (
     parts,
     preferences,
     properties,
+    weakest,
 )
 
 _PARTS = (
     properties, expectation, build, build_larger, export, instructions, animation, learning, looks, parts, everything,
-    existing, palette, panels, mosaic, method, menus, preferences,
+    existing, palette, panels, mosaic, method, menus, preferences, weakest,
 )  # fmt: skip
 
 

@@ -30,6 +30,7 @@ from .visibility import (
     shown_corners,
     stop_animation,
 )
+from .weakest import show_weakest
 
 __all__ = [
     "LEGEND",
@@ -64,6 +65,7 @@ __all__ = [
     "show_role",
     "show_steps",
     "show_trajectories",
+    "show_weakest",
     "shown_corners",
     "shown_lot",
     "steps_done",
