@@ -52,6 +52,7 @@ ORDER: Final = (
     "core.files",
     "core.ldraw",
     "core.estimate",
+    "core.limits",
     "core.build",
     "core.method",
     "core.report",

@@ -7,7 +7,8 @@ from typing import Final
 
 from .build import Draft
 from .errors import SettingsError, enough_memory
-from .estimate import COUNTED, check_limits, estimate
+from .estimate import COUNTED, estimate
+from .limits import check_limits
 from .mesh import TriangleMesh
 from .native import watched
 from .progress import Overall, Progress, silent

@@ -13,11 +13,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from types import MappingProxyType
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
-from .errors import LimitError
 from .mesh import TriangleMesh, checked_vertices, scale_of_extent, turn_mesh
 from .progress import duration
 from .settings import Settings
@@ -195,81 +194,6 @@ def counted_size(mesh: TriangleMesh, settings: Settings) -> Settings:
 def megabytes(cells: int, bricks: int) -> float:
     """Return about how much memory the bricks of a model take, without a mesh."""
     return _MEGABYTES.of(_Features(cells=float(cells), bricks=float(bricks)))
-
-
-def check_limits(expected: Estimate, settings: Settings) -> None:
-    """Refuse what is larger than the settings allow.
-
-    The limits are numbers that users can raise, not the memory that happens to be free: the same file and settings are
-    built, or refused, on every machine.
-
-    Parameters
-    ----------
-    expected : Estimate
-        Of a mesh with these settings.
-    settings : Settings
-
-    Raises
-    ------
-    LimitError
-        One sentence with the size, what it would cost, and what to change.
-    """
-    spent = _spent(expected)
-    passed = {name: spent[name] / limit for name, limit in _limits(settings).items() if spent[name] > limit}
-    if not passed:
-        return
-    raised = [f"{name} to {_rounded_up(spent[name])}" for name in passed]
-    cure = f"choose {_smaller(settings, passed)}"
-    if all(_rounded_up(spent[name]) <= _highest(name) for name in passed):
-        cure += ", or raise " + " and ".join(raised)
-    raise LimitError(f"{expected.sentence()}: {cure}.")
-
-
-def within_limits(expected: Estimate, settings: Settings) -> Settings:
-    """Return settings whose limits allow the expected model, as far as their ranges permit."""
-    spent = _spent(expected)
-    passed = [name for name, limit in _limits(settings).items() if spent[name] > limit]
-    raised: dict[str, Any] = {name: min(_rounded_up(spent[name]), _highest(name)) for name in passed}
-    return replace(settings, **raised)
-
-
-def _limits(settings: Settings) -> dict[str, int]:
-    """Return the limits by the names of their settings."""
-    return {
-        "limit_size": settings.limit_size,
-        "limit_bricks": settings.limit_bricks,
-        "limit_memory": settings.limit_memory,
-    }
-
-
-def _spent(expected: Estimate) -> dict[str, float]:
-    """Return the value that is compared with each limit."""
-    return {"limit_size": max(expected.cm), "limit_bricks": expected.bricks, "limit_memory": expected.megabytes}
-
-
-def _highest(name: str) -> int:
-    """Return how far a limit can be raised."""
-    [highest] = [entry.metadata["high"] for entry in fields(Settings) if entry.name == name]
-    return int(highest)
-
-
-def _rounded_up(number: float) -> int:
-    """Return two digits that are no less than a number."""
-    step: int = 10 ** max(0, math.floor(math.log10(max(number, 1))) - 1)
-    return math.ceil(number / step) * step
-
-
-def _smaller(settings: Settings, passed: Mapping[str, float]) -> str:
-    """Return the size that would do, in words: the number of bricks grows with the area at least, the memory too."""
-    share = min(1 / ratio ** (1.0 if name == "limit_size" else 0.5) for name, ratio in passed.items())
-    name = settings.size_by
-    fitting = getattr(settings, name) * share
-    if name == "cm":
-        return f"{fitting:.3g} cm or less"
-    if name == "scale":
-        step = 10.0 ** (math.floor(math.log10(fitting)) - 1)
-        return f"a scale of {math.floor(fitting / step) * step:g} or less"
-    return f"a {name} of {math.floor(fitting)} or less" if fitting >= 1 else f"a size by something else than {name}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,13 +9,9 @@ from typing import Final, Literal, Self
 
 import numpy as np
 
-from .errors import BuildError, LimitError
-from .estimate import megabytes
 from .layout import as_good, cells_of, lay_again
 from .ldraw import LdrawModel
-from .model import Assembly, Bricks, Catalogue, Role, contact_graph, load_catalogue, stud_columns
-from .settings import Settings
-from .shopping import shopping_list
+from .model import Assembly, Bricks, Catalogue, Role, contact_graph, stud_columns
 from .stages import Run, lay_freely, strengthen_joints
 from .supports import AssemblyPlan, plan_as_given, plan_assembly
 
@@ -54,38 +50,6 @@ class Existing:
     def of(cls, found: LdrawModel) -> Self:
         """Return what a file has."""
         return cls(found.bricks, found.has_steps, found.remarks, found.left_out)
-
-
-def check_size(bricks: Bricks, settings: Settings) -> None:
-    """Refuse models that the limits do not allow, before anything is computed of them.
-
-    Raises
-    ------
-    BuildError
-        There are no bricks.
-    LimitError
-        There are too many, or they lie too far apart.
-    """
-    if not len(bricks):
-        raise BuildError("There are no bricks: open a file with bricks and plates.")
-    found = shopping_list(Assembly(bricks, load_catalogue()))
-    longest = max(found.cm)
-    if longest > settings.limit_size:
-        raise LimitError(
-            f"The model is {longest:,.0f} cm long, more than the limit of {settings.limit_size:,} cm: remove parts "
-            "that lie far away, or raise limit_size."
-        )
-    if len(bricks) > settings.limit_bricks:
-        raise LimitError(
-            f"The model has {len(bricks):,} bricks, more than the limit of {settings.limit_bricks:,}: open a smaller "
-            "one, or raise limit_bricks."
-        )
-    needed = megabytes(found.studs[0] * found.studs[1] * found.plates, len(bricks))
-    if needed > settings.limit_memory:
-        raise LimitError(
-            f"The model would take about {needed:,.0f} MB, more than the limit of {settings.limit_memory:,} MB: remove "
-            "parts that lie far away, or raise limit_memory."
-        )
 
 
 def moved_up(bricks: Bricks) -> Bricks:

@@ -11,13 +11,12 @@ from .build import Build, Judged, Mosaic
 from .building import Proof, prove_steps
 from .drafting import drafted
 from .errors import enough_memory
-from .estimate import COUNTED, check_limits, estimate
+from .estimate import COUNTED, estimate
 from .existing import (
     EXPECTED,
     SHOWN,
     Existing,
     StepsFrom,
-    check_size,
     laid_again,
     moved_up,
     plan_existing,
@@ -26,6 +25,7 @@ from .existing import (
 from .fitting import fit
 from .layout import recolour_visible
 from .layout.joining import add_ties
+from .limits import check_limits, check_size
 from .mesh import TriangleMesh
 from .model import Assembly, Role, contact_graph
 from .mosaic import Picture

@@ -115,6 +115,7 @@ class BuildState:
 
     @parts.setter
     def parts(self, parts: bpy.types.Collection) -> None:
+        """Keep the collection of the parts."""
         self._group["parts"] = parts
 
     @property
@@ -124,6 +125,7 @@ class BuildState:
 
     @heat_parts.setter
     def heat_parts(self, parts: bpy.types.Collection | None) -> None:
+        """Keep the collection of the parts in the colours of the heat map; None says that it is off."""
         if parts is not None:
             self._group["heat"] = parts
         elif "heat" in self._group:
@@ -163,6 +165,7 @@ class BuildState:
 
     @top_layer.setter
     def top_layer(self, top: int) -> None:
+        """Keep the number of layers shown, from the lowest."""
         self._group["top_layer"] = top
 
     @property
@@ -172,6 +175,7 @@ class BuildState:
 
     @single_layer.setter
     def single_layer(self, single: bool) -> None:
+        """Keep whether only the highest of these layers is shown."""
         self._group["single_layer"] = single
 
     @property
@@ -188,6 +192,7 @@ class BuildState:
 
     @section.setter
     def section(self, section: Section) -> None:
+        """Keep the cut through the build."""
         self._group["section"] = asdict(section)
 
     @property
@@ -264,6 +269,7 @@ class BuildState:
 
     @exploded.setter
     def exploded(self, share: float) -> None:
+        """Keep how far each piece is lifted off the one below it, as a share of the model's height."""
         self._group["exploded"] = share
 
     @property
@@ -273,6 +279,7 @@ class BuildState:
 
     @steps_done.setter
     def steps_done(self, steps: int) -> None:
+        """Keep the number of building steps that are shown; 0 shows the whole build."""
         self._group["steps_done"] = steps
 
     @property
@@ -282,6 +289,7 @@ class BuildState:
 
     @supports_shown.setter
     def supports_shown(self, visible: bool) -> None:
+        """Keep whether supports are to be shown again when the steps are left."""
         self._group["supports_shown"] = visible
 
     def _pointer(self, name: str, kind: type[bpy.types.ID]) -> Any:

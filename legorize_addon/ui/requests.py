@@ -66,13 +66,15 @@ class BuildRequest:
 
     def check_limits(self) -> None:
         """Raise ``LimitError`` if the model would be larger than the limits of the settings."""
-        from ..core.estimate import check_limits, estimate
+        from ..core.estimate import estimate
+        from ..core.limits import check_limits
 
         check_limits(estimate(self.mesh, self.settings), self.settings)
 
     def within_limits(self) -> BuildRequest:
         """Return the same with limits that allow it."""
-        from ..core.estimate import estimate, within_limits
+        from ..core.estimate import estimate
+        from ..core.limits import within_limits
 
         return replace(self, settings=within_limits(estimate(self.mesh, self.settings), self.settings))
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.errors import LimitError, MeshError, SettingsError
-from legorize_addon.core.estimate import AGAIN, check_limits, estimate, within_limits
+from legorize_addon.core.errors import MeshError, SettingsError
+from legorize_addon.core.estimate import AGAIN, estimate
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from tests.core.solids import box, mesh_of, sheet, sphere
@@ -97,68 +97,3 @@ def test_what_cannot_be_built_is_not_estimated(mesh, options, kind):
     with pytest.raises(kind) as late:
         legorize(mesh, Settings(**options))
     assert str(early.value) == str(late.value)
-
-
-# -------------------------------------------------------------- limits
-
-POLE = box((0, 0, 0), (0.2, 0.2, 8.0))
-
-
-def refusal(mesh, settings):
-    """Return the sentence with which a model is refused before the work."""
-    with pytest.raises(LimitError) as refused:
-        check_limits(estimate(mesh, settings), settings)
-    return str(refused.value)
-
-
-def test_a_thin_pole_is_refused_with_its_height():
-    """A pole forty times as high as wide would be 15 m high: the sentence says so, and which width would do."""
-    sentence = refusal(POLE, Settings())
-    assert sentence.startswith("The model would be 15 m high (1,600 layers) on 48 x 48 studs, have about 4")
-    assert sentence.endswith("choose a width of 9 or less, or raise limit_size to 1600.")
-    assert ". " not in sentence
-    for width in (9, 48):
-        settings = Settings(width=width, limit_size=1600 if width == 48 else Settings().limit_size)
-        check_limits(estimate(POLE, settings), settings)
-
-
-def test_a_lying_pole_is_refused_by_its_length():
-    """If the height is asked for, the width may be what nobody expects."""
-    lying = mesh_of(POLE.vertices[:, [2, 1, 0]], POLE.faces)
-    sentence = refusal(lying, Settings(size_by="height", height=40))
-    assert "1,920 x 48 studs" in sentence
-    assert "choose a height of 7 or less" in sentence
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ({"limit_bricks": 100}, "raise limit_bricks to"),
-        ({"limit_memory": 200, "width": 150}, "raise limit_memory to"),
-        ({"limit_size": 10, "limit_bricks": 100}, "raise limit_size to 39 and limit_bricks to"),
-        ({"size_by": "scale", "scale": 1e3, "limit_size": 100}, "choose a scale of"),
-    ],
-    ids=str,
-)
-def test_limits_can_be_raised(options, words):
-    """Each limit is named where it is passed, and settings that were raised as the sentence says pass."""
-    ball, settings = sphere(16, 20.0), Settings(**options)
-    assert words in refusal(ball, settings)
-    raised = within_limits(estimate(ball, settings), settings)
-    check_limits(estimate(ball, raised), raised)
-    assert raised.width == settings.width
-
-
-def test_what_no_limit_allows_is_not_offered():
-    """A model of kilometres cannot be had by any limit, and no number is longer than it says something."""
-    sentence = refusal(POLE, Settings(size_by="scale", scale=1e6, limit_size=1_000_000))
-    assert "raise" not in refusal(mesh_of(POLE.vertices * 1e6, POLE.faces), Settings(size_by="scale", scale=1e6))
-    assert len(sentence) < 300
-
-
-@pytest.mark.parametrize("width", [48, 192])
-def test_usual_models_pass(width):
-    """A ball, a ring, a table and a box of the usual sizes are built without a question."""
-    for mesh in MESHES.values():
-        settings = Settings(width=width)
-        check_limits(estimate(mesh, settings), settings)

@@ -11,8 +11,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from legorize_addon.core.errors import BuildError, LimitError
-from legorize_addon.core.existing import Existing, check_size, moved_up, without_overlaps
+from legorize_addon.core.existing import Existing, moved_up, without_overlaps
 from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.pipeline import judge, legorize
@@ -195,20 +194,3 @@ def test_models_below_the_ground_are_moved_up():
     assert moved_up(bricks).corner.tolist() == [[0, 2, 0], [3, 0, 9]]
     fine = table([(ONE, 3, 2, 4, 0, 4, 0, 0, 0)])
     assert moved_up(fine) is fine
-
-
-@pytest.mark.parametrize(
-    ("rows", "changes", "error", "message"),
-    [
-        ([], {}, BuildError, "There are no bricks"),
-        ([(0, 0, 0), (10**6, 0, 0)], {}, LimitError, "800,001 cm long, more than the limit of 300 cm"),
-        ([(0, 0, 0), (0, 0, 10**6)], {}, LimitError, "320,001 cm long"),
-        ([(0, 0, 0)] * 11, {"limit_bricks": 10}, LimitError, "has 11 bricks, more than the limit of 10"),
-        ([(0, 0, 0), (370, 370, 900)], {"limit_memory": 200}, LimitError, "would take about 4,4.. MB"),
-    ],
-)
-def test_models_above_the_limits_are_refused(rows, changes, error, message):
-    """Too far apart, too many, too much memory: one sentence, before anything is computed."""
-    bricks = table([(ONE, *row, 0, 4, 0, 0, 0) for row in rows])
-    with pytest.raises(error, match=message):
-        check_size(bricks, Settings(**changes))
