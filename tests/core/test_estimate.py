@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from legorize_addon.core.errors import MeshError, SettingsError
 from legorize_addon.core.estimate import AGAIN, estimate
+from legorize_addon.core.mosaic_estimate import estimate_mosaic
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from tests.core.solids import box, mesh_of, sheet, sphere
 from tests.core.textured import blob, table, torus
 
+GOLDEN = Path(__file__).parents[1] / "golden" / "estimates.json"
 MESHES = {"box": box((0, 0, 0), (30, 20, 25)), "ball": sphere(16), "torus": torus(), "table": table(), "blob": blob(8)}
 
 
@@ -97,3 +102,30 @@ def test_what_cannot_be_built_is_not_estimated(mesh, options, kind):
     with pytest.raises(kind) as late:
         legorize(mesh, Settings(**options))
     assert str(early.value) == str(late.value)
+
+
+BUILDS = {
+    "ball": (sphere(16), Settings(width=48)),
+    "large ball": (sphere(16), Settings(width=192, prove_steps=True)),
+    "painted": (blob(8), Settings(width=32, layout="exact")),
+    "solid box": (MESHES["box"], Settings(width=64, layout="fast", hollow=False)),
+}
+
+
+def test_fitted_figures_are_those_of_the_golden_file():
+    """Bricks, memory and seconds follow from coefficients that were fitted to builds, and change only with a new fit.
+
+    After ``scripts/benchmark.py budget``, with other coefficients, write the file anew: it is ``figures()`` as JSON.
+    """
+    expected = json.loads(GOLDEN.read_text(encoding="utf-8"))
+    found = figures()
+    assert list(found) == list(expected)
+    for name, values in found.items():
+        assert values == pytest.approx(expected[name], rel=1e-6), name
+
+
+def figures():
+    """Return what is estimated of some builds."""
+    made = {name: estimate(mesh, settings) for name, (mesh, settings) in BUILDS.items()}
+    made["picture"] = estimate_mosaic((48, 32), Settings(mosaic="bricks", layout="fast", prove_steps=True))
+    return {name: {"bricks": each.bricks, "megabytes": each.megabytes, **each.stages} for name, each in made.items()}

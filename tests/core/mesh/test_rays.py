@@ -168,3 +168,12 @@ def test_rays_beside_the_mesh_hit_nothing():
     """Triangles between the rays, and meshes smaller than the lattice, give nothing."""
     face, points, uvs, _ = hits(box((0.1, 0.1, 0), (0.4, 0.4, 1)), pitch=2.0)
     assert len(face) == len(points) == len(uvs) == 0
+
+
+@pytest.mark.parametrize(("beside", "met"), [(0.0, True), (0.9e-9, True), (1.2e-9, False)])
+def test_an_edge_is_met_from_a_billionth_of_a_pitch_beside_it(beside, met):
+    """A ray through an edge meets it in spite of rounding, and one a little farther away does not."""
+    corners = np.array([[beside, -9, 0], [9, 0, 0], [beside, 9, 0]]) * 2.0
+    columns = hits(mesh_of(corners, [[0, 1, 2]]), (-1.0, -1.0))[3][:, 0]
+    assert (columns == 0).any() == met
+    assert (columns == 1).any()

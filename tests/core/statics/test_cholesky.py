@@ -80,3 +80,11 @@ def test_progress_rises_and_stops_the_work() -> None:
 
     with pytest.raises(Cancelled):
         Cholesky(matrix, place, stop)
+
+
+def test_entries_are_all_numbers_that_are_kept() -> None:
+    """Eight bytes each, of the factors and of what lies below them."""
+    pairs, place = lattice((9, 8, 7))
+    found = Cholesky(equations_of(pairs, len(place), 3), place)
+    assert sum(block.below.size > 0 for block in found._blocks) > 1
+    assert 8 * found.entries == sum(block.factor.nbytes + block.below.nbytes for block in found._blocks)

@@ -9,6 +9,7 @@ import pytest
 
 from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.statics.collapse import is_collapse
 from legorize_addon.core.statics.equilibrium import (
     AIMS,
     FACTORS,
@@ -40,8 +41,9 @@ def test_check_finds_what_is_wrong(case: Case) -> None:
         forces[row] += 1e-7
         assert not is_equilibrium(found.statics, forces)
     bounds = found.statics.contacts
-    raised = np.where(np.arange(len(bounds.least)) == 3, np.nextafter(found.forces, np.inf), bounds.least)
-    assert not is_equilibrium(replace(found.statics, contacts=replace(bounds, least=raised)), found.forces)
+    for bound, holds in ((found.forces, True), (np.nextafter(found.forces, np.inf), False)):
+        raised = np.where(np.arange(len(bounds.least)) == 3, bound, bounds.least)
+        assert is_equilibrium(replace(found.statics, contacts=replace(bounds, least=raised)), found.forces) == holds
 
 
 def test_aims_leave_a_margin() -> None:
@@ -102,3 +104,11 @@ def test_weights_of_ground_sides_and_contacts() -> None:
     assert _weights(found).tolist() == expected
     assert WEIGHT_GROUND in expected
     assert 1.0 in expected
+
+
+def test_search_ends_with_a_motion_that_proves_a_collapse() -> None:
+    """Where beams lean over a single foot, what is left between box and plane is a motion by which they fall."""
+    found = equations(table(("3005", 0, 0, 0), ("3008", 0, 0, 3), ("3008", 7, 0, 6)), ground=Ground.TABLE)
+    reached = balance(found, aims=AIMS)
+    assert (reached.found, reached.collapse) == (False, True)
+    assert is_collapse(found, reached.motion)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from legorize_addon.core.errors import MeshError
+from legorize_addon.core.files.sources.gltf_arrays import _check_accessor, _check_primitive
 from legorize_addon.core.files.sources.preflight import check_source
 from tests.core.files.sources.written import changed, refusal, write_glb
 
@@ -79,3 +82,41 @@ def test_array_of_nothing(path: Path) -> None:
     """An array without data is all zeros, which are not made in millions for a small file."""
     document = changed("accessors/0", {"componentType": 5126, "count": 10**9, "type": "VEC3"})
     assert "should have 1000000000 elements" in refusal(write_glb(path, document))
+
+
+MODES = {
+    "points": (1, 2, 3, 4, 5, 6, 7),
+    "lines": (2, 4, 6),
+    "line loop": (2, 3, 4, 5, 6, 7),
+    "line strip": (2, 3, 4, 5, 6, 7),
+    "triangles": (3, 6),
+    "triangle strip": (3, 4, 5, 6, 7),
+    "triangle fan": (3, 4, 5, 6, 7),
+}
+"""Numbers of corners up to seven that a primitive may have, by its mode: glTF 2.0, section 3.7.2.1."""
+
+
+@pytest.mark.parametrize("mode", range(7), ids=list(MODES))
+def test_corners_of_a_primitive(mode: int, path: Path) -> None:
+    """A primitive has as many corners as its mode makes whole faces or edges of, or none."""
+    for corners in range(8):
+        document = {"accessors": [{"count": corners}]}
+        whole = corners in (0, *list(MODES.values())[mode])
+        with nullcontext() if whole else pytest.raises(MeshError, match=f"{corners} corners"):
+            _check_primitive(path, "here", {"attributes": {"POSITION": 0}, "mode": mode}, document, [])
+
+
+BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
+NUMBERS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+"""Bytes of a component and components of an element: glTF 2.0, section 3.6.2.2."""
+
+
+@pytest.mark.parametrize("shape", NUMBERS)
+@pytest.mark.parametrize("kind", BYTES)
+def test_bytes_of_an_element(kind: int, shape: str, path: Path) -> None:
+    """A view that is as long as two elements has room for them; one byte less has not."""
+    accessor = {"componentType": kind, "type": shape, "count": 2, "bufferView": 0}
+    needed = 2 * BYTES[kind] * NUMBERS[shape]
+    _check_accessor(path, "here", accessor, [{"byteLength": needed}])
+    with pytest.raises(MeshError, match=f"needs {needed} bytes"):
+        _check_accessor(path, "here", accessor, [{"byteLength": needed - 1}])
