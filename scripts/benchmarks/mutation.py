@@ -162,8 +162,8 @@ def measure(modules: Sequence[str], *, constants: int, logic: int, seed: int) ->
 
 
 def _some(mutants: Sequence[Mutant], most: int, chosen: random.Random) -> list[Mutant]:
-    """Return mutants chosen at random, in the order of the modules."""
-    return [mutants[each] for each in sorted(chosen.sample(range(len(mutants)), min(most, len(mutants))))]
+    """Return mutants chosen at random, in random order: those tried until a run is stopped are a sample, too."""
+    return [mutants[each] for each in chosen.sample(range(len(mutants)), min(most, len(mutants)))]
 
 
 def _try(mutants: Sequence[Mutant], copy: Path) -> list[Mutant]:

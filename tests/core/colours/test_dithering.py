@@ -152,11 +152,21 @@ def test_the_pattern_is_that_of_the_plain_rules():
     luminance = np.linalg.solve(primaries, white)
     goal = np.random.default_rng(1).random((60, 3))
     mix = mixer([0, 4, 15, 14, 1])
-    found = mix.ordered(goal, ROW[:60], COLUMN[:60] * 5)
-    for wanted, row, column, code in zip(goal, ROW, COLUMN * 5, found, strict=False):
+    rows, columns = np.arange(60) // 3, np.arange(60) * 5
+    found = mix.ordered(goal, rows, columns)
+    for wanted, row, column, code in zip(goal, rows, columns, found, strict=True):
         error, picked = np.zeros(3), []
         for _ in range(16):
             picked.append(int(mix._choice(wanted + 0.5 * error)))
             error += wanted - mix._light[picked[-1]]
         picked.sort(key=lambda each: (mix._light[each] @ luminance, each))
         assert mix._codes[picked[ranks[row % 4, column % 4]]] == code
+
+
+def test_nearest_colours_are_those_of_six_bits_a_channel():
+    """Shades are rounded to 64 levels of each channel before the nearest colour is looked up."""
+    srgb = np.random.default_rng(2).integers(0, 256, (300, 3))
+    levels = np.floor(srgb * 63 / 255 + 0.5)
+    mix, lab = mixer(), lab_from_srgb(np.rint(levels * 255 / 63).astype(np.uint8))
+    expected = mix._codes[ciede2000(lab[:, None], mix._lab[None]).argmin(axis=1)]
+    np.testing.assert_array_equal(mix.nearest(linear_from_srgb(srgb.astype(np.uint8))), expected)
