@@ -26,6 +26,7 @@ from scripts import benchmark  # noqa: E402
 from scripts.benchmarks import clock, goals, hollowing, judge, layout_figures, meshes, slicing, steps, surface  # noqa: E402
 from scripts.benchmarks.stablelego import placed  # noqa: E402
 from scripts.benchmarks.tables import Table  # noqa: E402
+from tests.core.test_pipeline import STAGES  # noqa: E402
 
 RED, BLUE = (180, 0, 0), (30, 90, 168)
 JUDGED = {
@@ -173,23 +174,7 @@ def test_pipeline_command(box: Path, tmp_path: Path) -> None:
     tables = run(tmp_path, "pipeline", box, "--widths", 8, 16)
     assert [row["studs"] for row in tables["pipeline_results"]] == [8, 16]
     for row in tables["pipeline_times"]:
-        stages = [
-            row[name]
-            for name in (
-                *("mesh", "colours", "slicing", "trajectories", "unit bricks"),
-                *(
-                    "overhangs",
-                    "hollowing",
-                    "layout",
-                    "ties",
-                    "strengthening",
-                    "stability",
-                    "bracing",
-                    "pieces",
-                    "supports",
-                ),
-            )
-        ]
+        stages = [row[name] for name in STAGES]
         assert sum(stages) == pytest.approx(row["total_s"])
 
 

@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 CORE = ROOT / "legorize_addon" / "core"
 READERS = (
     *("pipeline", "drafting", "existing", "stages", "mosaic_stages", "mosaic_estimate", "build", "estimate"),
-    *("part_choice", "fitting", "shortage", "settings_file"),
+    *("part_choice", "limits", "fitting", "shortage", "settings_file"),
 )
 """Modules of the core that know the settings."""
 PACKAGE = sorted((ROOT / "legorize_addon").rglob("*.py"))

@@ -2,7 +2,8 @@
 
 Each mutant is one change of one line. It is made in a copy of the repository,
 where the tests of the changed module run alone, and then, if they let it pass,
-those of all modules in its folder. What passes both has survived.
+those of all modules in its folder, and those of the whole package. What passes
+all of them has survived.
 
 References
 ----------
@@ -210,14 +211,17 @@ class Trial:
         self._server.communicate()
 
     def survives(self, mutant: Mutant) -> bool:
-        """Return whether the tests of its module and of its folder let a mutant pass; the copy stays as it was."""
+        """Return whether the tests of its module, folder and package let a mutant pass; the copy stays as it was."""
         text = (ROOT / mutant.path).read_text(encoding="utf-8")
         inside = mutant.path.relative_to(CORE)
-        tests = sorted((self.copy / "tests/core" / inside.parent).glob("test_*.py"))
-        own = [each for each in tests if each.name == f"test_{inside.name}"]
+        folder = sorted((self.copy / "tests/core" / inside.parent).glob("test_*.py"))
+        own = [each for each in folder if each.name == f"test_{inside.name}"]
+        package = self.copy / "tests/core" / inside.parts[0]
+        rest = [each for each in sorted(package.rglob("test_*.py")) if each not in folder]
         (self.copy / mutant.path).write_text(mutant.apply(text), encoding="utf-8")
         try:
-            return self._pass(own) and self._pass([each for each in tests if each not in own])
+            near = [each for each in folder if each not in own]
+            return self._pass(own) and self._pass(near) and self._pass(rest)
         finally:
             (self.copy / mutant.path).write_text(text, encoding="utf-8")
 

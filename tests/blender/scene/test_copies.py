@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import bpy
 import numpy as np
 import pytest
 
-import legorize_addon
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.scene.builds import builds, damage, layers_of, point_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
@@ -20,21 +17,7 @@ from legorize_addon.view.visibility import cut_away, show_role
 from tests.blender.bricks import assert_same, content, instances, random_table, show
 from tests.blender.copying import duplicate_collection
 
-
-@pytest.fixture(autouse=True)
-def addon() -> Iterator[None]:
-    """Register the add-on."""
-    legorize_addon.register()
-    yield
-    legorize_addon.unregister()
-
-
-@pytest.fixture
-def cube() -> bpy.types.Object:
-    """Return a selected cube."""
-    bpy.ops.mesh.primitive_cube_add()
-    bpy.context.scene.legorize.settings.width = 6
-    return bpy.context.object
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 @pytest.fixture

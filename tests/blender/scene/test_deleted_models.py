@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import bpy
 import numpy as np
 import pytest
 
-import legorize_addon
 from legorize_addon.reading.importers import load
 from legorize_addon.render.still import render_still
 from legorize_addon.scene.builds import builds, damage, n_deleted, point_objects
@@ -19,13 +16,7 @@ from legorize_addon.ui.export import written
 from legorize_addon.ui.properties import current_build
 from tests.blender.bricks import content, instances, show, table
 
-
-@pytest.fixture(autouse=True)
-def addon() -> Iterator[None]:
-    """Register the add-on."""
-    legorize_addon.register()
-    yield
-    legorize_addon.unregister()
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 @pytest.fixture

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
 
-import legorize_addon
 from legorize_addon.scene.builds import builds
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import state_of
@@ -20,13 +17,7 @@ from legorize_addon.view.visibility import section_of
 from tests.blender.bricks import content, instances
 from tests.blender.builders import add_table_on_one_leg
 
-
-@pytest.fixture(autouse=True)
-def addon() -> Iterator[None]:
-    """Register the add-on."""
-    legorize_addon.register()
-    yield
-    legorize_addon.unregister()
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 @pytest.fixture

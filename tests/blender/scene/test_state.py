@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import bpy
 import numpy as np
 import pytest
 
-import legorize_addon
 from legorize_addon.core.errors import BuildError
 from legorize_addon.reading.importers import load
 from legorize_addon.scene.builds import builds, damage, is_own
@@ -22,21 +20,7 @@ from legorize_addon.view.steps import n_pieces, n_steps
 from legorize_addon.view.visibility import cut_away, section_of, shown_bricks
 from tests.blender.bricks import assert_same, content, instances, random_table, show
 
-
-@pytest.fixture(autouse=True)
-def addon() -> Iterator[None]:
-    """Register the add-on."""
-    legorize_addon.register()
-    yield
-    legorize_addon.unregister()
-
-
-@pytest.fixture
-def cube() -> bpy.types.Object:
-    """Return a selected cube."""
-    bpy.ops.mesh.primitive_cube_add()
-    bpy.context.scene.legorize.settings.width = 6
-    return bpy.context.object
+pytestmark = pytest.mark.usefixtures("registered")
 
 
 def stranger(value: Any) -> bpy.types.Collection:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,6 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-import legorize_addon
 from legorize_addon.core.errors import BuildError
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks
@@ -48,14 +46,6 @@ CATALOGUE = load_catalogue()
 ONE, BEAM = CATALOGUE.part_row("3005"), CATALOGUE.part_row("3008")
 TOWER = table([(ONE, 0, 0, 3 * layer, 0, 4) for layer in range(4)])
 LOOSE = table([(ONE, 0, 0, 0, 0, 4), (ONE, 0, 0, 3, 0, 4), (ONE, 5, 0, 9, 0, 4)])
-
-
-@pytest.fixture
-def addon() -> Iterator[None]:
-    """Register the add-on."""
-    legorize_addon.register()
-    yield
-    legorize_addon.unregister()
 
 
 def proof(bricks: Bricks, margin: NDArray[np.float64] | None = None) -> Stability:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -11,7 +10,6 @@ import bpy
 import numpy as np
 import pytest
 
-import legorize_addon
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action, Moves
 from legorize_addon.core.building.order import plan_steps
@@ -51,14 +49,6 @@ CATALOGUE = load_catalogue()
 ONE, BEAM = CATALOGUE.part_row("3005"), CATALOGUE.part_row("3008")
 RED, WHITE = 4, 15
 OUTSIDE = int(Role.SUPPORT_OUTSIDE)
-
-
-@pytest.fixture
-def addon() -> Iterator[None]:
-    """Register the add-on."""
-    legorize_addon.register()
-    yield
-    legorize_addon.unregister()
 
 
 def storeys(*pieces: int) -> list[tuple[int, ...]]:

@@ -98,3 +98,12 @@ def test_greys_have_no_hue_and_rise_in_lightness(value):
     darker, lighter = lab_from_srgb(np.array([[value] * 3, [value + 1] * 3], np.uint8))
     assert np.abs(darker[1:]).max() < 0.01
     assert lighter[0] > darker[0]
+
+
+@pytest.mark.parametrize(("degrees", "opposite"), [(0.0, True), (9e-10, True), (-9e-10, True), (1.3e-9, False)])
+def test_opposite_hues_are_those_up_to_a_billionth_of_a_degree(degrees, opposite):
+    """What rounding turns by less does not change the mean hue; what lies farther on is nearer the other way round."""
+    turned = np.radians(180 + degrees)
+    colours = np.array([[50, 20, 0.0], [50, 20 * np.cos(turned), 20 * np.sin(turned)]])
+    exact = ciede2000(np.array([50, 20, 0.0]), np.array([50, -20, 0.0]))
+    assert (ciede2000(*colours) == pytest.approx(exact, rel=1e-6)) == opposite

@@ -5,11 +5,12 @@ from __future__ import annotations
 from functools import cache
 
 from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.supports.assembly_plan import AssemblyPlan, plan_assembly
 from tests.core.any_bricks import CATALOGUE, table
 
 PART = {part.number: row for row, part in enumerate(CATALOGUE.parts)}
-BRICK, LONG, SMALL = PART["3001"], PART["3007"], PART["3003"]
+BRICK, LONG, SMALL, PLATE, TALL = (PART[number] for number in ("3001", "3007", "3003", "3020", "30144"))
 
 
 @cache
@@ -29,3 +30,16 @@ def pair() -> AssemblyPlan:
     upper = [(SMALL, 2 * x, 2 * y, 3, 0, 1, 0, 1, 0) for x in range(4) for y in range(2)]
     roof = [(LONG, 0, 2 * y, 6, 0, 1, 0, 1, 0) for y in range(2)]
     return plan_assembly(Assembly(table([*lower, *upper, *roof]), CATALOGUE), deepest=3)
+
+
+def tower() -> Bricks:
+    """Return two bricks with plates and a support between them, and a tall one beside."""
+    return table(
+        [
+            (BRICK, 0, 0, 0, 0, 4, 0, 0, 0),
+            (PLATE, 0, 0, 3, 0, 1, 0, 0, 1),
+            (BRICK, 0, 0, 4, 0, 4, 0, 0, 2),
+            (TALL, 4, 0, 0, 0, 15, 0, 0, 0),
+            (BRICK, 8, 0, 0, 0, 15, int(Role.SUPPORT_OUTSIDE), 0, 0),
+        ]
+    )

@@ -14,22 +14,7 @@ from legorize_addon.core.instructions.paper import PAPERS
 from legorize_addon.core.instructions.shades import SUPPORT_TINT, tint_for
 from legorize_addon.core.model.bricks import Role
 from tests.core.any_bricks import CATALOGUE, table
-
-PART = {part.number: row for row, part in enumerate(CATALOGUE.parts)}
-BRICK, PLATE, TALL = PART["3001"], PART["3020"], PART["30144"]
-
-
-def tower():
-    """Return two bricks with plates and a support between them, and a tall one beside."""
-    return table(
-        [
-            (BRICK, 0, 0, 0, 0, 4, 0, 0, 0),
-            (PLATE, 0, 0, 3, 0, 1, 0, 0, 1),
-            (BRICK, 0, 0, 4, 0, 4, 0, 0, 2),
-            (TALL, 4, 0, 0, 0, 15, 0, 0, 0),
-            (BRICK, 8, 0, 0, 0, 15, int(Role.SUPPORT_OUTSIDE), 0, 0),
-        ]
-    )
+from tests.core.instructions.built import BRICK, PART, tower
 
 
 def texts(items):

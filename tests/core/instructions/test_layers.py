@@ -7,25 +7,9 @@ from hypothesis import given, settings
 
 from legorize_addon.core.building.tiles import tile_places
 from legorize_addon.core.instructions.layers import by_tiles, layers_of
-from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.contacts import contact_graph
 from tests.core.any_bricks import CATALOGUE, any_bricks, table
-
-PART = {part.number: row for row, part in enumerate(CATALOGUE.parts)}
-BRICK, PLATE, TALL = PART["3001"], PART["3020"], PART["30144"]
-
-
-def tower():
-    """Return two bricks with plates and a support between them, and a tall one beside."""
-    return table(
-        [
-            (BRICK, 0, 0, 0, 0, 4, 0, 0, 0),
-            (PLATE, 0, 0, 3, 0, 1, 0, 0, 1),
-            (BRICK, 0, 0, 4, 0, 4, 0, 0, 2),
-            (TALL, 4, 0, 0, 0, 15, 0, 0, 0),
-            (BRICK, 8, 0, 0, 0, 15, int(Role.SUPPORT_OUTSIDE), 0, 0),
-        ]
-    )
+from tests.core.instructions.built import BRICK, PART, tower
 
 
 @settings(deadline=None, max_examples=50)

@@ -8,25 +8,12 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.model.brick_columns import brick_columns
 from legorize_addon.core.model.bricks import Role
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid
+from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY
 from legorize_addon.core.shell.plate_seams import add_plate_seams
+from tests.core.layout.cells import RED, grid_of
+from tests.core.shelves import wall_with_a_shelf
 
-RED, BLUE = 4, 1
-
-
-def grid_of(colour) -> UnitGrid:
-    """Make a grid of shell cells, all of which must be built."""
-    colour = np.asarray(colour, np.int16)
-    cover = np.where(colour == COLOUR_EMPTY, Fill.EMPTY, Fill.REQUIRED).astype(np.uint8)
-    return UnitGrid(colour, cover, np.zeros(colour.shape, np.uint8), np.zeros(3))
-
-
-def wall_with_a_shelf(wall=RED, shelf=RED) -> UnitGrid:
-    """Make a wall of three bricks' height with a shelf of one plate halfway up."""
-    colour = np.full((3, 3, 4, 6), COLOUR_EMPTY)
-    colour[:, :, :, :2] = wall
-    colour[1, 1, :, 2:] = shelf
-    return grid_of(colour)
+BLUE = 1
 
 
 def test_shelf_is_held_by_plates_in_the_wall():

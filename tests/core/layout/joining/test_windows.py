@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from legorize_addon.core.layout.joining import windows
 from legorize_addon.core.layout.joining.windows import join_by_windows
 from legorize_addon.core.layout.lay import FILLER
+from legorize_addon.core.layout.problem.problem import with_margins
 from legorize_addon.core.layout.problem.shapes import shapes
 from legorize_addon.core.layout.problem.sheets import split
 from legorize_addon.core.model.bricks import NOBODY, Bricks
@@ -17,7 +18,7 @@ from legorize_addon.core.model.catalogue import footprint
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from legorize_addon.core.progress import silent
-from tests.core.layout.cells import CATALOGUE, RED, assert_covers, brick_grid
+from tests.core.layout.cells import CATALOGUE, RED, assert_covers, brick_grid, problem_of
 
 BLUE = 1
 
@@ -181,3 +182,51 @@ def test_a_window_has_the_bricks_taken_out_and_free_cells_of_its_box(seed):
             inside = plane[y, x] in out or free
             assert found.colour[0, y, x] == (colour[0, y, x] if inside else COLOUR_EMPTY)
             assert found.required[0, y, x] == (inside and cover[0, y, x] == Fill.REQUIRED)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_contacts_are_cells_of_loose_components_beside_others(seed):
+    """All pairs of cells side by side are looked at: of each component but the largest, the smaller ones first."""
+    rng = np.random.default_rng(seed)
+    grid = brick_grid(rng.choice([COLOUR_EMPTY, COLOUR_ANY, RED, BLUE], (2, 3, 4), p=[0.3, 0.2, 0.3, 0.2]))
+    if not grid.solid.any():
+        return
+    bricks = single_studs(grid)
+    model = windows._Model.of(
+        bricks, contact_graph(bricks, CATALOGUE), with_margins(grid.cover == Fill.REQUIRED, False)
+    )
+    colour, owner = grid.colour.reshape(-1, 3, 4), model.owner[1:-1]
+    member = {(z, y, x): int(model.links.component[owner[z, y, x]]) for z, y, x in np.argwhere(owner > NOBODY).tolist()}
+    sizes = np.bincount(model.links.component)
+    beside: dict[int, set] = {each: set() for each in range(len(sizes))}
+    for (z, y, x), own in member.items():
+        for other in ((z, y, x + 1), (z, y + 1, x)):
+            codes = {int(colour[z, y, x]), int(colour[other])} - {COLOUR_ANY} if other in member else {RED, BLUE}
+            if len(codes) < 2 and member[other] != own:
+                beside[own].add((z, y, x))
+                beside[member[other]].add(other)
+    found = list(windows._contacts(model, windows._beside(grid)))
+    order = np.argsort(sizes, kind="stable").tolist()
+    assert [member[each] for each in found] == [
+        each for each in order[:-1] for place in found if member[place] == each
+    ]  # fmt: skip
+    for each in order[:-1]:
+        places = {place for place in found if member[place] == each}
+        assert places <= beside[each]
+        # a cell beside two others stands twice in the list of which six are tried
+        assert min(len(beside[each]), 3) <= len(places) <= 6
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_touches_are_the_components_above_and_below(seed):
+    """Cell by cell of each placement: who lies below it and above it."""
+    rng = np.random.default_rng(seed)
+    problem = problem_of(rng.choice([COLOUR_EMPTY, RED], (3, 4), p=[0.2, 0.8]).tolist())
+    labels = rng.integers(-1, 4, (2, len(problem.required)))
+    table, known = windows._touches(problem.placements, labels)
+    assert known.tolist() == sorted(set(labels[:, np.unique(problem.placements.cells)].ravel().tolist()) - {-1})
+    for row in range(len(problem.placements)):
+        cells = problem.placements.cells[problem.placements.entries(np.array([row]))]
+        assert set(known[table[:, row]].tolist()) == set(labels[:, cells].ravel().tolist()) - {-1}

@@ -99,7 +99,8 @@ def test_hanging_costs():
 
 def plain(problem, rng):
     """Return what is laid by the plain rules: again and again, all that shares no cell with a better one."""
-    found, one = problem.placements, greedy._ONE
+    # a cell has twice its price at 60 offers, and is worth half a brick more if it has one neighbour
+    found, one, partners = problem.placements, greedy._ONE, {1: greedy._ONE // 2, 2: greedy._ONE // 10}
     cells = [found.cells[start:end].tolist() for start, end in zip(found.start, found.start[1:], strict=False)]
     chance, left, laid = rng.permutation(len(cells)), set(range(len(cells))), []
     ties = []
@@ -116,8 +117,8 @@ def plain(problem, rng):
         for cell in np.flatnonzero(problem.required).tolist():
             if through[cell]:
                 largest, offers = (how(len(cells[row]) for row in through[cell]) for how in (max, sum))
-                price[cell] += round(one * largest**-greedy._BEST) * (offers + greedy._SCARCE) // offers
-            for count, amount in greedy._PARTNERS:
+                price[cell] += round(one * largest**-0.5) * (offers + 60) // offers
+            for count, amount in partners.items():
                 if len(near[cell]) == count:
                     price[cell] += amount * count
                     for other in near[cell]:
