@@ -2,9 +2,7 @@
 
 Around a place where a loose component touches another one, the bricks of one
 sheet are taken out and laid anew at least cost, such that they join all that is
-left below and above them. Sets of components that a solution leaves apart are
-cut off by a constraint each, as subtours are in the travelling salesman problem
-(Dantzig, Fulkerson and Johnson 1954).
+left below and above them (see :mod:`.window_covers`).
 """
 
 from __future__ import annotations
@@ -14,10 +12,8 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-from scipy.optimize import Bounds, LinearConstraint, milp
-from scipy.sparse import csr_array
 
-from ...arrays import Floats, Ints, Mask
+from ...arrays import Ints, Mask
 from ...model import (
     COLOUR_EMPTY,
     NOBODY,
@@ -36,9 +32,6 @@ from ...model import (
 from ...progress import Progress
 from ...units import PLATES_PER_BRICK
 from ..problem import (
-    Index,
-    Placements,
-    Problem,
     Rows,
     Shapes,
     Sheets,
@@ -49,16 +42,10 @@ from ..problem import (
     standing,
     with_margins,
 )
-from ..solvers import WHOLE
+from .window_covers import first_joined, joining_cover, touched
 
 _REACH: Final = 3
 """Studs around a contact within which bricks are taken out."""
-
-_ALONE: Final = 3.5
-"""What a brick costs that holds to nothing below or above, in bricks."""
-
-_CUTS: Final = 12
-"""Most times that a window is solved again because components were left apart."""
 
 _CONTACTS: Final = 6
 """Most places tried for one loose component."""
@@ -190,11 +177,11 @@ def _relaid(model: _Model, sheets: Sheets, among: Shapes, place: tuple[int, ...]
     component = model.without(out)
     # what lies below and above is in other sheets, so none of it was taken out
     around = model.owner[[base, base + sheet.height + 1]].reshape(2, -1)[:, window.cells]
-    touches, known = _touches(problem.placements, np.append(component, [NOBODY, NOBODY])[around])
+    touches, known = touched(problem.placements, np.append(component, [NOBODY, NOBODY])[around])
     # the component of the model that each of those left was a piece of
     home = np.zeros(len(component), dtype=np.int64)
     home[component] = model.links.component
-    chosen = _solved(problem, touches, home[known], int(model.links.component[model.owner[level + 1, y, x]]))
+    chosen = joining_cover(problem, touches, home[known], int(model.links.component[model.owner[level + 1, y, x]]))
     if chosen is None or not _better(model, component, out, known, touches[:, chosen], base):
         return None
     kept = model.bricks.take(np.delete(np.arange(len(model.bricks)), out))
@@ -216,76 +203,6 @@ def _window(sheet: Sheets, plane: Rows, out: Ints, box: tuple[slice, slice]) -> 
         colour=np.where(inside, sheet.colour, np.int16(COLOUR_EMPTY)),
         required=sheet.required & inside,
     )
-
-
-def _touches(found: Placements, labels: Rows) -> tuple[Mask, Ints]:
-    """Return which components are below or above each placement, (n_known, n), and their numbers, (n_known,)."""
-    entry = np.tile(np.repeat(np.arange(len(found)), found.size), 2)
-    label = labels[:, found.cells].ravel()
-    known, row = np.unique(label[label >= 0], return_inverse=True)
-    table = np.zeros((len(known), len(found)), dtype=bool)
-    table[row, entry[label >= 0]] = True
-    return table, known.astype(np.int64)
-
-
-def _solved(problem: Problem, touches: Mask, home: Ints, loose: int) -> Index | None:
-    """Return the placements of least cost that cover the cells and join what they must; None if none do.
-
-    Pieces of one component must come together again, and the loose one must be joined to another.
-    """
-    found = problem.placements
-    if len(found) == 0 or len(_cuts(touches, np.arange(len(found)), home, loose)):
-        return None
-    alone = ~touches.any(axis=0)
-    constraints = [LinearConstraint(_covering(problem), problem.required.astype(np.float64), 1.0)]
-    chosen = np.zeros(0, dtype=np.intp)
-    for _ in range(_CUTS):
-        cuts = _cuts(touches, chosen, home, loose)
-        if len(cuts):
-            constraints.append(LinearConstraint(cuts, 1.0))
-        elif len(chosen):
-            return chosen
-        share = _cheapest(problem.cost + _ALONE * alone, constraints)
-        if share is None:
-            return None
-        chosen = np.flatnonzero(np.rint(share))
-    return None
-
-
-def _cheapest(cost: Floats, constraints: Sequence[LinearConstraint]) -> Floats | None:
-    """Return the cheapest shares that are 0 or 1; None if there are none."""
-    # the linear programme costs a quarter, and mostly its shares are whole
-    share = milp(cost, bounds=Bounds(0, 1), constraints=constraints, options={"presolve": False}).x
-    if share is not None and (np.abs(share - np.rint(share)) > WHOLE).any():
-        share = milp(cost, integrality=np.ones(len(cost)), bounds=Bounds(0, 1), constraints=constraints).x
-    return None if share is None else np.asarray(share)
-
-
-def _covering(problem: Problem) -> csr_array:
-    """Return which cells each placement covers, (n_cells, n)."""
-    found = problem.placements
-    entry = np.repeat(np.arange(len(found)), found.size)
-    return csr_array((np.ones(len(entry)), (found.cells, entry)), shape=(len(problem.required), len(found)))
-
-
-def _cuts(touches: Mask, chosen: Index, home: Ints, loose: int) -> Floats:
-    """Return, for each set of components wrongly left apart, which placements would join it to others."""
-    member = _joined(touches[:, chosen])
-    inside = member == np.unique(member)[:, None]
-    torn = np.array([np.isin(home[~each], home[each]).any() or (home[each] == loose).all() for each in inside], bool)
-    reached = inside[torn].astype(np.intp) @ touches
-    cuts: Floats = ((reached > 0) & (reached < touches.sum(axis=0))).astype(np.float64)
-    return cuts
-
-
-def _joined(held: Mask) -> Index:
-    """Return the first of the components that each is joined with, (k,), by bricks of which each holds some, (k, n)."""
-    together = np.eye(len(held), dtype=bool)
-    further = together | (held @ held.T)
-    while not np.array_equal(together, further):
-        together, further = further, further @ further
-    # nothing has no first
-    return together.argmax(axis=1) if len(held) else np.zeros(0, dtype=np.intp)
 
 
 def _better(model: _Model, component: Rows, out: Ints, known: Ints, held: Mask, base: int) -> bool:
@@ -311,7 +228,7 @@ def _better(model: _Model, component: Rows, out: Ints, known: Ints, held: Mask, 
     size = np.bincount(component)
     size[component[out]] = 0
     # new bricks count as components that they hold themselves
-    member = _joined(np.concatenate([held, np.eye(n_new, dtype=bool)]))
+    member = first_joined(np.concatenate([held, np.eye(n_new, dtype=bool)]))
     stands = np.bincount(member, np.append(standing[known], np.full(n_new, base == level.min()))) > 0
     floating = np.append(size[known], np.ones(n_new))[~stands[member]].sum()
     apart = ~standing

@@ -18,7 +18,7 @@ from legorize_addon.core.model.catalogue import footprint
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from legorize_addon.core.progress import silent
-from tests.core.layout.cells import CATALOGUE, RED, assert_covers, brick_grid, problem_of
+from tests.core.layout.cells import CATALOGUE, RED, assert_covers, brick_grid
 
 BLUE = 1
 
@@ -126,32 +126,6 @@ def test_windows_are_judged_as_the_whole_model_is(seed):
         joined(grid, single_studs(grid))
 
 
-@settings(max_examples=60, deadline=None)
-@given(st.integers(0, 2**32 - 1))
-def test_cuts_are_the_placements_that_would_join_what_is_torn(seed):
-    """Sets of components that bricks hold together, one by one: torn ones, and the loose one alone, need one more."""
-    rng = np.random.default_rng(seed)
-    k, n = int(rng.integers(1, 6)), int(rng.integers(1, 8))
-    touches = rng.random((k, n)) < 0.3
-    chosen = np.flatnonzero(rng.random(n) < 0.5)
-    home, loose = rng.integers(0, 3, k), int(rng.integers(3))
-    groups = [{each} for each in range(k)]
-    for brick in chosen:
-        held = [group for group in groups if touches[list(group), brick].any()]
-        groups = [group for group in groups if group not in held] + ([set().union(*held)] if held else [])
-    assert windows._joined(touches[:, chosen]).tolist() == [
-        next(min(group) for group in groups if each in group) for each in range(k)
-    ]
-    expected = []
-    for group in sorted(groups, key=min):
-        inside = {int(home[each]) for each in group}
-        others = {int(home[each]) for each in range(k) if each not in group}
-        if inside & others or inside == {loose}:
-            ends = [(touches[list(group), j].any(), np.delete(touches[:, j], list(group)).any()) for j in range(n)]
-            expected.append([float(one and other) for one, other in ends])
-    assert windows._cuts(touches, chosen, home, loose).tolist() == expected
-
-
 def test_a_plate_is_in_one_sheet():
     """Of sheets of bricks with a gap between them, that whose three plates hold a level, or none."""
     colour = np.full((4, 1, 1), RED)
@@ -216,17 +190,3 @@ def test_contacts_are_cells_of_loose_components_beside_others(seed):
         assert places <= beside[each]
         # a cell beside two others stands twice in the list of which six are tried
         assert min(len(beside[each]), 3) <= len(places) <= 6
-
-
-@settings(max_examples=25, deadline=None)
-@given(st.integers(0, 2**32 - 1))
-def test_touches_are_the_components_above_and_below(seed):
-    """Cell by cell of each placement: who lies below it and above it."""
-    rng = np.random.default_rng(seed)
-    problem = problem_of(rng.choice([COLOUR_EMPTY, RED], (3, 4), p=[0.2, 0.8]).tolist())
-    labels = rng.integers(-1, 4, (2, len(problem.required)))
-    table, known = windows._touches(problem.placements, labels)
-    assert known.tolist() == sorted(set(labels[:, np.unique(problem.placements.cells)].ravel().tolist()) - {-1})
-    for row in range(len(problem.placements)):
-        cells = problem.placements.cells[problem.placements.entries(np.array([row]))]
-        assert set(known[table[:, row]].tolist()) == set(labels[:, cells].ravel().tolist()) - {-1}
