@@ -15,6 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.errors import BuildError, Cancelled
+from legorize_addon.core.layout.joining.ties import add_ties
 from legorize_addon.core.layout.lay import Tier, _batches, _Listed, lay, lay_unjoined
 from legorize_addon.core.layout.problem.placements import placements
 from legorize_addon.core.layout.problem.shapes import shapes
@@ -215,6 +216,11 @@ def layouts():
     grids["wall"] = brick_grid(np.full((6, 1, 30), RED))
     grids["hollow box"] = hollow(brick_grid(np.full((5, 12, 14), COLOUR_ANY)), shell=1)
     made = {(name, tier): rows(laid(grid, tier=tier)) for name, grid in grids.items() for tier in TIERS}
+    made["slab", "standard"] = rows(laid(brick_grid(np.full((2, 40, 44), RED)), tier="standard"))
+    colour = np.where(np.arange(14) < 6, RED, WHITE) * np.ones((6, 12, 1), int)
+    colour[:, 4:8, 5:9] = BLUE
+    grid = hollow(brick_grid(colour), shell=1)
+    made["tied", "standard"] = rows(add_ties(laid(grid), grid, CATALOGUE, plates=True)[0])
     return {
         f"{name}, {tier}": [len(bricks), "" if tier == "exact" else sha256(repr(bricks).encode()).hexdigest()[:16]]
         for (name, tier), bricks in made.items()

@@ -13,9 +13,12 @@ from legorize_addon.core.statics.collapse import is_collapse
 from legorize_addon.core.statics.equilibrium import (
     AIMS,
     FACTORS,
+    LEAST_PUSH,
     WEIGHT_GROUND,
     WEIGHT_SIDE,
     Aim,
+    _box,
+    _stagnates,
     _weights,
     balance,
     is_equilibrium,
@@ -112,3 +115,29 @@ def test_search_ends_with_a_motion_that_proves_a_collapse() -> None:
     reached = balance(found, aims=AIMS)
     assert (reached.found, reached.collapse) == (False, True)
     assert is_collapse(found, reached.motion)
+
+
+def test_box_leaves_a_share_of_each_bound() -> None:
+    """Of what pulls, a share of the pull; of what only pushes, a like share of a small push."""
+    found = equations(table(("3003", 0, 0, 0), ("3003", 2, 0, 0), ("3001", 0, 0, 3)), ground=Ground.TABLE)
+    least = found.contacts.least
+    assert set(np.sign(least).tolist()) == {-1.0, 0.0}
+    for share in (0.0, 0.25, 0.5):
+        expected = [bound * (1 - share) if bound else share * LEAST_PUSH for bound in least.tolist()]
+        np.testing.assert_allclose(_box(found, share), expected)
+
+
+@pytest.mark.parametrize(
+    ("gaps", "given_up"),
+    [
+        ([1.0] * 5, False),
+        ([1.0] * 6, True),
+        ([1.0, 1.0, 1.0, 1.0, 1.0, 0.9], False),
+        ([1.0, 1.0, 1.0, 1.0, 1.0, 0.91], True),
+        ([2.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0], True),
+        ([1.0, 2.0, 2.0, 2.0, 2.0, 2.0, 1.7], False),
+    ],
+)
+def test_search_is_given_up_when_five_looks_gain_less_than_a_tenth(gaps: list[float], given_up: bool) -> None:
+    """The distance now is compared with that of five looks before."""
+    assert _stagnates(gaps) == given_up

@@ -29,6 +29,14 @@ def test_length_that_lies() -> None:
     assert named_files(BINARY.replace(b"S\x09\0\0\0", b"S\xff\xff\xff\xff")) == {"paint.png"}
 
 
+def test_longest_name() -> None:
+    """No name is longer than a path of Linux, which has 4,096 bytes (PATH_MAX in limits.h)."""
+    name = b"x" * 5000
+    assert named_files(b"Kaydara FBX Binary  FileNameS" + (5000).to_bytes(4, "little") + name) == {"x" * 4096}
+    assert named_files(b"Kaydara FBX Binary  FileNameS" + (4096).to_bytes(4, "little") + name) == {"x" * 4096}
+    assert named_files(b"Kaydara FBX Binary  FileNameS" + (4095).to_bytes(4, "little") + name) == {"x" * 4095}
+
+
 def test_other_content(tmp_path: Path) -> None:
     """The name alone makes no FBX file."""
     (tmp_path / "box.fbx").write_bytes(b"v 0 0 0\n")
