@@ -20,6 +20,33 @@ GOLDEN = Path(__file__).parents[1] / "golden" / "estimates.json"
 MESHES = {"box": box((0, 0, 0), (30, 20, 25)), "ball": sphere(16), "torus": torus(), "table": table(), "blob": blob(8)}
 
 
+BUILDS = {
+    "ball": (sphere(16), Settings(width=48)),
+    "large ball": (sphere(16), Settings(width=192, prove_steps=True)),
+    "painted": (blob(8), Settings(width=32, layout="exact")),
+    "solid box": (MESHES["box"], Settings(width=64, layout="fast", hollow=False)),
+}
+
+
+def test_fitted_figures_are_those_of_the_golden_file():
+    """Bricks, memory and seconds follow from coefficients that were fitted to builds, and change only with a new fit.
+
+    After ``scripts/benchmark.py budget``, with other coefficients, write the file anew: it is ``figures()`` as JSON.
+    """
+    expected = json.loads(GOLDEN.read_text(encoding="utf-8"))
+    found = figures()
+    assert list(found) == list(expected)
+    for name, values in found.items():
+        assert values == pytest.approx(expected[name], rel=1e-6), name
+
+
+def figures():
+    """Return what is estimated of some builds."""
+    made = {name: estimate(mesh, settings) for name, (mesh, settings) in BUILDS.items()}
+    made["picture"] = estimate_mosaic((48, 32), Settings(mosaic="bricks", layout="fast", prove_steps=True))
+    return {name: {"bricks": each.bricks, "megabytes": each.megabytes, **each.stages} for name, each in made.items()}
+
+
 @pytest.mark.parametrize("options", [{}, {"plates": "none"}, {"hollow": False}], ids=str)
 @pytest.mark.parametrize("name", MESHES)
 def test_bricks_and_cells_are_near_what_is_built(name, options):
@@ -102,30 +129,3 @@ def test_what_cannot_be_built_is_not_estimated(mesh, options, kind):
     with pytest.raises(kind) as late:
         legorize(mesh, Settings(**options))
     assert str(early.value) == str(late.value)
-
-
-BUILDS = {
-    "ball": (sphere(16), Settings(width=48)),
-    "large ball": (sphere(16), Settings(width=192, prove_steps=True)),
-    "painted": (blob(8), Settings(width=32, layout="exact")),
-    "solid box": (MESHES["box"], Settings(width=64, layout="fast", hollow=False)),
-}
-
-
-def test_fitted_figures_are_those_of_the_golden_file():
-    """Bricks, memory and seconds follow from coefficients that were fitted to builds, and change only with a new fit.
-
-    After ``scripts/benchmark.py budget``, with other coefficients, write the file anew: it is ``figures()`` as JSON.
-    """
-    expected = json.loads(GOLDEN.read_text(encoding="utf-8"))
-    found = figures()
-    assert list(found) == list(expected)
-    for name, values in found.items():
-        assert values == pytest.approx(expected[name], rel=1e-6), name
-
-
-def figures():
-    """Return what is estimated of some builds."""
-    made = {name: estimate(mesh, settings) for name, (mesh, settings) in BUILDS.items()}
-    made["picture"] = estimate_mosaic((48, 32), Settings(mosaic="bricks", layout="fast", prove_steps=True))
-    return {name: {"bricks": each.bricks, "megabytes": each.megabytes, **each.stages} for name, each in made.items()}
