@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence, Set
 from functools import cache
 from typing import Any, Final
 
@@ -20,6 +20,9 @@ from .tab import Tab
 
 PIXELS: Final = 32
 """Height and width of a swatch."""
+
+COLUMNS: Final = 8
+"""Swatches in a row: as many as the sidebar has room for at its usual width."""
 
 RARE: Final = 0.75
 """Share of the parts below which a colour counts as hard to buy: more than one part in four is then not made in it."""
@@ -151,21 +154,28 @@ class LEGORIZE_PT_palette(Tab, bpy.types.Panel):
         self.layout.enabled = job.running() is None
         catalogue = load_catalogue()
         used = codes_of(context.scene.legorize.settings.palette, catalogue)
+        self.layout.label(text=f"{len(used)} of {len(catalogue.colours)} colours")
         row = self.layout.row(align=True)
-        row.label(text=f"{len(used)} of {len(catalogue.colours)} colours")
         row.operator(LEGORIZE_OT_palette_all.bl_idname)
         row.operator(LEGORIZE_OT_palette_of_build.bl_idname)
         hard = rare(catalogue)
-        grid = self.layout.grid_flow(row_major=True, columns=0, even_columns=True, even_rows=True, align=True)
-        for colour in sorted(catalogue.colours, key=_rainbow):
+        ranked = sorted(catalogue.colours, key=_rainbow)
+        self._draw_swatches([colour for colour in ranked if not hard[colour.code]], used)
+        self.layout.label(text="Made of few parts:")
+        self._draw_swatches([colour for colour in ranked if hard[colour.code]], used)
+        self._draw_counts(context)
+
+    def _draw_swatches(self, colours: Sequence[Colour], used: Set[int]) -> None:
+        """Draw a button for each colour, pressed where it is used."""
+        grid = self.layout.grid_flow(row_major=True, columns=COLUMNS, even_columns=True, even_rows=True, align=True)
+        for colour in colours:
             button = grid.operator(
                 LEGORIZE_OT_palette_colour.bl_idname,
-                text="!" if hard[colour.code] else "",
+                text="",
                 icon_value=swatch(colour),
                 depress=colour.code in used,
             )
             button.code = colour.code
-        self._draw_counts(context)
 
     def _draw_counts(self, context: bpy.types.Context) -> None:
         """Draw how many bricks of the model have each colour, most first."""
