@@ -436,6 +436,17 @@ def test_failed_judge_is_one_sentence(box: Path, tmp_path: Path, capsys: pytest.
     assert capsys.readouterr().err.endswith("judge.py failed on " + str(box) + ": no such brick\n")
 
 
+def test_published_command(box: Path, tmp_path: Path) -> None:
+    """Both ways are built without a failed check and read back; prices are shares of the default's."""
+    tables = run(tmp_path, "published", box, "--widths", 8)
+    default, published = tables["published"]
+    assert [default["way"], published["way"]] == ["default", "as published"]
+    assert default["met"]
+    assert published["met"]
+    price, median = tables["published_price"]
+    assert price["bricks"] == median["bricks"] == published["bricks"] / default["bricks"]
+
+
 def test_budget_command(box: Path, tmp_path: Path) -> None:
     """One row a build, with the estimate beside what it took, and the errors over all of them."""
     tables = run(tmp_path, "budget", box, "--widths", 12)
