@@ -7,7 +7,7 @@ layers below, without the joining that follows in a build.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 from pathlib import Path
 from typing import Final
@@ -34,7 +34,7 @@ from legorize_addon.core.model.unit_grid import UnitGrid
 from scripts.benchmarks.tables import Row, Table
 from scripts.research.layout_controls import laid
 from scripts.research.rules import Index, by_key, largest
-from scripts.research.training_models import KINDS, UNSEEN, built
+from scripts.research.training_models import KINDS, UNSEEN, WIDTHS, built
 
 Fill = Callable[[Layer, np.random.Generator], Index]
 
@@ -68,7 +68,7 @@ class Filled:
     seconds: float
 
 
-def judged_fill(paths: Sequence[Path], *, widths: Sequence[int], text: str, each: int = HELD_BACK) -> list[Table]:
+def judged_fill(paths: Sequence[Path], *, widths: Sequence[int], text: str, each: int = HELD_BACK) -> Iterator[Table]:
     """Lay models that were not trained on in all ways.
 
     Parameters
@@ -82,18 +82,26 @@ def judged_fill(paths: Sequence[Path], *, widths: Sequence[int], text: str, each
     each : int
         Models of each kind that are made by chance.
 
-    Returns
-    -------
-    list of Table
-        All ways over the models made by chance, and over the files of each size; what the samples are; and all models
+    Yields
+    ------
+    Table
+        What the samples are; all ways over the files of each size, and over the models made by chance; and all models
         as they are joined in a build.
     """
-    chance = {f"{kind} {seed}": built(kind, seed)[0] for kind in KINDS for seed in range(UNSEEN, UNSEEN + each)}
-    groups = {"held-back models made by chance": chance} if chance else {}
+    yield of_samples(text)
+    groups: dict[str, dict[str, UnitGrid]] = {}
     for width in widths if paths else ():
         groups[f"model files at {width} studs"] = {f"{path.stem} {width}": laid(path, width)[0] for path in paths}
+    # the small ones: sizes follow the seeds
+    seeds = range(UNSEEN, UNSEEN + each * len(WIDTHS), len(WIDTHS))
+    chance = {f"{kind} {seed}": built(kind, seed)[0] for kind in KINDS for seed in seeds}
+    if chance:
+        groups[f"held-back models of {WIDTHS[0]} studs made by chance"] = chance
+    for title, group in groups.items():
+        yield compared(title, group, text)
     every = {name: grid for group in groups.values() for name, grid in group.items()}
-    return [*(compared(title, group, text) for title, group in groups.items()), of_samples(text), joined(every)]
+    if every:
+        yield joined(every)
 
 
 def of_samples(text: str) -> Table:

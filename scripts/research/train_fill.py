@@ -70,8 +70,11 @@ def main(arguments: Sequence[str]) -> int:
     options = parser.parse_args(arguments)
     if options.report:
         text = SHIPPED.read_text(encoding="utf-8")
-        tables = judged_fill(options.meshes, widths=options.widths, text=text, each=options.held_back)
-        print("\n".join(table.markdown() for table in tables))
+        tables = []
+        for table in judged_fill(options.meshes, widths=options.widths, text=text, each=options.held_back):
+            # it takes long, and what is known is shown
+            print(table.markdown(), flush=True)
+            tables.append(table)
         if options.tables:
             write(options.tables, "fill", tables)
         return 0

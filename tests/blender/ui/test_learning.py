@@ -130,6 +130,19 @@ def test_selected_model_is_learned_as_it_was_built(ball, folder: Path, monkeypat
     assert [(model.name, model.settings.width) for model in found[0].models] == [(ball.name, 24), (cube.name, 30)]
 
 
+def test_the_learned_layout_learns_its_own(ball, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the layout Learned its machine is taught; its file is none of the fast layout."""
+    found, text = [], (ASSETS / "fill_svm.csv").read_text(encoding="utf-8")
+    monkeypatch.setattr(learning_operators.Lessons, "work", lambda order, progress: found.append(order) or text)
+    bpy.context.scene.legorize.settings.layout = "learned"
+    assert bpy.ops.legorize.learn() == {"FINISHED"}
+    assert (found[0].of_fill, found[0].text, found[0].version) == (True, text, 2)
+    assert Path(resolved(chosen())).read_text(encoding="utf-8") == text
+    bpy.context.scene.legorize.settings.layout = "fast"
+    with pytest.raises(RuntimeError, match="learned_from is"):
+        bpy.ops.legorize.learn()
+
+
 def test_too_little_to_learn_from_is_said(folder: Path) -> None:
     """A small box teaches nothing: one sentence, no file, the choice as it was."""
     bpy.ops.mesh.primitive_cube_add()
