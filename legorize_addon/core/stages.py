@@ -19,7 +19,7 @@ from .estimate import AGAIN
 from .layout import FILLER, Alike, Manner, lay, lay_learned
 from .layout.learning import NO_EXCHANGES, FillLog, grades_text, learned_table, samples_text
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
-from .model import Assembly, Bricks, Catalogue, Fill, UnitGrid, load_catalogue
+from .model import COLOUR_ANY, Assembly, Bricks, Catalogue, Fill, UnitGrid, load_catalogue
 from .part_choice import PartChoice
 from .progress import Overall
 from .settings import Settings
@@ -27,6 +27,7 @@ from .shell import hollow
 from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_layers, levels_of, slice_mesh
 from .statics import PROGRAMME, Effort, Stability, stability
 from .supports import (
+    INSIDE_COLOUR,
     AssemblyPlan,
     Wish,
     add_bracing,
@@ -208,8 +209,7 @@ def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail
     marked = np.bincount(layer, minlength=frame.n_layers) == PLATES_PER_BRICK
     if settings.plates == "all":
         return Detail(marked, 0.0)
-    middle = settings.superposition == "middle"
-    return Detail(marked, settings.plate_gain, settings.fewer_parts, middle=middle)
+    return Detail(marked, settings.plate_gain, settings.fewer_parts, middle=settings.superposition == "middle")
 
 
 def close_overhangs(run: Run, grid: UnitGrid) -> tuple[UnitGrid, Offsets]:
@@ -233,6 +233,7 @@ def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
         rule=settings.hollow_rule,
         ceilings=settings.ceilings,
         open_bottom=settings.open_bottom,
+        pillar_colour=INSIDE_COLOUR if settings.support_parts == "paper" else COLOUR_ANY,
         progress=run.progress,
     )
 

@@ -36,6 +36,7 @@ def hollow(
     rule: Rule = "both",
     ceilings: Way = "free",
     open_bottom: bool = False,
+    pillar_colour: int = COLOUR_ANY,
     progress: Progress = silent,
 ) -> UnitGrid:
     """Sort the cells of a solid model into required, optional and empty.
@@ -54,6 +55,8 @@ def hollow(
         How ceilings inside are carried, see :func:`~.ceilings.carriers`.
     open_bottom : bool
         Leave out cells that only cover the underside on the ground. With "upper" they are left out anyway.
+    pillar_colour : int
+        LDraw code of pillars inside; by default they take that of their neighbours.
     progress : Progress, optional
         Told between the steps.
 
@@ -63,7 +66,7 @@ def hollow(
         ``REQUIRED`` in the shell and in what carries ceilings, ``OPTIONAL`` one cell
         around these, ``EMPTY`` elsewhere; everything ``REQUIRED`` when `shell` is
         None. Full columns of three plates have one cover. Colours stay as they
-        are in the cells that remain, but ceilings are carried in any colour.
+        are in the cells that remain, but ceilings are carried in any colour, or pillars in theirs.
         Hidden shell cells without a colour of their own and corbels get the role
         ``INSIDE``, pillars ``SUPPORT_INSIDE``.
     """
@@ -81,7 +84,8 @@ def hollow(
         optional = inner & _grown(~inner & grid.solid.any(axis=1))
         _fill(cover, inner, Fill.EMPTY)
         _fill(cover, optional, Fill.OPTIONAL)
-        _fill(colour, corbels | pillars, COLOUR_ANY)
+        _fill(colour, corbels, COLOUR_ANY)
+        _fill(colour, pillars, pillar_colour)
         _fill(role, corbels, Role.INSIDE)
         _fill(role, pillars, Role.SUPPORT_INSIDE)
     colour[cover == Fill.EMPTY] = COLOUR_EMPTY

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .assembly_plan import KINDS, AssemblyPlan, Wish, plan_as_given, plan_assembly
-from .boxes import of_the_paper
+from .boxes import INSIDE_COLOUR, of_the_paper
 from .bracing import add_bracing
 from .demand import parts_of_supports
 from .pillars import add_pillars
@@ -12,6 +12,7 @@ from .stacks import SLIM, slim_stacks
 from .strengthening import strengthen
 
 __all__ = [
+    "INSIDE_COLOUR",
     "KINDS",
     "SAVING",
     "SLIM",

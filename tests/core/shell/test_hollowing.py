@@ -208,6 +208,15 @@ def test_what_carries_ceilings_has_its_role(ceilings, role):
     np.testing.assert_array_equal((carried.cover == Fill.OPTIONAL)[:, 0], near & ~required)
 
 
+def test_pillars_may_have_a_colour():
+    """Only what carries ceilings as pillars takes it."""
+    colour = np.full((12, 3, 16, 16), COLOUR_ANY)
+    plain, red = (hollow(grid_of(colour), shell=1, ceilings="pillars", pillar_colour=c) for c in (COLOUR_ANY, 4))
+    np.testing.assert_array_equal(red.colour == 4, red.role == Role.SUPPORT_INSIDE)
+    assert (red.colour == 4).any()
+    np.testing.assert_array_equal(red.cover, plain.cover)
+
+
 def test_colours_and_roles():
     """Kept cells keep their colour, emptied ones lose it, and hidden cells of the shell are inside."""
     colour = np.full((9, 3, 9, 9), COLOUR_ANY)
