@@ -240,6 +240,8 @@ class Mosaic(Finished):
 
     @property
     def origin(self) -> Floats:
-        """Corner of the mosaic in mm, (3,): it lies around the origin."""
+        """Corner of the mosaic in mm, (3,): it lies around the origin, or stands there."""
         across, deep = self.canvas.size
+        if self.settings.standing:
+            deep = int(self.assembly.graph.low[1]) + self.assembly.graph.owner.shape[1]
         return np.array([-across * STUD / 2, -deep * STUD / 2, 0.0])

@@ -10,12 +10,14 @@ from .errors import SettingsError, enough_memory
 from .estimate import COUNTED, estimate
 from .limits import check_limits
 from .mesh import TriangleMesh
+from .model import UnitGrid
 from .native import watched
 from .progress import Overall, Progress, silent
 from .settings import Settings
 from .shell import make_cohesive
 from .slicing import fit_grid, link_loops
 from .stages import Run, close_overhangs, cut_mesh, find_colours, hollow_out, make_unit_grid, prepare_mesh
+from .unit_bricks import add_feet
 
 STAGES: Final = ("mesh", "colours", "slicing", "trajectories", "unit bricks", "overhangs", "hollowing")
 """Their names."""
@@ -69,8 +71,8 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
     Returns
     -------
     draft : Draft
-    unseen : tuple of str
-        Remarks on parts of the mesh that cannot be seen.
+    remarks : tuple of str
+        On parts of the mesh that cannot be seen, and on feet.
     """
     settings, plates = run.settings, run.settings.plates != "none"
     with run.stage("mesh"):
@@ -83,7 +85,7 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
     with run.stage("trajectories"):
         trajectories = link_loops(mesh, cut.slices, surface, chord_deviation=settings.chord_deviation)
     with run.stage("unit bricks"):
-        grid = make_unit_grid(run, mesh, repairs, trajectories, surface, frame, cut)
+        grid, feet = stand_up(run, make_unit_grid(run, mesh, repairs, trajectories, surface, frame, cut))
     with run.stage("overhangs"):
         grid, offsets = close_overhangs(run, grid)
     with run.stage("hollowing"):
@@ -92,4 +94,12 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
         mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut, trajectories=trajectories,
         offsets=offsets, grid=grid, hollow=shell,
     )  # fmt: skip
-    return made, unseen
+    return made, (*unseen, *feet)
+
+
+def stand_up(run: Run, grid: UnitGrid) -> tuple[UnitGrid, tuple[str, ...]]:
+    """Put feet on what falls over at a touch, if that is wanted; return a sentence about them as well."""
+    if not run.settings.feet:
+        return grid, ()
+    grid, feet = add_feet(grid)
+    return grid, tuple(each.sentence() for each in feet)

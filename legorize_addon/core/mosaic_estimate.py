@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
 from .estimate import PROOF, TIERS, Estimate
+from .mosaic import DEEP
 from .settings import Settings
-from .units import MM_PER_CM, PLATE, PLATES_PER_BRICK, STUD
+from .units import BRICK, MM_PER_CM, PLATE, PLATES_PER_BRICK, STUD
 
 _BRICKS: Final = 0.6
 """Parts to a stud of a photograph in mixed colours."""
@@ -40,6 +42,8 @@ def estimate_mosaic(studs: tuple[int, int], settings: Settings) -> Estimate:
     seconds["layout"] *= TIERS[settings.layout]
     if settings.prove_steps:
         seconds["proof"] = PROOF * sum(seconds.values())
+    if settings.standing:
+        return _of_wall(studs, seconds, settings)
     plates = 1 + (PLATES_PER_BRICK if settings.mosaic == "bricks" else 1)
     return Estimate(
         studs=(float(studs[0]), float(studs[1])),
@@ -49,4 +53,28 @@ def estimate_mosaic(studs: tuple[int, int], settings: Settings) -> Estimate:
         bricks=round(_BRICKS * cells),
         megabytes=_MEGABYTES[0] + _MEGABYTES[1] * cells,
         stages=seconds,
+    )
+
+
+_WALL: Final = MappingProxyType({"layout": 6e-4, "ties": 1e-5, "strengthening": 5e-5, "bracing": 1e-5})
+"""CPU seconds of the stages of a wall for each stud, more than for a mosaic that lies."""
+
+
+def _of_wall(studs: tuple[int, int], seconds: Mapping[str, float], settings: Settings) -> Estimate:
+    """Estimate a mosaic that stands."""
+    cells = studs[0] * studs[1]
+    order = ("colours", "layout", "ties", "strengthening", "stability", "bracing", "supports", "proof")
+    stages = {
+        name: seconds.get(name, 0.0) + TIERS[settings.layout] * _WALL.get(name, 0.0) * cells
+        for name in order
+        if name in {*seconds, *_WALL}
+    }
+    return Estimate(
+        studs=(float(studs[0]), float(DEEP)),
+        layers=studs[1],
+        cm=(studs[0] * STUD / MM_PER_CM, DEEP * STUD / MM_PER_CM, studs[1] * BRICK / MM_PER_CM),
+        cells=float(DEEP * cells),
+        bricks=round(_BRICKS * cells),
+        megabytes=_MEGABYTES[0] + DEEP * _MEGABYTES[1] * cells,
+        stages=stages,
     )

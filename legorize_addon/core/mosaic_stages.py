@@ -7,12 +7,13 @@ from numpy.typing import NDArray
 
 from .colours import linear_from_srgb
 from .errors import SettingsError
-from .model import COLOUR_EMPTY, Bricks, Catalogue
+from .model import COLOUR_EMPTY, Bricks, Catalogue, UnitGrid
 from .mosaic import (
     Canvas,
     Covered,
     Goal,
     Picture,
+    Surface,
     canvas_of,
     cover_base,
     fewer_colours,
@@ -21,16 +22,19 @@ from .mosaic import (
     longer_side,
     stud_colours,
     surface_parts,
+    wall_of,
     winning_colours,
 )
 from .settings import Settings
 from .stages import Run
+from .units import BRICK, STUD
 
 
 def mosaic_canvas(picture: Picture, settings: Settings) -> Canvas:
     """Return the size of a mosaic in studs."""
     longer = longer_side(size_by=settings.size_by, width=settings.width, cm=settings.cm)
-    return canvas_of(picture.size, longer=longer, border=settings.border)
+    row = BRICK / STUD if settings.standing else 1.0
+    return canvas_of(picture.size, longer=longer, border=settings.border, row=row)
 
 
 def mosaic_colours(run: Run, picture: Picture, canvas: Canvas) -> tuple[Goal, NDArray[np.int16]]:
@@ -43,7 +47,7 @@ def mosaic_colours(run: Run, picture: Picture, canvas: Canvas) -> tuple[Goal, ND
     palette = run.palette[_made(run)]
     if not len(palette):
         raise SettingsError(
-            f"No colour of the palette has {settings.mosaic} of one stud: choose other colours, or another mosaic."
+            f"No colour of the palette has {_parts(settings)} of one stud: choose other colours, or another mosaic."
         )
     palette = fewer_colours(goal, palette, catalogue, settings.colours)
     if settings.fine_texture == "texels" and settings.dithering == "none" and behind is None:
@@ -51,11 +55,28 @@ def mosaic_colours(run: Run, picture: Picture, canvas: Canvas) -> tuple[Goal, ND
     return goal, stud_colours(goal, palette, catalogue, dithering=settings.dithering)
 
 
+def _parts(settings: Settings) -> Surface:
+    """Return what a mosaic is made of."""
+    return "bricks" if settings.standing else settings.mosaic
+
+
 def _made(run: Run) -> NDArray[np.bool_]:
     """Return which colours of the palette have a part of one stud for the mosaic."""
-    among = surface_parts(run.settings.mosaic, np.sort(run.palette), run.settings.base_colour, run.parts.catalogue)
+    kind = _parts(run.settings)
+    among = surface_parts(kind, np.sort(run.palette), run.settings.base_colour, run.parts.catalogue)
     made = among.made[among.size == 1, :-1].any(axis=0)
     return np.isin(run.palette, among.codes[made])
+
+
+def wall_cells(run: Run, canvas: Canvas, colour: NDArray[np.int16]) -> UnitGrid:
+    """Return the cells of a mosaic that stands, with its border."""
+    columns, rows = canvas.size
+    studs = np.full((rows, columns), COLOUR_EMPTY, dtype=np.int16)
+    if canvas.border:
+        studs[:] = run.catalogue.codes[_colour(run.catalogue, run.settings.border_colour, "border_colour")]
+    inside = np.s_[canvas.border : canvas.border + canvas.rows, canvas.border : canvas.border + canvas.columns]
+    studs[inside] = colour
+    return wall_of(studs)
 
 
 def lay_mosaic(run: Run, canvas: Canvas, colour: NDArray[np.int16]) -> Covered:

@@ -9,7 +9,7 @@ import numpy as np
 
 from .build import Build, Judged, Mosaic
 from .building import Proof, prove_steps
-from .drafting import drafted
+from .drafting import drafted, stand_up
 from .errors import enough_memory
 from .estimate import COUNTED, estimate
 from .existing import (
@@ -27,10 +27,10 @@ from .layout import recolour_visible
 from .layout.joining import add_ties
 from .limits import check_limits, check_size
 from .mesh import TriangleMesh
-from .model import Assembly, Role, contact_graph
-from .mosaic import Picture
+from .model import Assembly, Role, UnitGrid, contact_graph
+from .mosaic import Covered, Picture
 from .mosaic_estimate import estimate_mosaic
-from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic
+from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic, wall_cells
 from .native import watched
 from .part_choice import PartChoice
 from .progress import Overall, Progress, silent
@@ -90,9 +90,33 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
 def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Build:
     """Go through the stages."""
     check_limits(expected := estimate(mesh, settings), settings)
-    run, plates = Run.of(settings, Overall(expected.stages, progress)), settings.plates != "none"
-    made, unseen = drafted(run, mesh)
-    shell = made.hollow
+    run = Run.of(settings, Overall(expected.stages, progress))
+    made, told = drafted(run, mesh)
+    assembly, shell, found = _put_up(run, made.hollow)
+    with run.stage("pieces"):
+        assembly, joints = segment(assembly, most=settings.split, deepest=settings.hanging)
+    with run.stage("supports"):
+        plan = make_plan(run, assembly)
+    if len(plan.final) > len(assembly):
+        with run.stage("stability again"):
+            found = stability(plan.final, clutch=settings.clutch, progress=run.progress)
+    proof = _prove(run, plan)
+    run.progress.finish()
+    notes = (
+        *made.repairs.sentences(), *told, *remarks_on_dithering(made.mesh, settings.dithering), *run.learning,
+        *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
+    )  # fmt: skip
+    return Build(
+        settings=settings, mesh=made.mesh, repairs=made.repairs, scale=made.scale, turn=made.turn,
+        surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
+        hollow=shell, assembly=plan.final, stability=found, supports=plan, joints=joints, **run.parts.files,
+        proof=proof, notes=notes, timings=run.timings,
+    )  # fmt: skip
+
+
+def _put_up(run: Run, shell: UnitGrid) -> tuple[Assembly, UnitGrid, Stability]:
+    """Lay the bricks of cells, and let them hold and stand; return the cells that they cover as well."""
+    plates = run.settings.plates != "none"
     with run.stage("layout"):
         bricks, shell = lay_bricks(run, shell)
     with run.stage("ties"):
@@ -105,25 +129,7 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
         found = check_stability(run, assembly, held)
     with run.stage("bracing"):
         assembly, found = brace(run, assembly, found)
-    with run.stage("pieces"):
-        assembly, joints = segment(assembly, most=settings.split, deepest=settings.hanging)
-    with run.stage("supports"):
-        plan = make_plan(run, assembly)
-    if len(plan.final) > len(assembly):
-        with run.stage("stability again"):
-            found = stability(plan.final, clutch=settings.clutch, progress=run.progress)
-    proof = _prove(run, plan)
-    run.progress.finish()
-    notes = (
-        *made.repairs.sentences(), *unseen, *remarks_on_dithering(made.mesh, settings.dithering), *run.learning,
-        *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
-    )  # fmt: skip
-    return Build(
-        settings=settings, mesh=made.mesh, repairs=made.repairs, scale=made.scale, turn=made.turn,
-        surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
-        hollow=shell, assembly=plan.final, stability=found, supports=plan, joints=joints, **run.parts.files,
-        proof=proof, notes=notes, timings=run.timings,
-    )  # fmt: skip
+    return assembly, shell, found
 
 
 @enough_memory()
@@ -158,16 +164,21 @@ def _legorize_image(picture: Picture, settings: Settings, progress: Progress) ->
     run = Run.of(replace(settings, owned_use="first"), Overall(expected.stages, progress))
     with run.stage("colours"):
         goal, colour = mosaic_colours(run, picture, canvas)
-    with run.stage("layout"):
-        covered = lay_mosaic(run, canvas, colour)
-    with run.stage("stability"):
-        assembly = Assembly(covered.bricks, run.catalogue)
-        found = check_stability(run, assembly, None)
+    if settings.standing:
+        shell, told = stand_up(run, wall_cells(run, canvas, colour))
+        assembly, _, found = _put_up(run, shell)
+        covered = Covered(assembly.bricks, 0, 0)
+    else:
+        with run.stage("layout"):
+            covered = lay_mosaic(run, canvas, colour)
+        with run.stage("stability"):
+            assembly, told = Assembly(covered.bricks, run.catalogue), ()
+            found = check_stability(run, assembly, None)
     with run.stage("supports"):
         plan = make_plan(run, assembly)
     proof = _prove(run, plan)
     run.progress.finish()
-    notes = (*remarks_on_mosaic(picture, canvas, covered), *_notes(run, found, plan, proof, run.parts.owned))
+    notes = (*told, *remarks_on_mosaic(picture, canvas, covered), *_notes(run, found, plan, proof, run.parts.owned))
     return Mosaic(
         settings=settings, scale=1.0, pixels=picture.size, canvas=canvas, goal=goal, colour=colour, covered=covered,
         assembly=plan.final, stability=found, supports=plan, joints=(), **run.parts.files, proof=proof,

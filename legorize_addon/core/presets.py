@@ -63,6 +63,7 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
                 "supports": "tree",
                 "support_parts": "paper",
                 "strengthen": False,
+                "feet": False,
             },
         ),
     }

@@ -179,6 +179,9 @@ class Settings:
             "all": "all bricks and plates",
             "paper": "the eleven bricks of the paper and long ones under wide undersides, single plates where these "
             "do not reach"}, needs=("supports", "best", "tree", "columns", "beams"))
+    feet: bool = setting(
+        True, "Feet", "Put feet at the ground on both sides of walls and posts that would fall over at a touch; they "
+        "stay.", group="Supports")
     hanging: int = setting(
         3, "Hanging (plates)", "How many plates deep bricks may hang under others while the model is built; 0 puts a "
         "support under every brick.", group="Supports", limits=(0, 30))
@@ -202,6 +205,9 @@ class Settings:
     mosaic: Literal["tiles", "plates", "bricks"] = setting(
         "tiles", "Made of", "What a mosaic of an image is made of.", group="Mosaic", words={
             "tiles": "smooth tiles", "plates": "plates", "bricks": "bricks"})
+    standing: bool = setting(
+        False, "Standing", "Build a mosaic as a wall of bricks that stands, two studs deep, instead of one that lies "
+        "on a base.", group="Mosaic")
     mosaic_base: Literal["auto", "baseplates", "plates"] = setting(
         "auto", "Base", "What a mosaic lies on.", group="Mosaic", words={
             "auto": "baseplates where they fit exactly, else large plates",

@@ -168,7 +168,7 @@ class LEGORIZE_PT_image(bpy.types.Panel):
         column = self.layout.column()
         column.use_property_split = True
         column.use_property_decorate = False
-        for name in ("mosaic", "dithering", "border"):
+        for name in ("mosaic", "standing", "dithering", "border"):
             column.prop(context.scene.legorize.settings, name)
         self.layout.operator(LEGORIZE_OT_image.bl_idname, icon="IMAGE_DATA")
 

@@ -124,3 +124,39 @@ def test_the_learned_fill_knows_no_mosaics():
     """It is refused with what to choose instead."""
     with pytest.raises(SettingsError, match="choose one of fast, standard, exact"):
         legorize_image(painted(np.full((4, 4), 4)), Settings(width=8, layout="learned"))
+
+
+def front(mosaic):
+    """Return the colour that is seen of each brick cell of a wall from its front, the lowest row first."""
+    owner = mosaic.graph.owner
+    seen = np.take_along_axis(owner, (owner >= 0).argmax(axis=1)[:, None], axis=1)[:, 0]
+    colour = np.where(seen >= 0, mosaic.bricks.colour[seen], COLOUR_EMPTY).reshape(-1, 3, seen.shape[1])
+    assert (colour == colour[:, :1]).all()
+    return colour[:, 0]
+
+
+def test_a_standing_mosaic_shows_the_picture_to_the_front():
+    """Neither turned nor mirrored, with a border, in one piece that stands; feet cover its lower corners."""
+    codes = np.repeat(np.repeat(np.array([[4, 15, 1, 0], [14, 2, 72, 25]], np.int16), 6, axis=0), 4, axis=1)
+    settings = Settings(width=18, border=1, border_colour=71, standing=True)
+    mosaic = legorize_image(painted(codes, 12), settings)
+    # rows are as high as bricks: fewer of them show the same height
+    assert (mosaic.canvas.columns, mosaic.canvas.rows) == (16, 10)
+    seen = front(mosaic)
+    expected = np.full((12, 18), 71)
+    expected[1:-1, 1:-1] = np.repeat(codes[::6], 5, axis=0)
+    np.testing.assert_array_equal(seen[2:], expected[2:])
+    np.testing.assert_array_equal(seen[:2, 2:-2], expected[:2, 2:-2])
+    assert (mosaic.graph.n_components, mosaic.graph.collisions) == (1, 0)
+    assert mosaic.stability.stands
+    assert mosaic.supports.walk.buildable
+    assert "feet of 1 stud" in mosaic.notes[0]
+
+
+def test_a_standing_mosaic_stands_around_the_origin():
+    """Its middle is there, with feet and without."""
+    picture = painted(np.full((8, 8), 4))
+    for feet, deep in ((True, 4), (False, 2)):
+        mosaic = legorize_image(picture, Settings(width=12, standing=True, feet=feet))
+        assert mosaic.graph.owner.shape[1] == deep
+        assert mosaic.origin.tolist() == [-48, -4 * deep, 0]

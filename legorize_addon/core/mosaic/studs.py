@@ -52,7 +52,7 @@ class Goal:
     there: Mask
 
 
-def canvas_of(size: tuple[int, int], *, longer: float, border: int) -> Canvas:
+def canvas_of(size: tuple[int, int], *, longer: float, border: int, row: float = 1.0) -> Canvas:
     """Return the studs of a mosaic whose image keeps its proportions.
 
     Parameters
@@ -63,6 +63,8 @@ def canvas_of(size: tuple[int, int], *, longer: float, border: int) -> Canvas:
         Studs along the longer side, with the border; rounded.
     border : int
         Width of the border in studs.
+    row : float, optional
+        Height of a row in studs: that of a brick in a wall.
 
     Returns
     -------
@@ -79,7 +81,9 @@ def canvas_of(size: tuple[int, int], *, longer: float, border: int) -> Canvas:
             f"A border of {border} studs on each side leaves nothing of the {round(longer)} studs of the longer side: "
             "choose a larger size or a narrower border."
         )
-    columns, rows = (max(1, round(inside * side / max(size))) for side in size)
+    columns, rows = (
+        max(1, round(inside * side / max(size) / high)) for side, high in zip(size, (1.0, row), strict=True)
+    )
     return Canvas(columns, rows, border)
 
 

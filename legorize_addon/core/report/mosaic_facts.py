@@ -28,7 +28,7 @@ def facts_of_mosaic(mosaic: Mosaic, catalogue: Catalogue) -> dict[str, Any]:
         base, its seams, and the parts that lie across them.
     """
     assembly, canvas = Assembly(mosaic.bricks, catalogue), mosaic.canvas
-    base = assembly.bricks.role == Role.INSIDE
+    base = (assembly.bricks.role == Role.INSIDE) & (not mosaic.settings.standing)
     numbers = Counter(catalogue.parts[part].number for part in assembly.bricks.part[base].tolist())
     facts = {
         "columns": canvas.columns,
@@ -39,7 +39,8 @@ def facts_of_mosaic(mosaic: Mosaic, catalogue: Catalogue) -> dict[str, Any]:
         "difference_from_afar": round(seen_from_afar(mosaic.goal, mosaic.colour, catalogue), 3),
         "recoloured": mosaic.covered.changed,
         "covered_to_join": mosaic.covered.added,
-        **_seams(assembly),
+        "standing": mosaic.settings.standing,
+        **({} if mosaic.settings.standing else _seams(assembly)),
     }
     return {"input": {"pixels": list(mosaic.pixels)}, "mosaic": facts}
 

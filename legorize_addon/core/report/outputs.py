@@ -25,7 +25,7 @@ def output_texts(build: Finished, catalogue: Catalogue, facts: dict[str, Any], t
 
     Lists of supports are there only if there are supports to buy, and a list
     that a shop reads only if it has something in it. The paper's tables are of
-    models of meshes alone, the parts by tiles of mosaics alone.
+    models of meshes alone, the parts by tiles of mosaics that lie alone.
     """
     everything = Assembly(build.supports.bricks, catalogue)
     return {
@@ -43,7 +43,11 @@ def later_texts(build: Finished, catalogue: Catalogue, facts: dict[str, Any], ti
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
         **missing_texts(build, catalogue, title),
         **(_tables(build, catalogue, title) if isinstance(build, Build) else {}),
-        **({"tiles.csv": tiles_csv(Assembly(build.bricks, catalogue))} if isinstance(build, Mosaic) else {}),
+        **(
+            {"tiles.csv": tiles_csv(Assembly(build.bricks, catalogue))}
+            if isinstance(build, Mosaic) and not build.settings.standing
+            else {}
+        ),
     }
 
 

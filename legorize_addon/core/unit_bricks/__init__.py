@@ -5,6 +5,7 @@ from __future__ import annotations
 from .backing import add_backing
 from .dithering import dithering_of, remarks_on_dithering
 from .facing import facing_of
+from .feet import add_feet
 from .generation import Raster, Rules, unit_bricks
 from .offset_bricks import add_offset_bricks
 from .offset_rings import Offsets, OverhangKind, overhang_kinds
@@ -17,6 +18,7 @@ __all__ = [
     "Raster",
     "Rules",
     "add_backing",
+    "add_feet",
     "add_offset_bricks",
     "dithering_of",
     "facing_of",

@@ -164,7 +164,7 @@ def shown(build: Build, *, standing) -> np.ndarray:
 
 def built(mesh, width, **others) -> Build:
     """Legorize a picture with a backing of one, and check that it holds together."""
-    build = legorize(mesh, Settings(width=width, **{"backing": 1, **others}))
+    build = legorize(mesh, Settings(width=width, **{"backing": 1, "feet": False, **others}))
     assert build.graph.n_components == 1
     assert build.graph.n_floating == 0
     assert build.graph.collisions == 0
