@@ -57,6 +57,13 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int]) -> list[Table]:
             builds = {way: legorize(mesh, Settings(width=width, **values)) for way, values in WAYS.items()}
             surface = seen_surface(builds["default"])
             found = [facts_of(build, surface) for build in builds.values()]
+            # a run takes long, and what is known is shown
+            print(
+                *(f"{way}: {facts}" for way, facts in zip(builds, found, strict=True)),
+                sep="\n",
+                file=sys.stderr,
+                flush=True,
+            )
             start: Row = {"model": path.stem, "studs": width}
             rows += [{**start, "way": way, **facts} for way, facts in zip(builds, found, strict=True)]
             ratios.append({**start, **{name: ratio(*(facts[name] for facts in found)) for name in PRICES}})
