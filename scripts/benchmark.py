@@ -9,6 +9,7 @@
     python scripts/benchmark.py prices    [MESH ...] [--out DIR]   cheapest models against the fewest bricks
     python scripts/benchmark.py owned     [MESH ...] [--out DIR]   models of classic boxes, nothing overdrawn
     python scripts/benchmark.py sizes     [MESH ...] [--out DIR]   as large as numbers of parts allow
+    python scripts/benchmark.py lots      [MESH ...] [--out DIR]   fewer lots: likeness and bricks
     python scripts/benchmark.py masses    [MESH ...] [--out DIR]   grams against bricks
     python scripts/benchmark.py detail    [MESH ...] [--judge DIR] what plates gain and cost
     python scripts/benchmark.py published [MESH ...] [--out DIR]   as in the paper, beside the default
@@ -63,6 +64,7 @@ from scripts.benchmarks import (  # noqa: E402
     pipeline,
     published,
     purchase,
+    sizes,
     slicing,
     stability,
     steps,
@@ -174,11 +176,16 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
             numbers("--times", [1, 3, 10], "boxes"),
         ),
         "sizes": of_models(
-            "as large as numbers of parts allow", purchase.measure_sizes,
-            numbers("--parts", [300, 1000, 3000], "parts"),
+            "as large as numbers of parts allow", sizes.measure, numbers("--parts", [300, 1000, 3000], "parts"),
+            ("--budgets", {"type": float, "nargs": "*", "default": [], "help": "amounts of money"}),
+        ),
+        "lots": of_models(
+            "fewer lots of parts", purchase.measure_lots, number("--width", 32, "studs"),
+            ("--limits", {"type": float, "nargs": "+", "default": [0.0, 5.0, 10.0, 20.0],
+                          "help": "largest colour differences"}),
         ),
         "masses": of_models(
-            "grams against bricks", purchase.measure_masses, number("--width", 32, "studs"),
+            "grams against bricks", purchase.measure_masses, numbers("--widths", [24, 48], "studs"),
             ("--weights", {"type": float, "nargs": "+", "default": [0.0, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0],
                            "help": "bricks for a gram"}),
         ),

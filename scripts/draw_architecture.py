@@ -119,7 +119,7 @@ def reduced(graph: Graph) -> dict[str, frozenset[str]]:
 def stages() -> list[tuple[str, tuple[str, ...]]]:
     """Return (name, packages) of each stage of the pipeline in order; a name that comes again is left out."""
     # the first two have their order, and the module of the stages what each of them calls
-    modules = ("drafting.py", "pipeline.py", "stages.py")
+    modules = ("drafting.py", "pipeline.py", "stages.py", "strength.py")
     trees = [ast.parse((PACKAGE / "core" / name).read_text(encoding="utf-8")) for name in modules]
     source = {
         name.asname or name.name: node.module

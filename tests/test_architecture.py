@@ -58,6 +58,7 @@ ORDER: Final = (
     "core.report",
     "core.part_choice",
     "core.stages",
+    "core.strength",
     "core.drafting",
     "core.mosaic_estimate",
     "core.mosaic_stages",

@@ -15,7 +15,17 @@ from statistics import median, quantiles
 ROOT = Path(__file__).resolve().parents[1]
 CORE = ROOT / "legorize_addon" / "core"
 READERS = (
-    *("pipeline", "drafting", "existing", "stages", "mosaic_stages", "mosaic_estimate", "build", "estimate"),
+    *(
+        "pipeline",
+        "drafting",
+        "existing",
+        "stages",
+        "strength",
+        "mosaic_stages",
+        "mosaic_estimate",
+        "build",
+        "estimate",
+    ),
     *("part_choice", "limits", "fitting", "shortage", "settings_file"),
 )
 """Modules of the core that know the settings."""

@@ -11,7 +11,7 @@ import numpy as np
 from .arrays import Floats, Ints, Mask
 from .errors import PartsError, SettingsError
 from .model import Assembly, Bricks, Catalogue
-from .owned import assign, lay_owned, merge_lots, repair_parts, usable, visible_cells
+from .owned import assign, exchange_small, lay_owned, merge_lots, repair_parts, usable, visible_cells
 from .setting import SEPARATOR
 from .settings import Settings
 from .stock import Owned, Prices, read_owned, read_prices
@@ -205,6 +205,24 @@ class PartChoice:
                 bricks = replace(made.bricks, colour=found.colour.astype(np.int16))
                 return replace(made, assembly=Assembly(bricks, made.assembly.catalogue))
         raise PartsError(too_few(made.assembly, found.missing, self.owned, "model with its supports"))
+
+    def exchanged(self, assembly: Assembly) -> tuple[Assembly, str]:
+        """Lay other parts in place of the bricks of small lots, if fewer lots are asked for, and say how many.
+
+        The same object, and nothing to say, if nothing is exchanged.
+        """
+        if not self.few_lots or self.owned is not None:
+            return assembly, ""
+        found, n_split, n_joined = exchange_small(assembly, self.few_lots)
+        what = [
+            f"{count} {one if count == 1 else more}"
+            for count, one, more in (
+                (n_split, "brick was split", "bricks were split"),
+                (n_joined, "pair of bricks was joined", "pairs of bricks were joined"),
+            )
+            if count
+        ]
+        return found, f"For fewer lots {' and '.join(what)} into parts that the model has anyway."
 
     def _with_few_lots(self, plan: AssemblyPlan) -> AssemblyPlan:
         """Merge small lots of the model; those of temporary supports are bought apart."""

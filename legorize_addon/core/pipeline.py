@@ -44,17 +44,10 @@ from .report import (
 )
 from .settings import Settings
 from .shortage import with_enough_parts
-from .stages import (
-    Run,
-    brace,
-    carry,
-    check_stability,
-    lay_bricks,
-    make_plan,
-    strengthen_joints,
-)
+from .stages import Run, lay_bricks, make_plan
 from .statics import Stability, stability
 from .stock import Owned
+from .strength import brace, carry, check_stability, check_strong, strengthen_joints, take_fewer_lots
 from .supports import AssemblyPlan, segment
 from .unit_bricks import remarks_on_dithering
 
@@ -94,6 +87,7 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     made, told = drafted(run, mesh)
     assembly, shell, found = _put_up(run, made.hollow)
     with run.stage("pieces"):
+        assembly, found, exchanged = take_fewer_lots(run, assembly, found)
         assembly, joints = segment(assembly, most=settings.split, deepest=settings.hanging)
     with run.stage("supports"):
         plan = make_plan(run, assembly)
@@ -104,6 +98,7 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     run.progress.finish()
     notes = (
         *made.repairs.sentences(), *told, *remarks_on_dithering(made.mesh, settings.dithering), *run.learning,
+        *exchanged,
         *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
     )  # fmt: skip
     return Build(
@@ -122,13 +117,13 @@ def _put_up(run: Run, shell: UnitGrid) -> tuple[Assembly, UnitGrid, Stability]:
     with run.stage("ties"):
         bricks, shell = add_ties(bricks, shell, run.parts.joining, plates=plates)
     with run.stage("strengthening"):
-        bricks, shell, held = strengthen_joints(run, bricks, shell)
+        bricks, shell, sparing = strengthen_joints(run, bricks, shell)
         bricks = recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue)
     with run.stage("stability"):
         assembly = carry(run, Assembly(bricks, run.catalogue))
-        found = check_stability(run, assembly, held)
+        found = check_strong(run, assembly, sparing)
     with run.stage("bracing"):
-        assembly, found = brace(run, assembly, found)
+        assembly, found = brace(run, assembly, found, sparing)
     return assembly, shell, found
 
 

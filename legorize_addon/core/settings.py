@@ -167,7 +167,8 @@ class Settings:
         needs=("owned",))
     few_lots: float = setting(
         0.0, "Few lots (CIEDE2000)", "Largest colour difference at which lots of one or two bricks take the colour of "
-        "another lot of their part; 0 leaves all colours. Not together with owned parts.", group="Parts",
+        "another lot of their part; where no colour is close they become other parts of the model; 0 leaves all lots. "
+        "Not together with owned parts.", group="Parts",
         limits=(0.0, 100.0))
 
     supports: Literal["best", "tree", "columns", "beams", "none"] = setting(

@@ -25,17 +25,13 @@ from .progress import Overall
 from .settings import Settings
 from .shell import hollow
 from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_layers, levels_of, slice_mesh
-from .statics import PROGRAMME, Effort, Stability, stability
 from .supports import (
     INSIDE_COLOUR,
     AssemblyPlan,
     Wish,
-    add_bracing,
-    add_pillars,
     of_the_paper,
     parts_of_supports,
     plan_assembly,
-    strengthen,
 )
 from .texturing import reduce_images, remarks_on_unseen, seen_part
 from .unit_bricks import (
@@ -275,51 +271,6 @@ def _parts_of_supports(run: Run, bricks: Bricks) -> float:
     if run.settings.supports == "none":
         return 0.0
     return parts_of_supports(Assembly(bricks, run.catalogue), deepest=run.settings.hanging)
-
-
-def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid, Stability | None]:
-    """Tie what is weak, if that is wanted; say how it stands as well, if it does."""
-    if not run.settings.strengthen:
-        return bricks, shell, None
-    return strengthen(
-        bricks,
-        shell,
-        run.parts.joining,
-        clutch=(1 - run.settings.spare) * run.settings.clutch,
-        plates=run.settings.plates != "none",
-        progress=run.progress,
-    )
-
-
-def carry(run: Run, assembly: Assembly) -> Assembly:
-    """Put pillars under what floats, if there may be supports."""
-    if run.settings.supports == "none":
-        return assembly
-    if run.settings.support_parts == "all":
-        return add_pillars(assembly)
-    return Assembly(add_pillars(Assembly(assembly.bricks, of_the_paper(run.catalogue))).bricks, run.catalogue)
-
-
-def check_stability(run: Run, assembly: Assembly, near: Stability | None) -> Stability:
-    """Test the bricks by force, from what is known of nearly the same ones.
-
-    Where there may be pillars, it is not asked yet whether neighbours hold what studs do not.
-    """
-    alone = run.settings.supports == "none"
-    effort = Effort(near=near, programme=PROGRAMME if alone else 0, neighbours=alone)
-    return stability(assembly, clutch=run.settings.clutch, effort=effort, progress=run.progress)
-
-
-def brace(run: Run, assembly: Assembly, found: Stability) -> tuple[Assembly, Stability]:
-    """Put pillars under what studs do not bear, if that is wanted, and keep to the owned parts."""
-    settings = run.settings
-    if settings.supports != "none" and settings.strengthen:
-        options = {"clutch": settings.clutch, "spare": settings.spare}
-        assembly, found = add_bracing(assembly, found, **options, progress=run.progress)
-    settled = run.parts.settled(assembly)
-    if settled is assembly:
-        return assembly, found
-    return settled, stability(settled, clutch=settings.clutch, progress=run.progress)
 
 
 def make_plan(run: Run, assembly: Assembly) -> AssemblyPlan:

@@ -127,9 +127,21 @@ def _write(path: Path, text: str) -> None:
 _STYLE: Final = """
 body { font: 14px/1.4 system-ui, sans-serif; margin: 2em; color: #222; }
 table { border-collapse: collapse; } th, td { padding: .3em .7em; text-align: right; border-bottom: 1px solid #ddd; }
-th { position: sticky; top: 0; background: #f4f4f4; } td:first-child, th:first-child, td.text { text-align: left; }
+th { position: sticky; top: 0; background: #f4f4f4; } td:first-child, th:first-child, .text { text-align: left; }
 img { width: 160px; height: 110px; object-fit: contain; } .failed { color: #b00; } .text { max-width: 28em; }
 """
+
+
+_HEADS: Final = {"mass_g": "mass (g)", "cpu_s": "CPU (s)", "studs_x": "studs along x", "studs_y": "studs along y"}
+"""What stands above columns, where it is not their name."""
+
+_WORDS: Final = dict.fromkeys(("model", "status", "verdict"), ' class="text"')
+"""Columns that are read from the left."""
+
+
+def _cell(name: str, value: object) -> str:
+    """Return a cell of the table on the page."""
+    return f"<td{_WORDS.get(name, '')}>{'' if value is None else escape(str(value))}</td>"
 
 
 def _page(rows: Sequence[Row], columns: Sequence[str], title: str) -> Iterator[str]:
@@ -144,13 +156,16 @@ def _page(rows: Sequence[Row], columns: Sequence[str], title: str) -> Iterator[s
     yield f"<h1>{escape(title)}</h1><p>{len(rows)} runs: {told}.</p>"
     yield (
         "<table><tr><th>picture</th>"
-        + "".join(f"<th>{escape(name.replace('_', ' '))}</th>" for name in shown)
+        + "".join(
+            f"<th{_WORDS.get(name, '')}>{escape(_HEADS.get(name, name.replace('_', ' ')))}</th>" for name in shown
+        )
         + "<th></th></tr>"
     )
     for row in rows:
         picture = f'<img loading="lazy" alt="" src="{escape(row["picture"])}">' if row["picture"] else ""
-        first = f'<td><a href="{escape(row["folder"])}/">{picture or escape(row["model"])}</a></td>'
-        cells = "".join(f"<td>{'' if row[name] is None else escape(str(row[name]))}</td>" for name in shown)
+        # what was not built has no folder
+        first = f'<td><a href="{escape(row["folder"])}/">{picture}</a></td>' if picture else "<td></td>"
+        cells = "".join(_cell(name, row[name]) for name in shown)
         colour = "" if row["status"] == "ok" else ' class="failed"'
         yield f'<tr{colour}>{first}{cells}<td class="text">{escape(row["sentence"])}</td></tr>'
     yield "</table></html>"

@@ -45,7 +45,7 @@ def measure(images: Sequence[Path], *, widths: Sequence[int], kind: str) -> list
     Parameters
     ----------
     images : sequence of Path
-        Without any: a picture of the sample, and a logo.
+        Without any: a picture of the sample, a portrait made by code, and a logo.
     widths : sequence of int
         Studs along the longer side.
     kind : {"tiles", "plates", "bricks"}
@@ -54,7 +54,8 @@ def measure(images: Sequence[Path], *, widths: Sequence[int], kind: str) -> list
     -------
     list of Table
     """
-    given = {path.stem: _opened(path) for path in images} or {"photograph": _opened(PHOTOGRAPH), "logo": logo()}
+    own = {"photograph": _opened(PHOTOGRAPH), "portrait": portrait(), "logo": logo()}
+    given = {path.stem: _opened(path) for path in images} or own
     rows = [row for name, picture in given.items() for width in widths for row in _rows(name, picture, width, kind)]
     title = (
         f"Mosaics of {kind}: mean CIEDE2000 to the image, both blurred over a stud; parts with the base; met: one "
@@ -78,6 +79,45 @@ def logo() -> Picture:
     ):
         rgb[np.hypot(x - 0.18 * at_x, y - 0.18 * at_y) < 0.07] = colour
     return picture_of(rgb)
+
+
+def portrait() -> Picture:
+    """Return what a camera makes of a face: skin in soft light, hair, a blurred background, noise of its sensor."""
+    rng = np.random.default_rng(0)
+    y, x = np.mgrid[:_PIXELS, :_PIXELS] / _PIXELS * 2 - 1
+    colour = np.array([90.0, 120, 110]) + (60 * y - 20 * x)[..., None] * [0.6, 0.9, 1.1]
+    for _ in range(12):
+        at = rng.uniform(-1, 1, 2)
+        colour += (40 * np.exp(-30 * ((x - at[0]) ** 2 + (y - at[1]) ** 2)))[..., None] * rng.uniform(0, 1, 3)
+    colour = _painted(colour, x / 0.75, (y + 0.95) / 0.42, [60, 62, 95], [15, 15, 25], edge=0.05)
+    colour = _painted(colour, x / 0.50, (y - 0.14) / 0.62, [58, 38, 26], [26, 20, 14], edge=0.08)
+    colour = _painted(colour, x / 0.17, (y + 0.52) / 0.28, [196, 140, 112], [40, 36, 34], edge=0.05)
+    colour = _painted(colour, x / 0.38, (y - 0.02) / 0.50, [224, 172, 142], [44, 46, 44], edge=0.03)
+    for side in (-1, 1):
+        colour = _painted(colour, (x - 0.16 * side) / 0.09, (y - 0.1) / 0.035, [238, 232, 226], [10, 10, 10], edge=0.1)
+        colour = _painted(colour, (x - 0.16 * side) / 0.035, (y - 0.1) / 0.035, [70, 50, 38], [10, 10, 10], edge=0.1)
+        colour = _painted(colour, (x - 0.16 * side) / 0.12, (y - 0.2) / 0.018, [70, 46, 32], [10, 8, 6], edge=0.2)
+        colour = _painted(colour, (x - 0.2 * side) / 0.12, (y + 0.14) / 0.1, [226, 150, 130], [20, 20, 18], edge=0.9)
+    colour = _painted(colour, x / 0.055, (y + 0.08) / 0.1, [206, 146, 118], [30, 26, 22], edge=0.8)
+    colour = _painted(colour, x / 0.13, (y + 0.27) / 0.035, [176, 84, 82], [30, 16, 16], edge=0.2)
+    noisy = colour + rng.normal(0, 6, colour.shape) + rng.normal(0, 4, colour.shape[:2])[..., None]
+    return picture_of(np.clip(np.rint(noisy), 0, 255).astype(np.uint8))
+
+
+def _painted(
+    colour: NDArray[np.float64],
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    own: Sequence[float],
+    shade: Sequence[float],
+    *,
+    edge: float,
+) -> NDArray[np.float64]:
+    """Paint an ellipse, lit from the upper left, with a soft edge of a share of its radius."""
+    share = np.clip((1 + edge - np.hypot(x, y)) / (2 * edge), 0, 1)[..., None]
+    lit = np.asarray(own) + np.clip(y - x, -1.5, 1.5)[..., None] * np.asarray(shade) * 0.8
+    painted: NDArray[np.float64] = colour * (1 - share) + lit * share
+    return painted
 
 
 def _opened(path: Path) -> Picture:

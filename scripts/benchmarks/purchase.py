@@ -19,11 +19,13 @@ import numpy as np
 from legorize_addon.core.build import Build
 from legorize_addon.core.errors import PartsError
 from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import Catalogue, load_catalogue
+from legorize_addon.core.owned.few_lots import SMALL
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.progress import silent
 from legorize_addon.core.report.money import price_facts
-from legorize_addon.core.report.ownership import owned_facts, used_lots
+from legorize_addon.core.report.ownership import colour_differences, owned_facts, used_lots
 from legorize_addon.core.safe_text import csv_text
 from legorize_addon.core.settings import Settings
 from scripts.benchmarks.meshes import read_mesh
@@ -72,8 +74,8 @@ def measure_prices(paths: Sequence[Path], *, widths: Sequence[int]) -> list[Tabl
         prices = str(price_file(Path(folder) / "prices.csv", load_catalogue()))
         for path in paths:
             for width in widths:
-                fewest, usual = _built(path, Settings(width=width, prices=prices))
-                cheapest, taken = _built(path, Settings(width=width, prices=prices, goal="cheapest"))
+                fewest, usual = built(path, Settings(width=width, prices=prices))
+                cheapest, taken = built(path, Settings(width=width, prices=prices, goal="cheapest"))
                 before, after = (price_facts(each, load_catalogue(), silent) or {} for each in (fewest, cheapest))
                 rows.append({
                     "model": path.stem, "studs": width, "fewest": before["model"], "cheapest": after["model"],
@@ -92,7 +94,7 @@ def measure_owned(paths: Sequence[Path], *, widths: Sequence[int], times: Sequen
     with TemporaryDirectory() as folder:
         for path in paths:
             for width in widths:
-                free, usual = _built(path, Settings(width=width))
+                free, usual = built(path, Settings(width=width))
                 for many in times:
                     owned = str(box_file(Path(folder) / "box.csv", load_catalogue(), times=many))
                     rows.append(
@@ -105,7 +107,7 @@ def measure_owned(paths: Sequence[Path], *, widths: Sequence[int], times: Sequen
 def _with_box(path: Path, settings: Settings, free: Build, usual: float) -> Row:
     """Return what comes out if only owned parts are used."""
     try:
-        build, taken = _built(path, settings)
+        build, taken = built(path, settings)
     except PartsError as error:
         return {"bricks": None, "supports": None, "overdrawn": None, "other_colour_percent": None,
                 "colour_difference": None, "shape_percent": None, "components": None, "stands": None,
@@ -130,35 +132,45 @@ def _same_shape(build: Build, free: Build) -> float:
     return float(100 * (one & other).sum() / (one | other).sum())
 
 
-def measure_sizes(paths: Sequence[Path], *, parts: Sequence[int]) -> list[Table]:
-    """Make models as large as numbers of parts allow."""
-    rows: list[Row] = []
-    for path in paths:
-        for most in parts:
-            build, taken = _built(path, Settings(size_by="parts", parts=most))
-            share = len(build.bricks) / most
-            rows.append({
-                "model": path.stem, "most": most, "parts": len(build.bricks), "percent": 100 * share,
-                "share_met": 0.97 <= share <= 1, "seconds": taken, "said": build.notes[-1],
-            })  # fmt: skip
-    return [Table("sizes", "The largest model of at most so many parts: at least 97 % of them", tuple(rows))]
-
-
-def measure_masses(paths: Sequence[Path], *, width: int, weights: Sequence[float]) -> list[Table]:
+def measure_masses(paths: Sequence[Path], *, widths: Sequence[int], weights: Sequence[float]) -> list[Table]:
     """Weigh mass against the number of bricks."""
     rows: list[Row] = []
     for path in paths:
-        for weight in weights:
-            build, _ = _built(path, Settings(width=width, mass_weight=weight, supports="none"))
-            grams = float(load_catalogue().mass[build.bricks.part].sum())
+        for width in widths:
+            usual: tuple[int, float, float] | None = None
+            for weight in weights:
+                build, taken = built(path, Settings(width=width, mass_weight=weight))
+                grams = float(load_catalogue().mass[build.bricks.part].sum())
+                usual = usual or (len(build.bricks), grams, taken)
+                rows.append({
+                    "model": path.stem, "studs": width, "mass_weight": weight, "bricks": len(build.bricks),
+                    "bricks_percent": 100 * (len(build.bricks) / usual[0] - 1), "grams": grams,
+                    "grams_percent": 100 * (grams / usual[1] - 1), "seconds_ratio": taken / usual[2],
+                    "kept": int((build.bricks.role == Role.SUPPORT_KEPT).sum()),
+                    "stands": build.stability.stands, "components": build.graph.n_components,
+                })  # fmt: skip
+    return [Table("masses", "Grams against bricks, compared with the first weight", tuple(rows))]
+
+
+def measure_lots(paths: Sequence[Path], *, width: int, limits: Sequence[float]) -> list[Table]:
+    """Merge small lots into close colours and other parts."""
+    rows: list[Row] = []
+    for path in paths:
+        for limit in limits:
+            build, taken = built(path, Settings(width=width, few_lots=limit))
+            used = used_lots(Assembly(build.bricks, load_catalogue()))
+            apart = colour_differences(build, load_catalogue())
             rows.append({
-                "model": path.stem, "studs": width, "mass_weight": weight, "bricks": len(build.bricks), "grams": grams,
-                "stands": build.stability.stands, "components": build.graph.n_components,
+                "model": path.stem, "studs": width, "few_lots": limit, "lots": int(np.count_nonzero(used)),
+                "small_lots": int(np.count_nonzero((used > 0) & (used <= SMALL))), "bricks": len(build.bricks),
+                "other_colour_percent": 100 * float((apart > 0).mean()), "colour_difference": float(apart.mean()),
+                "components": build.graph.n_components, "stands": build.stability.stands, "seconds": taken,
+                "said": next((note for note in build.notes if note.startswith("For fewer lots")), ""),
             })  # fmt: skip
-    return [Table("masses", "Grams against bricks", tuple(rows))]
+    return [Table("lots", "Fewer lots: what they cost in likeness and in bricks", tuple(rows))]
 
 
-def _built(path: Path, settings: Settings) -> tuple[Build, float]:
+def built(path: Path, settings: Settings) -> tuple[Build, float]:
     """Return a build, and the seconds of the processor that it took."""
     mesh, start = read_mesh(path), time.process_time()
     build = legorize(mesh, replace(settings, limit_bricks=10**8), silent)

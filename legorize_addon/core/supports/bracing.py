@@ -61,10 +61,11 @@ Propped = tuple[Assembly, Stability]
 
 def add_bracing(
     assembly: Assembly,
-    found: Stability,
+    found: Stability | None,
     *,
     clutch: float,
     spare: float = SPARE,
+    known: Stability | None = None,
     progress: Progress = silent,
 ) -> tuple[Assembly, Stability]:
     """Put pillars under what falls, or has nothing to spare, if it is proven to stand by its studs with them.
@@ -73,12 +74,14 @@ def add_bracing(
     ----------
     assembly : Assembly
         A model in which nothing floats.
-    found : Stability
-        How it stands by its studs.
+    found : Stability or None
+        How it stands by its studs; None if that is to be tested only where it matters.
     clutch : float
         Pull in N that one contact point bears.
     spare : float
         Share of it that is to be left unused, if there are places for pillars enough.
+    known : Stability, optional
+        How the same bricks stand with that share left, if that was tested.
     progress : Progress
         Told how far the search is.
 
@@ -90,14 +93,16 @@ def add_bracing(
     found : Stability
         How they stand; of what does not by its studs, whether neighbours hold it.
     """
-    if found.stable and found.margin.min(initial=1.0) >= spare:
+    if found is not None and found.stable and found.margin.min(initial=1.0) >= spare:
         return assembly, found
     judged = partial(stability, clutch=clutch, progress=progress)
     tested = partial(_tested, assembly, near=found, progress=progress)
     pillars: list[Bricks] = []
     aimed = (1 - spare) * clutch
-    propped = _with_more(partial(tested, clutch=aimed), pillars)
+    first = tested(pillars, clutch=aimed) if known is None else (assembly, known)
+    propped = _with_more(partial(tested, clutch=aimed), first, pillars)
     if not propped[1].stable:
+        found = found or judged(assembly, effort=Effort(near=known, programme=0, neighbours=False))
         if found.stable:
             return assembly, found
         aimed, propped = clutch, tested(pillars, clutch=clutch)
@@ -107,9 +112,8 @@ def add_bracing(
     return more, judged(more, effort=Effort(near=proof))
 
 
-def _with_more(tested: Callable[..., Propped], pillars: list[Bricks]) -> Propped:
+def _with_more(tested: Callable[..., Propped], propped: Propped, pillars: list[Bricks]) -> Propped:
     """Put pillars under what yields, round after round, until the model stands or there is no place for more."""
-    propped = tested(pillars)
     for turn in range(min(ROUNDS, WORK // max(len(propped[0]), 1))):
         if propped[1].stable:
             break

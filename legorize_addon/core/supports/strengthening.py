@@ -29,7 +29,7 @@ WORK: Final = 60_000
 
 def strengthen(
     bricks: Bricks, grid: UnitGrid, catalogue: Catalogue, *, clutch: float, plates: bool, progress: Progress = silent
-) -> tuple[Bricks, UnitGrid, Stability | None]:
+) -> tuple[Bricks, UnitGrid, Stability]:
     """Lay ties where studs alone would not bear the model.
 
     Parameters
@@ -52,25 +52,23 @@ def strengthen(
         With the ties; the same object if none was laid.
     grid : UnitGrid
         With the cells that were added.
-    found : Stability or None
-        How the bricks stand, if they do.
+    found : Stability
+        How these bricks stand by their studs at that clutch, as far as projections and small linear programmes tell.
     """
-    found: Stability | None = None
+    near: Stability | None = None
     rounds = max(min(ROUNDS, WORK // max(len(bricks), 1)), 1)
     for number in range(rounds + 1):
         model = Assembly(bricks, catalogue)
         watched = _as_strength(part(progress, number / (rounds + 1), (number + 1) / (rounds + 1)))
-        effort = Effort(aims=SOON, near=found, programme=0, neighbours=False)
-        found = stability(model, clutch=clutch, effort=effort, progress=watched)
-        if found.standing is Verdict.STABLE:
-            return bricks, grid, found
-        if number == rounds or not len(found.torn):
+        effort = Effort(aims=SOON, near=near, programme=0, neighbours=False)
+        near = found = stability(model, clutch=clutch, effort=effort, progress=watched)
+        if found.standing is Verdict.STABLE or number == rounds or not len(found.torn):
             break
         tied, grid = _tied(model, grid, found, plates=plates)
         if tied is bricks:
             break
         bricks = tied
-    return bricks, grid, None
+    return bricks, grid, found
 
 
 def _as_strength(progress: Progress) -> Progress:

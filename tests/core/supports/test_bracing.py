@@ -107,6 +107,18 @@ def test_whatever_falls_is_left_alone_or_stands(bricks):
         assert found is before
 
 
+@given(arms())
+@settings(max_examples=10, deadline=None)
+def test_what_is_known_is_not_tested_again(bricks):
+    """Pillars are the same where it is known already how the bricks stand with something to spare."""
+    assembly = add_pillars(Assembly(bricks, CATALOGUE))
+    _, known = _tested(assembly, (), clutch=0.8 * HOLD, progress=silent)
+    one, found = add_bracing(assembly, None, clutch=HOLD, spare=0.2)
+    other, again = add_bracing(assembly, None, clutch=HOLD, spare=0.2, known=known)
+    assert same(one.bricks, other.bricks)
+    assert found.verdict is again.verdict
+
+
 def test_pillars_that_bear_little_are_left_out():
     """Of seven pillars under a beam that tips over, one or two stay, and the model still stands."""
     bricks = table(("3005", 0, 0, 0), ("3008", 0, 0, 3))

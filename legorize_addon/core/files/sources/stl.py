@@ -25,9 +25,10 @@ def check_stl(source: Path) -> tuple[str, ...]:
         if size == _HEADER + _TRIANGLE * count:
             return ()
     if not head.lstrip().lower().startswith(b"solid") or b"\0" in head:
-        whole = max(size - _HEADER, 0) // _TRIANGLE
-        promised = f"says {count} triangles" if size >= _HEADER else "is incomplete"
-        raise damaged(source, f"its header {promised}, but {whole} whole ones follow")
+        if size < _HEADER:
+            raise damaged(source, "its header is incomplete")
+        whole = (size - _HEADER) // _TRIANGLE
+        raise damaged(source, f"its header says {count} triangles, but {whole} whole ones follow")
     if tail.rfind(b"facet normal") > tail.rfind(b"endfacet"):
         raise damaged(source, "it ends within a facet")
     return ()

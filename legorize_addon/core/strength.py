@@ -1,0 +1,89 @@
+"""What the settings mean for whether a model stands: ties, pillars, tests by force, and lots that may go."""
+
+from __future__ import annotations
+
+from .model import Assembly, Bricks, UnitGrid, Verdict
+from .stages import Run
+from .statics import PROGRAMME, Effort, Stability, stability
+from .supports import add_bracing, add_pillars, of_the_paper, strengthen
+
+
+def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid, Stability | None]:
+    """Tie what is weak, if that is wanted; say how it stands with something to spare, too."""
+    if not run.settings.strengthen:
+        return bricks, shell, None
+    return strengthen(
+        bricks,
+        shell,
+        run.parts.joining,
+        clutch=(1 - run.settings.spare) * run.settings.clutch,
+        plates=run.settings.plates != "none",
+        progress=run.progress,
+    )
+
+
+def carry(run: Run, assembly: Assembly) -> Assembly:
+    """Put pillars under what floats, if there may be supports."""
+    if run.settings.supports == "none":
+        return assembly
+    if run.settings.support_parts == "all":
+        return add_pillars(assembly)
+    return Assembly(add_pillars(Assembly(assembly.bricks, of_the_paper(run.catalogue))).bricks, run.catalogue)
+
+
+def check_strong(run: Run, assembly: Assembly, sparing: Stability | None) -> Stability | None:
+    """Test the bricks by force if they stand with something to spare, or if nothing can be put under them.
+
+    What else is None: pillars will stand there, and this is soon known of the model with them.
+    """
+    known = _known(sparing, assembly)
+    if run.settings.supports != "none" and known is not None and known.standing is not Verdict.STABLE:
+        return None
+    return check_stability(run, assembly, sparing)
+
+
+def _known(found: Stability | None, assembly: Assembly) -> Stability | None:
+    """Return what was found if it is about all of these bricks, and none of them was added since."""
+    return found if found is not None and len(found.margin) == len(assembly) else None
+
+
+def check_stability(run: Run, assembly: Assembly, near: Stability | None) -> Stability:
+    """Test the bricks by force, from what is known of nearly the same ones, maybe with less clutch.
+
+    Where there may be pillars, it is not asked yet whether neighbours hold what studs do not.
+    """
+    alone = run.settings.supports == "none"
+    effort = Effort(near=near, programme=PROGRAMME if alone else 0, neighbours=alone)
+    return stability(assembly, clutch=run.settings.clutch, effort=effort, progress=run.progress)
+
+
+def brace(
+    run: Run, assembly: Assembly, found: Stability | None, sparing: Stability | None
+) -> tuple[Assembly, Stability]:
+    """Put pillars under what studs do not bear, if that is wanted, and keep to the owned parts.
+
+    How the layout stands with something to spare is known from its ties.
+    """
+    settings = run.settings
+    if found is None or (settings.supports != "none" and settings.strengthen):
+        options = {"clutch": settings.clutch, "spare": settings.spare}
+        known = _known(sparing, assembly)
+        assembly, found = add_bracing(assembly, found, known=known, **options, progress=run.progress)
+    settled = run.parts.settled(assembly)
+    if settled is assembly:
+        return assembly, found
+    return settled, stability(settled, clutch=settings.clutch, progress=run.progress)
+
+
+def take_fewer_lots(run: Run, assembly: Assembly, found: Stability) -> tuple[Assembly, Stability, tuple[str, ...]]:
+    """Lay other parts in place of small lots, if that is wanted and the model stands as well; say what was done."""
+    other, sentence = run.parts.exchanged(assembly)
+    if other is assembly:
+        return assembly, found, ()
+    spare = run.settings.spare if found.stable and found.margin.min(initial=1.0) >= run.settings.spare else 0.0
+    tested = stability(
+        other, clutch=(1 - spare) * run.settings.clutch, effort=Effort(programme=0), progress=run.progress
+    )
+    if (found.stable and not tested.stable) or (found.stands and not tested.stands):
+        return assembly, found, ()
+    return other, stability(other, clutch=run.settings.clutch, effort=Effort(near=tested)), (sentence,)
