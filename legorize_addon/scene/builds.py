@@ -45,6 +45,12 @@ def sources_of(build: bpy.types.Collection) -> list[bpy.types.Object]:
     return [entry.source for entry in state_of(build).sources if entry.source.users_scene]
 
 
+def hidden_by(build: bpy.types.Collection) -> list[bpy.types.Object]:
+    """Return the objects that a build hides: its sources, and what holds them, without those deleted since."""
+    state = state_of(build)
+    return [entry.source for entry in (*state.sources, *state.holders) if entry.source.users_scene]
+
+
 def damage(build: bpy.types.Collection) -> str | None:
     """Return what is wrong with a build, in a sentence with its cure; None for a whole one."""
     state = state_of(build)
@@ -118,7 +124,7 @@ def is_own(thing: bpy.types.Object) -> bool:
 
 def show_sources(build: bpy.types.Collection, *, visible: bool, linked_only: bool = False) -> None:
     """Show or hide the source objects of a build, or only those of other files, in the viewport and in renders."""
-    for source in sources_of(build):
+    for source in hidden_by(build):
         if source.library is not None or not linked_only:
             source.hide_viewport = source.hide_render = not visible
 

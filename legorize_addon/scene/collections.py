@@ -32,15 +32,16 @@ from .builds import (
     all_builds,
     bricks_of,
     builds_of,
+    hidden_by,
     layers_of,
     own_objects,
     point_objects,
-    sources_of,
 )
 from .builds import builds as builds
 from .builds import show_sources as show_sources
 from .figures import figures, n_layers
 from .hidden_sources import as_before, forget, remember
+from .holders import holders
 from .instancing import add_bricks_modifier, colour_material
 from .kept_steps import read_steps
 from .model import Model, Source
@@ -110,10 +111,12 @@ def show_build(
     parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, source.name)
     _add_layers(build, bricks, variant.reshape(-1), _more(model), catalogue, plane, parts)
     hidden = [as_before(scene, each) for each in source.objects]
+    held = [as_before(scene, each) for each in holders(scene, source.objects)]
     write_state(
         build,
         origin=model.origin,
         sources=hidden,
+        holders=held,
         section=Section(),
         scale=float(model.scale),
         mm_per_unit=float(model.mm_per_unit),
@@ -125,7 +128,7 @@ def show_build(
         **facts,
         **figures(model.assembly, model.stability, model.steps),
     )
-    remember(scene, hidden)
+    remember(scene, [*hidden, *held])
     show_sources(build, visible=False)
     return build
 
@@ -183,8 +186,9 @@ def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
     build : bpy.types.Collection
         Collection made by :func:`show_build`.
     """
-    held = {source for other in all_builds() if other != build for source in sources_of(other)}
-    freed = [entry for entry in state_of(build).sources if entry.source not in held]
+    held = {thing for other in all_builds() if other != build for thing in hidden_by(other)}
+    state = state_of(build)
+    freed = [entry for entry in (*state.sources, *state.holders) if entry.source not in held]
     for entry in freed:
         entry.restore()
     forget(scene, [entry.source for entry in freed])

@@ -11,7 +11,7 @@ from typing import Final
 
 import bpy
 
-from .builds import all_builds
+from .builds import all_builds, hidden_by
 from .state import SourceState, state_of
 
 HIDDEN_SOURCES_KEY: Final = "legorize_hidden_sources"
@@ -32,7 +32,7 @@ def forget(scene: bpy.types.Scene, sources: Iterable[bpy.types.Object]) -> None:
 
 def as_before(scene: bpy.types.Scene, source: bpy.types.Object) -> SourceState:
     """Return how an object was hidden before any build hid it."""
-    held = (entry for build in all_builds() for entry in state_of(build).sources)
+    held = (entry for build in all_builds() for entry in (*state_of(build).sources, *state_of(build).holders))
     known = (entry for entry in (*held, *orphans(scene)) if entry.source == source)
     return next(known, SourceState.of(source))
 
@@ -42,7 +42,7 @@ def orphans(scene: bpy.types.Scene) -> list[SourceState]:
     entries = [entry for entry in _read(scene) if _still_hidden(scene, entry)]
     if not entries:
         return []
-    held = {entry.source for build in all_builds() for entry in state_of(build).sources}
+    held = {thing for build in all_builds() for thing in hidden_by(build)}
     return [entry for entry in entries if entry.source not in held]
 
 

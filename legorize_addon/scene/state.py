@@ -208,8 +208,12 @@ class BuildState:
     @property
     def sources(self) -> list[SourceState]:
         """Objects that the build was made of, without those deleted since."""
-        found = [SourceState.read(stored) for stored in self._group["sources"].values()]
-        return [entry for entry in found if entry is not None]
+        return _source_states(self._group["sources"])
+
+    @property
+    def holders(self) -> list[SourceState]:
+        """Armatures and empties that hold them and nothing else, without those deleted since; none in old builds."""
+        return _source_states(self._group.get("holders", {}))
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -301,6 +305,11 @@ class BuildState:
         return {} if found is None else dict(found.to_dict())
 
 
+def _source_states(stored: Mapping[str, Any]) -> list[SourceState]:
+    found = [SourceState.read(entry) for entry in stored.values()]
+    return [entry for entry in found if entry is not None]
+
+
 def state_of(build: bpy.types.Collection) -> BuildState:
     """Return the state of a build."""
     return BuildState(build)
@@ -321,6 +330,7 @@ def write_state(
     *,
     origin: Sequence[float],
     sources: Sequence[SourceState],
+    holders: Sequence[SourceState] = (),
     section: Section,
     roles: Sequence[Role],
     **fields: Any,
@@ -333,8 +343,8 @@ def write_state(
         The new collection.
     origin : sequence of three float
         Corner of the grid in model mm.
-    sources : sequence of SourceState
-        What it was made of.
+    sources, holders : sequence of SourceState
+        What it was made of, and what held that.
     section : Section
         The cut.
     roles : sequence of Role
@@ -352,6 +362,7 @@ def write_state(
         "version": VERSION,
         "origin": [float(value) for value in origin],
         "sources": {str(i): source.stored() for i, source in enumerate(sources)},
+        "holders": {str(i): holder.stored() for i, holder in enumerate(holders)},
         "section": asdict(section),
         "roles": {role.name: True for role in roles},
         **fields,

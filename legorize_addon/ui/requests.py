@@ -101,7 +101,7 @@ def chosen_sources(context: bpy.types.Context) -> list[bpy.types.Object]:
         models = [current_build(context.scene)]
     again = [source for model in models for source in sources_of(model)]
     if not selected and not models:
-        again = [entry.source for entry in orphans(context.scene)]
+        again = [entry.source for entry in orphans(context.scene) if has_surface(entry.source)]
     here = {thing for thing in (*selected, *again) if context.scene in thing.users_scene}
     return sorted(here, key=lambda thing: (thing.name, thing.library.filepath if thing.library else ""))
 
