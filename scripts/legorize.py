@@ -642,7 +642,7 @@ def write_layers(build: Finished, folder: Path, wanted: Wanted, progress: Progre
     plan, paper = build.supports, PAPERS[wanted.paper]
     options = {"temporary": plan.temporary, "paper": paper, "actual_size": wanted.actual_size, "progress": progress}
     folder.mkdir()
-    for name, text in layer_files(layer_pages(plan.bricks, load_catalogue(), **options)):
+    for name, text in layer_files(layer_pages(plan.bricks, load_catalogue(), **options), paper):
         (folder / name).write_text(text, encoding="utf-8", newline="")
 
 

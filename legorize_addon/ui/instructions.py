@@ -98,7 +98,7 @@ class MapsRequest:
             progress=progress,
         )  # fmt: skip
         with new_folder(self.folder) as fresh:
-            for name, text in layer_files(pages):
+            for name, text in layer_files(pages, PAPERS[self.paper]):
                 (fresh / name).write_text(text, encoding="utf-8", newline="")
         return (self.folder,)
 

@@ -20,6 +20,7 @@ from .map_frame import LABELS, TITLE, Frame
 from .paper import MARGIN, Paper, foot
 from .plans import STUD, by_colour, hatched, plan_outlines, plan_studs
 from .shades import DARK, LIGHT_LINE, LINE, brightness, mixed, tint_for
+from .sheets import sheets
 from .svg import svg
 
 MAPS: Final = "Layer maps"
@@ -33,10 +34,22 @@ _THROUGH: Final[Rgb] = (232, 233, 236)
 _GRID: Final[Rgb] = (224, 226, 230)
 
 
-def layer_files(pages: Iterable[Page]) -> Iterator[tuple[str, str]]:
-    """Yield the names and contents of the files of layer maps, ``001.svg`` and so on."""
+def layer_files(pages: Iterable[Page], paper: Paper | None = None) -> Iterator[tuple[str, str]]:
+    """Yield the names and contents of the files of layer maps, ``001.svg`` and so on.
+
+    Parameters
+    ----------
+    pages : iterable of Page
+    paper : Paper, optional
+        What larger pages are cut for, into ``001-A1.svg``, ``001-A2.svg`` and so on; not at all by default.
+
+    Yields
+    ------
+    (str, str)
+    """
     for number, page in enumerate(pages, start=1):
-        yield f"{number:03}.svg", svg(page) + "\n"
+        for name, sheet in [("", page)] if paper is None else sheets(page, paper):
+            yield f"{number:03}{'-' * bool(name)}{name}.svg", svg(sheet) + "\n"
 
 
 def layer_pages(
