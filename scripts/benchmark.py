@@ -17,6 +17,7 @@
     python scripts/benchmark.py stability [MESH ...] [--out DIR]   against HiGHS, and the StableLego cases
     python scripts/benchmark.py goals     [MESH ...] [--out DIR]   every goal of the layout, in one table
     python scripts/benchmark.py layouts   [MESH ...] [--peer PY]   against the layouts of the field, and a peer
+    python scripts/benchmark.py tables    [MESH ...] [--out DIR]   the paper's Tables 1 to 4, ours, its own and B1 to B4
     python scripts/benchmark.py supports  [MESH ...] [--out DIR]   trees, columns and beams against full columns
     python scripts/benchmark.py building  [MESH ...] [--out DIR]   building orders, followed from their files
     python scripts/benchmark.py steps     [MESH ...] [--out DIR]   whether hands can follow the building steps
@@ -73,7 +74,7 @@ from scripts.benchmarks import (  # noqa: E402
 )
 from scripts.benchmarks.meshes import models_in  # noqa: E402
 from scripts.benchmarks.tables import Table, write  # noqa: E402
-from scripts.research import layouts  # noqa: E402
+from scripts.research import layouts, paper_tables  # noqa: E402
 
 SAMPLE: Final = ROOT / "assets" / "sample.glb"
 OUT: Final = ROOT / "out" / "benchmark"
@@ -207,6 +208,10 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
             number("--repeats", 1, "runs"), SEED,
             folder("--peer", "Python of an environment with legolization 0.5.0"),
             number("--peer-limit", 0.0, "seconds that the peer may take to make its layout hold; 0 only lets it lay"),
+        ),
+        "tables": of_models(
+            "the paper's Tables 1 to 4", paper_tables.measure, number("--width", 32, "studs"), SEED,
+            number("--repeats", 1, "runs"),
         ),
         "supports": of_models("supports of every kind", supports.measure, number("--width", 64, "studs"), RUNS),
         "building": of_models(

@@ -89,7 +89,7 @@ def measure(paths: Sequence[Path], *, width: int, repeats: int) -> list[Table]:
         print(f"{name}, {width} studs", file=sys.stderr, flush=True)
         found.append(supported(name, mesh, width=width, repeats=repeats, catalogue=catalogue))
     facts = [_facts(each, catalogue) for each in found]
-    counts, shares = _parts(found, catalogue)
+    counts, shares = kinds_of_bricks(found, catalogue)
     against = (
         f"Trees as built at {width} studs against full columns under the needed overhang alone: in the median at most "
         f"{BRICKS} of their bricks and {MASS} of their weight, never more bricks than sparse pillars, below {QUICK:g} s"
@@ -197,7 +197,7 @@ def _against(found: Sequence[Supported], facts: Sequence[list[Row]]) -> list[Row
     return [*rows, {"model": "median", **medians, "met": met}]
 
 
-def _parts(found: Sequence[Supported], catalogue: Catalogue) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
+def kinds_of_bricks(found: Sequence[Supported], catalogue: Catalogue) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
     """Return the number of each size of brick by model and kind, and its percentage of the volume."""
     # no support is a corner, which has the same sides as a square
     rows = [row for row, part in enumerate(catalogue.parts) if part.use == "model" and not part.corner]

@@ -7,6 +7,7 @@
 ``energies``      the paper's energies of whole layouts
 ``layout_goals``  the claims on layouts as goals
 ``volumes``       the paper's Table 1
+``paper_tables``  the paper's Tables 1 to 4
 ``peer``          the peer legolization, run as a process
 ``peer_layout``   the program that the peer's Python runs
 ``baselines``     layouts of the field, over all layers or upwards

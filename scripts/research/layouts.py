@@ -272,11 +272,15 @@ def peer_row(strategy: str, shell: UnitGrid, own: Row, options: Options) -> Row:
     return row | {"joined_faster": whole and whole["seconds"] / own["joined_s"]}
 
 
+def manifest_version() -> str:
+    """Return the version of the add-on."""
+    return str(tomllib.loads(MANIFEST.read_text(encoding="utf-8"))["version"])
+
+
 def parameters(options: Options) -> Row:
     """Return what the figures depend on."""
-    version = tomllib.loads(MANIFEST.read_text(encoding="utf-8"))["version"]
     return {
-        "legorize": version,
+        "legorize": manifest_version(),
         "width": options.width,
         "repeats": options.repeats,
         "seed": options.seed,

@@ -44,8 +44,8 @@ PAPER_RULE, NO_OPTIONAL = "paper's rule", "ours, nothing optional"
 
 LEARNED: Final = "learned"
 
-FIELD: Final = ((GREEDY, "B1"), (STAGGERED, "B2"), (SEARCHED, "B3"), (ANNEALED, "B4"))
-"""Methods that the paper compares with, and what they are called."""
+FIELD: Final = (GREEDY, STAGGERED, SEARCHED, ANNEALED)
+"""Methods that the paper compares with: B1 to B4."""
 
 TITLES: Final = {
     "tables_1": "Table 1: volumetric percentages of the bricks, by part and colour; default, without supports",
@@ -142,11 +142,11 @@ def methods() -> Iterator[tuple[Lay, str, str]]:
     if LEARNED in tiers():
         yield ours(LEARNED), LEARNED, OWN
         yield ours(LEARNED), LEARNED, PAPER_RULE
-    for method, label in FIELD:
-        yield METHODS[method], f"{label} {method}", RULES[method]
+    for method in FIELD:
+        yield METHODS[method], method, RULES[method]
     # the same cells for all
-    for method, label in FIELD:
-        yield METHODS[method], f"{label} {method}", NO_OPTIONAL
+    for method in FIELD:
+        yield METHODS[method], method, NO_OPTIONAL
 
 
 def tiers() -> tuple[str, ...]:

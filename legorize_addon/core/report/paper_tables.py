@@ -37,36 +37,34 @@ def paper_tables(build: Build, catalogue: Catalogue, *, name: str) -> dict[str, 
     Returns
     -------
     dict of str to str
-        ``table_1.csv`` to ``table_4.csv``. Percentages are of the volume of the
-        model without its supports in the first, of all supports in the second.
-        Seconds are those of the layout and of its verification.
+        ``table_1.csv`` to ``table_4.csv``; the second and the fourth are of models
+        with supports alone. Percentages are of the volume of the model without
+        its supports in the first, of all supports in the second. Seconds are those
+        of the layout and of its verification. The fourth has a row for the supports
+        that are taken out again, and one for those that stay.
     """
     support = np.isin(build.bricks.role, SUPPORTS)
-    supports = concatenate([build.bricks.take(support), build.supports.removed])
     seconds = sum(
         build.timings.get(stage, 0.0) for stage in ("layout", "ties", "strengthening", "stability", "bracing")
     )
-    ways = " ".join(dict.fromkeys(piece.plan.way for piece in build.supports.pieces))
-    return {
+    line = (one_line(name), build.settings.layout, round(hollow_ratio(build), 4), len(build.bricks), round(seconds, 3))
+    tables = {
         "table_1.csv": _volumes(build.bricks.take(~support), catalogue),
-        "table_2.csv": _volumes(supports, catalogue),
-        "table_3.csv": _text(
-            ("model", "method", "hollow_ratio", "bricks", "seconds"),
-            [
-                (
-                    one_line(name),
-                    build.settings.layout,
-                    round(hollow_ratio(build), 4),
-                    len(build.bricks),
-                    round(seconds, 3),
-                )
-            ],
-        ),
-        "table_4.csv": _text(
-            ("model", "method", "weight_g", "bricks"),
-            [(one_line(name), ways, round(float(catalogue.mass[supports.part].sum()), 2), len(supports))],
-        ),
+        "table_3.csv": _text(("model", "method", "hollow_ratio", "bricks", "seconds"), [line]),
     }
+    supports = {"taken out": build.supports.removed, "stay": build.bricks.take(support)}
+    there = {fate: bricks for fate, bricks in supports.items() if len(bricks)}
+    if there:
+        ways = " ".join(dict.fromkeys(piece.plan.way for piece in build.supports.pieces))
+        tables["table_2.csv"] = _volumes(concatenate(list(there.values())), catalogue)
+        tables["table_4.csv"] = _text(
+            ("model", "method", "supports", "weight_g", "bricks"),
+            [
+                (one_line(name), ways, fate, round(float(catalogue.mass[bricks.part].sum()), 2), len(bricks))
+                for fate, bricks in there.items()
+            ],
+        )
+    return tables
 
 
 def _volumes(bricks: Bricks, catalogue: Catalogue) -> str:

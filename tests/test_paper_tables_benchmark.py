@@ -1,0 +1,103 @@
+"""The command that makes the paper's tables, and the models of its five kinds."""
+
+from __future__ import annotations
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.mesh.triangle_mesh import repair
+from legorize_addon.core.pipeline import legorize
+from legorize_addon.core.settings import Settings
+from scripts import benchmark
+from scripts.research import paper_tables
+from scripts.research.five_kinds import KINDS
+from scripts.research.paper_tables import FIELD, NO_OPTIONAL, PAPER_RULE, TITLES
+from tests.core.overhanging import overhanging
+from tests.core.solids import box
+
+
+def write_obj(path, mesh):
+    """Write a mesh as a file."""
+    lines = [f"v {x} {z} {-y}" for x, y, z in mesh.vertices.tolist()]
+    lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in mesh.faces.tolist()]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return str(path)
+
+
+@pytest.fixture(scope="module")
+def tables(tmp_path_factory):
+    """Return the rows of all tables of two models, one of which needs no support, and the JSON file."""
+    folder = tmp_path_factory.mktemp("tables")
+    quick = pytest.MonkeyPatch()
+    # those that search take longer than all others together
+    quick.setattr(paper_tables, "FIELD", FIELD[:2])
+    meshes = {"tee": overhanging(100.0)["t_shape"], "block": box((0, 0, 0), (60, 60, 12))}
+    paths = [write_obj(folder / f"{name}.obj", mesh) for name, mesh in meshes.items()]
+    assert benchmark.main(["tables", *paths, "--width", "16", "--seed", "3", "--out", str(folder / "out")]) == 0
+    quick.undo()
+    found = {}
+    for path in (folder / "out").glob("*.csv"):
+        with path.open(encoding="utf-8", newline="") as file:
+            found[path.stem] = list(csv.DictReader(file))
+    return found, json.loads((folder / "out" / "tables.json").read_text(encoding="utf-8"))
+
+
+def test_all_tables_are_written(tables):
+    """CSV and JSON say the same, with seed, version and width."""
+    found, facts = tables
+    assert set(found) == set(TITLES) == set(facts["tables"])
+    [run] = facts["tables"]["tables_run"]
+    assert (run["seed"], run["width"]) == (3, 16)
+    assert run["legorize"]
+    assert {name: len(rows) for name, rows in found.items()} == {
+        name: len(rows) for name, rows in facts["tables"].items()
+    }
+
+
+def test_every_method_lays_the_same_model(tables):
+    """Table 3 has ours by three rules, the methods of the field by theirs and on our cells, and two whole builds."""
+    rows = [row for row in tables[1]["tables"]["tables_3"] if row["model"] == "block"]
+    ways = [(row["method"], row["hollowing"]) for row in rows]
+    assert len(ways) == len(set(ways))
+    for name in FIELD[:2]:
+        assert sum(method == name for method, _ in ways) == 2
+    assert {("standard", rule) for rule in ("ours", NO_OPTIONAL, PAPER_RULE)} <= set(ways)
+    assert [method for method, _ in ways][-2:] == ["default, whole build", "as published, whole build"]
+    assert not any(row["faults"] for row in rows)
+    assert all(0 <= row["hor"] < 1 and row["nb"] > 0 and row["mass_g"] > 0 for row in rows)
+    ours, required = (next(row for row in rows if row["hollowing"] == rule) for rule in ("ours", NO_OPTIONAL))
+    assert ours["more_bricks"] == ours["more_g"] == 0
+    assert required["more_bricks"] == required["nb"] - ours["nb"]
+    assert required["hor"] >= ours["hor"]
+
+
+def test_supports_are_of_models_that_need_them(tables):
+    """Tables 2 and 4 know the T alone; its trees as built are those that are taken out; percentages are whole."""
+    found = tables[1]["tables"]
+    assert {row["model"] for row in found["tables_4"]} == {"tee"} == {row["model"] for row in found["tables_2"]}
+    assert {row["supports"] for row in found["tables_4"]} >= {"full", "sparse", "columns", "beams", "tree"}
+    for row in found["tables_2"]:
+        assert sum(value for name, value in row.items() if name.count("x") == 2) == pytest.approx(100)
+    assert {row["supports"] for row in found["tables_4_built"]} <= {"taken out", "stay inside", "stay outside"}
+
+
+@pytest.mark.parametrize("kind", list(KINDS))
+def test_kinds_are_closed_and_coloured(kind):
+    """Each is made of closed bodies that look outwards, in several colours, and stands on its lowest point."""
+    mesh = KINDS[kind]()
+    mended, repairs = repair(mesh)
+    assert repairs.watertight
+    corners = mesh.vertices[mesh.faces]
+    assert np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() > 0
+    assert len(mended.faces) > 100
+    assert mesh.images[0].shape[1] >= 4
+
+
+def test_small_kinds_are_built():
+    """The fox stands in one piece."""
+    build = legorize(KINDS["fox"](), Settings(width=12, layout="fast"))
+    assert build.graph.n_components == 1
+    assert build.stability.stable
