@@ -19,6 +19,8 @@ from typing import Final
 import numpy as np
 
 from legorize_addon.core.build import Build
+from legorize_addon.core.layout.joining.ties import add_ties
+from legorize_addon.core.layout.lay_learned import lay_learned
 from legorize_addon.core.layout.problem.problem import owners, with_margins
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.model.assembly import Assembly
@@ -28,7 +30,7 @@ from legorize_addon.core.model.contacts import ContactGraph
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill, UnitGrid
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.presets import preset_values
-from legorize_addon.core.settings import Settings, choices
+from legorize_addon.core.settings import Settings
 from legorize_addon.core.shell.cohesion import make_cohesive
 from legorize_addon.core.shell.hollowing import hollow
 from scripts.benchmarks.meshes import read_mesh
@@ -102,7 +104,7 @@ def case(name: str, mesh: TriangleMesh, options: Options) -> dict[str, list[Row]
     model = build.bricks.take(~np.isin(build.bricks.role, SUPPORTS))
     rows = {"tables_1": volume_rows(start, model, catalogue), "tables_3": table_3(start, mesh, build, options)}
     made = supported(name, mesh, width=options.width, repeats=options.repeats, catalogue=catalogue)
-    if len(made.need.contacts):
+    if any(len(bricks) for bricks, _ in made.made.values()):
         rows |= {"tables_2": [], "tables_2_counts": [], "tables_4": table_4(start, made, catalogue)}
         counts, shares = kinds_of_bricks([replace(made, made={BUILT: made.made[BUILT]})], catalogue)
         rows["tables_2"], rows["tables_2_counts"] = list(shares), list(counts)
@@ -139,9 +141,8 @@ def methods() -> Iterator[tuple[Lay, str, str]]:
     yield ours("standard"), "standard", OWN
     yield ours("standard"), "standard", NO_OPTIONAL
     yield ours("standard"), "standard", PAPER_RULE
-    if LEARNED in tiers():
-        yield ours(LEARNED), LEARNED, OWN
-        yield ours(LEARNED), LEARNED, PAPER_RULE
+    yield by_machine, LEARNED, OWN
+    yield by_machine, LEARNED, PAPER_RULE
     for method in FIELD:
         yield METHODS[method], method, RULES[method]
     # the same cells for all
@@ -149,10 +150,9 @@ def methods() -> Iterator[tuple[Lay, str, str]]:
         yield METHODS[method], method, NO_OPTIONAL
 
 
-def tiers() -> tuple[str, ...]:
-    """Return the words of the setting of the layout."""
-    [entry] = [entry for entry in Settings.__dataclass_fields__.values() if entry.name == "layout"]
-    return choices(entry)
+def by_machine(grid: UnitGrid, catalogue: Catalogue, rng: np.random.Generator) -> Bricks:
+    """Return the learned fill, joined as the other tiers."""
+    return add_ties(lay_learned(grid, catalogue, rng=rng), grid, catalogue, plates=False)[0]
 
 
 def shells_of(grid: UnitGrid, settings: Settings) -> dict[str, UnitGrid]:
@@ -223,6 +223,7 @@ def table_4(start: Row, made: Supported, catalogue: Catalogue) -> list[Row]:
             "cpu_s": seconds,
         }
         for way, (bricks, seconds) in made.made.items()
+        if len(bricks)
     ]
 
 
