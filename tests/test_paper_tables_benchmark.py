@@ -13,6 +13,7 @@ from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from scripts import benchmark
 from scripts.research import paper_tables
+from scripts.research.claims import claims
 from scripts.research.five_kinds import KINDS
 from scripts.research.layout_goals import GREEDY
 from scripts.research.layouts import METHODS, SHELL
@@ -95,6 +96,33 @@ def test_supports_are_of_models_that_need_them(tables):
     for row in found["tables_2"]:
         assert sum(value for name, value in row.items() if name.count("x") == 2) == pytest.approx(100)
     assert {row["supports"] for row in found["tables_4_built"]} <= {"taken out", "stay inside", "stay outside"}
+
+
+def rows_of(model, bricks, tree):
+    """Return rows of Tables 3, 1 and 4 of a made-up model."""
+    row = {"model": model, "hor": 0.1, "tc_s": 1.0, "components": 1, "floating": 0, "nb": 100}
+    layouts = [row | {"method": "standard", "hollowing": rule} for rule in ("ours", NO_OPTIONAL, PAPER_RULE)]
+    layouts += [
+        row | {"method": name, "hollowing": rule, "nb": bricks, "tc_s": 5.0, "floating": 2}
+        for name in FIELD
+        for rule in ("shell of 2", NO_OPTIONAL)
+    ]
+    layouts.append(row | {"method": "default, whole build", "hollowing": "ours"})
+    sizes = {f"Brick {size}": 10.0 for size in ("1 x 1", "1 x 2", "2 x 4", "2 x 6", "2 x 8")}
+    weights = {"full": 100.0, "sparse": 70.0, "tree": tree}
+    supports = [{"model": model, "supports": way, "weight_g": weight} for way, weight in weights.items()]
+    return layouts, [{"model": model, "colour": "all"} | sizes], supports
+
+
+def test_claims_are_judged_on_every_model():
+    """Twelve claims in order; a model with more bricks, or heavier trees, is named."""
+    good, bad = rows_of("good", 110, 59.0), rows_of("bad", 101, 60.0)
+    found = {row["claim"]: row for row in claims(*(one + other for one, other in zip(good, bad, strict=True)), FIELD)}
+    assert list(found) == ["H1", "H2", "H3", "H4", "H5", "H7", "H8", "H9", "H10", "H11", "H12", "H13"]
+    assert found["H5"]["not_by"] == found["H8"]["not_by"] == "bad"
+    assert found["H5"]["met"] is False
+    assert found["H3"]["kept_by"] == found["H11"]["kept_by"] == found["H13"]["kept_by"] == "2 of 2"
+    assert all(row["met"] is None for row in found.values() if row["measured_by"] != "benchmark.py tables")
 
 
 @pytest.mark.parametrize("kind", list(KINDS))

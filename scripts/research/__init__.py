@@ -8,6 +8,8 @@
 ``layout_goals``  the claims on layouts as goals
 ``volumes``       the paper's Table 1
 ``paper_tables``  the paper's Tables 1 to 4
+``claims``        its claims as goals
+``five_kinds``    models of the five kinds that it shows
 ``peer``          the peer legolization, run as a process
 ``peer_layout``   the program that the peer's Python runs
 ``baselines``     layouts of the field, over all layers or upwards

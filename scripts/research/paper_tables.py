@@ -37,6 +37,7 @@ from scripts.benchmarks.meshes import read_mesh
 from scripts.benchmarks.supports import BUILT, Supported, kinds_of_bricks, supported
 from scripts.benchmarks.tables import Row, Table
 from scripts.research.baselines import Lay
+from scripts.research.claims import claims
 from scripts.research.laying import Laid, timed
 from scripts.research.layout_goals import ANNEALED, GREEDY, SEARCHED, STAGGERED
 from scripts.research.layouts import METHODS, OWN, RULES, hollowed, manifest_version, ours
@@ -56,6 +57,7 @@ TITLES: Final = {
     "tables_3": "Table 3: hollow ratio, bricks and CPU seconds of every method; grams and bricks against our rule",
     "tables_4": "Table 4: weight and number of support bricks by kind; models without supports are left out",
     "tables_4_built": "Supports of the finished build: those that are taken out, and those that stay",
+    "tables_claims": "The paper's claims H1 to H13 as goals",
     "tables_run": "How it was measured",
 }
 
@@ -94,6 +96,7 @@ def measure(paths: Sequence[Path], *, width: int, seed: int, repeats: int) -> li
         for name, made in case(path.stem, read_mesh(path), options).items():
             rows[name] += made
     rows["tables_run"] = [{"legorize": manifest_version(), "width": width, "seed": seed, "repeats": repeats}]
+    rows["tables_claims"] = claims(rows["tables_3"], rows["tables_1"], rows["tables_4"], FIELD)
     return [Table(name, TITLES[name], tuple(rows[name])) for name in TITLES if rows[name]]
 
 
