@@ -150,9 +150,9 @@ def test_the_pattern_is_that_of_the_plain_rules():
     x, y = np.array([[0.64, 0.30, 0.15], [0.33, 0.60, 0.06]])
     primaries, white = np.stack([x / y, np.ones(3), (1 - x - y) / y]), np.array([0.3127, 0.329, 0.3583]) / 0.329
     luminance = np.linalg.solve(primaries, white)
-    goal = np.random.default_rng(1).random((60, 3))
+    goal = np.random.default_rng(1).random((240, 3))
     mix = mixer([0, 4, 15, 14, 1])
-    rows, columns = np.arange(60) // 3, np.arange(60) * 5
+    rows, columns = np.arange(240) // 4, np.arange(240) * 5
     found = mix.ordered(goal, rows, columns)
     for wanted, row, column, code in zip(goal, rows, columns, found, strict=True):
         error, picked = np.zeros(3), []

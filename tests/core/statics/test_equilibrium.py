@@ -9,6 +9,7 @@ import pytest
 
 from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.model.bricks import NOBODY
+from legorize_addon.core.statics import equilibrium
 from legorize_addon.core.statics.collapse import is_collapse
 from legorize_addon.core.statics.equilibrium import (
     AIMS,
@@ -141,3 +142,15 @@ def test_box_leaves_a_share_of_each_bound() -> None:
 def test_search_is_given_up_when_five_looks_gain_less_than_a_tenth(gaps: list[float], given_up: bool) -> None:
     """The distance now is compared with that of five looks before."""
     assert _stagnates(gaps) == given_up
+
+
+def test_looks_measure_the_distance_between_box_and_plane(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It falls from look to look, towards that between two sets that do not meet, and is far below the forces."""
+    seen: list[list[float]] = []
+    monkeypatch.setattr(equilibrium, "_stagnates", lambda gaps: seen.append(list(gaps)) or False)
+    found = equations(table(*stair(15)), ground=Ground.BASEPLATE)
+    reached = balance(found, aims=(Aim(0.5, 0.49, 120),))
+    gaps = seen[-1]
+    assert len(gaps) >= 10
+    assert gaps == sorted(gaps, reverse=True)
+    assert gaps[-1] < 0.05 * np.linalg.norm(reached.forces)
