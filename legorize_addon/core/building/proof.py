@@ -26,15 +26,19 @@ class Proof:
         Those of them after which something is proven to fall.
     undecided : int64 array
         Those of which neither is proven.
+    wedged : int64 array
+        Those that are proven to stand only while bricks side by side press on
+        each other.
     """
 
     steps: Ints
     collapsing: Ints
     undecided: Ints
+    wedged: Ints
 
     @property
     def stands(self) -> bool:
-        """Whether every step is proven to stand."""
+        """Whether every step is proven to stand, be it while neighbours press on each other."""
         return len(self.collapsing) == len(self.undecided) == 0
 
 
@@ -71,5 +75,5 @@ def prove_steps(steps: Steps, assembly: Assembly, *, clutch: float, progress: Pr
         verdicts.append(found.verdict)
         numbers.append(step.number)
     tested = np.array(numbers, dtype=np.int64)
-    bad = [[verdict is each for verdict in verdicts] for each in (Verdict.COLLAPSES, Verdict.UNDECIDED)]
-    return Proof(tested, tested[bad[0]], tested[bad[1]])
+    told = (Verdict.COLLAPSES, Verdict.UNDECIDED, Verdict.WEDGED)
+    return Proof(tested, *(tested[[verdict is each for verdict in verdicts]] for each in told))

@@ -69,7 +69,7 @@ def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        A sentence for the steps that collapse, and one for those in doubt.
+        A sentence for the steps that collapse, one for those in doubt, and one for those that only neighbours hold.
     """
     if proof is None:
         return ()
@@ -77,6 +77,7 @@ def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
     for steps, what in (
         (proof.collapsing, "fall unless they are held"),
         (proof.undecided, "may fall (there is no proof that they stand)"),
+        (proof.wedged, "stand only while neighbouring bricks press on each other"),
     ):
         if len(steps):
             which = ", ".join(str(step + 1) for step in steps[:SHOWN].tolist())

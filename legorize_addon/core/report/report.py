@@ -194,6 +194,7 @@ def _building(build: Finished) -> dict[str, Any]:
             "steps": len(build.proof.steps),
             "collapsing": (build.proof.collapsing + 1).tolist(),
             "undecided": (build.proof.undecided + 1).tolist(),
+            "wedged": (build.proof.wedged + 1).tolist(),
         },
     }
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from legorize_addon.core.building import proof as module
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.proof import prove_steps
 from legorize_addon.core.errors import Cancelled
 from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.report.building_remarks import remarks_on_proof
 from legorize_addon.core.supports.assembly_plan import plan_assembly
 from tests.core.standing import CATALOGUE, table
@@ -45,6 +48,24 @@ def test_step_that_falls_is_named():
     assert len(found.undecided) == 0
     [sentence] = remarks_on_proof(found)
     assert "after 2 steps (3, 4)" in sentence
+
+
+def test_steps_of_each_class_are_named(monkeypatch):
+    """Steps that stand only by pushes of neighbours are listed like those that fall or are in doubt, but they stand."""
+    verdicts = [Verdict.WEDGED, Verdict.STABLE, Verdict.WEDGED, Verdict.STABLE]
+    told = iter([*verdicts, Verdict.COLLAPSES, Verdict.UNDECIDED, Verdict.WEDGED, Verdict.STABLE])
+    monkeypatch.setattr(module, "stability", lambda *_, **__: SimpleNamespace(verdict=next(told)))
+    tower = table(*(("3003", 0, 0, 3 * k) for k in range(4)))
+    found = proof(tower)
+    assert (found.wedged.tolist(), found.stands) == ([0, 2], True)
+    [sentence] = remarks_on_proof(found)
+    assert sentence == (
+        "The bricks placed so far stand only while neighbouring bricks press on each other after 2 steps (1, 3)."
+    )
+    found = proof(tower)
+    lists = found.collapsing, found.undecided, found.wedged
+    assert ([each.tolist() for each in lists], found.stands) == ([[0], [1], [2]], False)
+    assert len(remarks_on_proof(found)) == 3
 
 
 def test_supports_make_all_steps_stand():
