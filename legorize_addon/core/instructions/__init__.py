@@ -9,7 +9,7 @@ from .shades import TINTS, pale, tint_for, tinted
 
 if TYPE_CHECKING:
     from .booklet import Booklet
-    from .canvas import Group, Item, Page, Paint, Path, Rgb, Text, lines, rectangle
+    from .canvas import Group, Item, Page, Paint, Path, Text, lines, rectangle
     from .layer_maps import layer_files, layer_pages
     from .legend import lettered
     from .paper import PAPERS
@@ -18,7 +18,7 @@ else:
     __getattr__ = on_demand(
         __name__,
         booklet=("Booklet",),
-        canvas=("Group", "Item", "Page", "Paint", "Path", "Rgb", "Text", "lines", "rectangle"),
+        canvas=("Group", "Item", "Page", "Paint", "Path", "Text", "lines", "rectangle"),
         layer_maps=("layer_files", "layer_pages"),
         legend=("lettered",),
         paper=("PAPERS",),
@@ -33,7 +33,6 @@ __all__ = [
     "Page",
     "Paint",
     "Path",
-    "Rgb",
     "Text",
     "layer_files",
     "layer_pages",

@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Mask
-from ..instructions import Item, Page, Paint, Rgb
+from ..instructions import Item, Page, Paint
 from ..model import COLOUR_ANY, Assembly, Catalogue, Fill, Role, UnitGrid, stud_columns
 from ..units import PLATES_PER_BRICK
-from .sheet import Line, Sheet, squares
+from .sheet import Line, Rgb, Sheet, squares
 
 CARRYING: Final[Rgb] = (150, 154, 162)
 OPTIONAL: Final[Rgb] = (236, 218, 170)

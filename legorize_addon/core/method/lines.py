@@ -8,9 +8,9 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..build import Draft
-from ..instructions import Rgb
 from ..model import Catalogue
 from .colour_runs import colour_runs
+from .sheet import Rgb
 from .trajectory_maps import EXTERIOR, INTERIOR, Shown, colour_name, colour_rgb
 
 Paint = tuple[str, Rgb]

@@ -8,7 +8,9 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ..arrays import Floats, Mask
-from ..instructions import PAPERS, Group, Item, Page, Paint, Path, Rgb, Text, lines, rectangle
+from ..instructions import PAPERS, Group, Item, Page, Paint, Path, Text, lines, rectangle
+
+Rgb = tuple[int, int, int]
 
 MARGIN: Final = 10.0
 TITLE: Final = 12.0

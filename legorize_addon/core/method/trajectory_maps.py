@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats, Mask
-from ..instructions import Item, Page, Paint, Path, Rgb
+from ..instructions import Item, Page, Paint, Path
 from ..model import COLOUR_ANY, Catalogue
 from ..slicing import Trajectories
 from ..units import STUD
 from .colour_runs import ColourRuns, colour_runs
-from .sheet import Line, Sheet
+from .sheet import Line, Rgb, Sheet
 
 Shown = Literal["sides", "colours"]
 """Whether trajectories are drawn by side, or in their colours."""
