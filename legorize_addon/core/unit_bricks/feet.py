@@ -28,6 +28,10 @@ STANDS: Final = 10.0
 THIN: Final = 3
 """Studs that the base of a wall or a post is deep at most: what is thicker has a shape that feet would spoil."""
 
+DEEP: Final = 6
+"""Studs that the whole of it is deep at most, a relief or a frame included: figures that lean out further are steadied
+by pillars, of which the forces say where they are needed."""
+
 WIDE: Final = 2
 """Studs of a foot along the wall."""
 
@@ -98,11 +102,12 @@ def add_feet(grid: UnitGrid) -> tuple[UnitGrid, tuple[Feet, ...]]:
         beside = min(middle[axis] - low, high + 1 - middle[axis])
         before = _degrees(beside, middle[2])
         places = _places(base, axis)
-        if before < STANDS and high - low < THIN and places:
+        first, last = _ends(solid.any(axis=0), axis)
+        if before < STANDS and high - low < THIN and last - first < DEEP and places:
             studs = max(1, math.ceil(middle[2] * math.tan(math.radians(STANDS)) / CELL_SIZE[axis] - beside))
-            first = _ends(base, 1 - axis)[0]
+            start = _ends(base, 1 - axis)[0]
             after = _degrees(beside + studs, middle[2])
-            found.append(Feet(axis, studs, tuple(place - first + 1 for place in places), before, after))
+            found.append(Feet(axis, studs, tuple(place - start + 1 for place in places), before, after))
             more.append(places)
     shift = 0
     for feet, places in zip(found, more, strict=True):

@@ -109,6 +109,20 @@ def test_others_stay_as_they_are(long, deep, layers):
     assert add_feet(grid) == (grid, ())
 
 
+def test_a_figure_on_a_thin_base_gets_none():
+    """What leans out far above a thin base is no wall: where it needs something, forces say where pillars stand."""
+    figure = wall(8, 10, 12)
+    figure.cover[:4, :, :4] = figure.cover[:4, :, 6:] = Fill.EMPTY
+    figure.colour[:4, :, :4] = figure.colour[:4, :, 6:] = COLOUR_EMPTY
+    assert tilt(figure.solid, 1) < STANDS
+    assert add_feet(figure)[1] == ()
+    # a relief of the same base is one
+    relief = wall(8, 5, 12)
+    relief.cover[:4, :, 2:] = Fill.EMPTY
+    relief.colour[:4, :, 2:] = COLOUR_EMPTY
+    assert len(add_feet(relief)[1]) == 1
+
+
 def test_nothing_needs_no_feet():
     """An empty grid comes back."""
     shape = (2, 3, 4, 5)
