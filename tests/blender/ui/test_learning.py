@@ -34,10 +34,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def ball() -> bpy.types.Object:
-    """Return a selected ball, to be built 24 studs wide by the quick layout."""
+    """Return a selected ball, to be built 16 studs wide by the quick layout."""
     bpy.ops.mesh.primitive_uv_sphere_add(radius=1)
     settings = bpy.context.scene.legorize.settings
-    settings.width, settings.layout, settings.supports = 24, "fast", "none"
+    settings.width, settings.layout, settings.supports = 16, "fast", "none"
     return bpy.context.object
 
 
@@ -127,7 +127,7 @@ def test_selected_model_is_learned_as_it_was_built(ball, folder: Path, monkeypat
     found = []
     monkeypatch.setattr(learning_operators.Lessons, "work", lambda order, progress: found.append(order) or SHIPPED)
     assert bpy.ops.legorize.learn() == {"FINISHED"}
-    assert [(model.name, model.settings.width) for model in found[0].models] == [(ball.name, 24), (cube.name, 30)]
+    assert [(model.name, model.settings.width) for model in found[0].models] == [(ball.name, 16), (cube.name, 30)]
 
 
 def test_the_learned_layout_learns_its_own(ball, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
