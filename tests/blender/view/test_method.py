@@ -11,7 +11,7 @@ from legorize_addon.core.method.unit_models import hollowed_model, initial_model
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.scene.builds import builds, layers_of, line_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
-from legorize_addon.scene.state import state_of
+from legorize_addon.scene.placing import world_from_mm
 from legorize_addon.view.method import MethodView, show_method, show_trajectories, trajectories_shown
 from legorize_addon.view.visibility import roles_shown, show_layers, shown_corners
 from tests.core.method.drafts import SIDES, draft
@@ -27,7 +27,7 @@ def shown(step, lines="sides", **more):
 def place(build):
     """Return how far to the right of the model's own place a build stands, in mm."""
     bpy.context.view_layer.update()
-    return state_of(build).root.matrix_world.translation.x - float(draft().grid.origin[0])
+    return world_from_mm(build).translation.x - float(draft().grid.origin[0])
 
 
 @pytest.mark.parametrize("lines", ["sides", "colours"])
