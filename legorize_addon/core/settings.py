@@ -134,8 +134,7 @@ class Settings:
             "learned": "a trained machine chooses every brick, layer by layer, as in the paper"})
     learned: bool = setting(
         True, "Use learning", "Let the fast layout try only those exchanges of bricks that a trained support vector "
-        "machine proposes: as few bricks as if all were tried, in less than half the time (34 instead of 77 "
-        "microseconds a cell).", group="Bricks", needs=("layout", "fast"))
+        "machine proposes.", group="Bricks", needs=("layout", "fast"))
     learned_from: str = setting(
         "", "Training file", "Training file of the layout, as written by Learn from Models; empty for the built-in "
         "training.", group="Bricks", needs=("layout", "fast", "learned"))

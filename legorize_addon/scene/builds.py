@@ -47,8 +47,7 @@ def sources_of(build: bpy.types.Collection) -> list[bpy.types.Object]:
 
 def hidden_by(build: bpy.types.Collection) -> list[bpy.types.Object]:
     """Return the objects that a build hides: its sources, and what holds them, without those deleted since."""
-    state = state_of(build)
-    return [entry.source for entry in (*state.sources, *state.holders) if entry.source.users_scene]
+    return [entry.source for entry in state_of(build).hidden if entry.source.users_scene]
 
 
 def damage(build: bpy.types.Collection) -> str | None:

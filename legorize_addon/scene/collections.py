@@ -187,8 +187,7 @@ def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
         Collection made by :func:`show_build`.
     """
     held = {thing for other in all_builds() if other != build for thing in hidden_by(other)}
-    state = state_of(build)
-    freed = [entry for entry in (*state.sources, *state.holders) if entry.source not in held]
+    freed = [entry for entry in state_of(build).hidden if entry.source not in held]
     for entry in freed:
         entry.restore()
     forget(scene, [entry.source for entry in freed])

@@ -32,7 +32,7 @@ def forget(scene: bpy.types.Scene, sources: Iterable[bpy.types.Object]) -> None:
 
 def as_before(scene: bpy.types.Scene, source: bpy.types.Object) -> SourceState:
     """Return how an object was hidden before any build hid it."""
-    held = (entry for build in all_builds() for entry in (*state_of(build).sources, *state_of(build).holders))
+    held = (entry for build in all_builds() for entry in state_of(build).hidden)
     known = (entry for entry in (*held, *orphans(scene)) if entry.source == source)
     return next(known, SourceState.of(source))
 

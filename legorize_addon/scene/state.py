@@ -216,6 +216,11 @@ class BuildState:
         return _source_states(self._group.get("holders", {}))
 
     @property
+    def hidden(self) -> list[SourceState]:
+        """All objects that the build hides."""
+        return [*self.sources, *self.holders]
+
+    @property
     def settings(self) -> dict[str, Any]:
         """Names and values of the settings that the build was made with; empty where they are not known."""
         return self._plain("settings")

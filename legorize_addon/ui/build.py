@@ -18,6 +18,7 @@ from .progress_text import STOPPED, progress_text
 from .properties import current_build
 from .requests import BuildRequest, build_request, by_uid, chosen_sources
 from .settings_properties import settings_of, take_renamed
+from .tab import redraw
 
 if TYPE_CHECKING:
     from ..core.build import Build
@@ -122,7 +123,7 @@ class Working(Reporting):
     def _show_progress(self, context: bpy.types.Context) -> None:
         text = progress_text(*self._job.progress, self._job.seconds_left, stopping=self._job.stopping)
         context.workspace.status_text_set(f"Legorize: {text}" + ("" if self._job.stopping else " (Esc stops)"))
-        _redraw(context)
+        redraw(context)
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         return self._show(context, self._order, self._job.result())
@@ -133,7 +134,7 @@ class Working(Reporting):
             self._timer = None
         if context.workspace is not None:
             context.workspace.status_text_set(None)
-        _redraw(context)
+        redraw(context)
 
 
 class LEGORIZE_OT_build(Working, bpy.types.Operator):
@@ -299,13 +300,6 @@ def _select_only(context: bpy.types.Context, *things: bpy.types.Object) -> None:
     for thing in (thing for thing in things if thing.name in context.view_layer.objects):
         thing.select_set(True)
         context.view_layer.objects.active = thing
-
-
-def _redraw(context: bpy.types.Context) -> None:
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
 
 
 def _say_in_status_bar(context: bpy.types.Context, sentence: str) -> None:

@@ -21,6 +21,7 @@ from ..core.settings import Settings
 from . import job
 from .requests import by_uid, chosen_sources
 from .settings_properties import settings_of
+from .tab import redraw
 
 if TYPE_CHECKING:
     from ..core.mesh import TriangleMesh
@@ -120,15 +121,8 @@ def _read() -> float | None:
         # what a build hides was read before
         _known.mesh = found or _known.mesh
         _lines.cache_clear()
-        _redraw()
+        redraw(bpy.context)
     return None
-
-
-def _redraw() -> None:
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
 
 
 @persistent

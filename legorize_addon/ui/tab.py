@@ -25,3 +25,11 @@ def draw_wrapped(context: bpy.types.Context, layout: bpy.types.UILayout, text: s
     lines = layout.column(align=True)
     for row, line in enumerate(textwrap.wrap(text, max(width, 20))):
         lines.label(text=line, icon="BLANK1" if row else icon)
+
+
+def redraw(context: bpy.types.Context) -> None:
+    """Let all 3D viewports, and the tab in them, be drawn anew."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()

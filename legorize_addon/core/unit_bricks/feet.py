@@ -3,10 +3,6 @@
 A model falls to a side if it is tilted so far that its weight lies over the rim of its base. Where a few degrees do
 that to a wall or a post, blocks two studs wide and two bricks high grow out of it at its ends, and in between where it
 is long. They are cells of the model like all others: bricks are laid across wall and foot, and stay.
-
-References
-----------
-EN 71-1:2014+A1:2018, "Safety of toys", 4.15.1.4 and 8.23.1: toys that bear a child stand on a slope of 10 degrees.
 """
 
 from __future__ import annotations
@@ -23,7 +19,7 @@ from ..model import CELL_SIZE, COLOUR_EMPTY, Fill, Role, UnitGrid, ground_of
 from ..units import PLATES_PER_BRICK
 
 STANDS: Final = 10.0
-"""Degrees by which a model with feet can be tilted: the slope on which toys are tested."""
+"""Degrees by which a model with feet can be tilted: more than a push of a finger or a crooked shelf does."""
 
 THIN: Final = 3
 """Studs that the base of a wall or a post is deep at most: what is thicker has a shape that feet would spoil."""
