@@ -7,19 +7,16 @@ changed: a new version has all samples of the one before.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
-from ...errors import BuildError, SettingsError
+from ...errors import BuildError
 from ...model import ASSETS, Catalogue, UnitGrid
 from ...safe_text import one_line
 from .grade_training import balanced, fewest, graded_of, train_grades, written_grades
 from .grading import Graded, Grader, grader_of, read_graded
-from .sample_file import MOST_MODELS, MOST_SAMPLES, PARAMETERS, SampleFileError, file_text, parameter, whole
-
-SHIPPED_VERSION: Final = 1
+from .sample_file import MOST_MODELS, MOST_SAMPLES, SHIPPED_VERSION, checked_text, parameter, whole
 
 EACH: Final = 20
 """Samples of each grade that are taken from a model, at most."""
@@ -48,19 +45,7 @@ def grades_text(path: str) -> str:
     SettingsError
         It cannot be read, or is no such file.
     """
-    try:
-        text = file_text(Path(path or ASSETS / "fill_svm.csv"))
-        _, facts = read_graded(text)
-        for name in PARAMETERS:
-            parameter(facts, name)
-        grades_version(text)
-    except OSError as error:
-        raise SettingsError(
-            f"learned_from is {path!r}, which cannot be opened ({error.strerror or error}): {_ADVICE}"
-        ) from error
-    except SampleFileError as fault:
-        raise SettingsError(f"learned_from is {path!r}, which {fault}: {_ADVICE}") from fault
-    return text
+    return checked_text(path, ASSETS / "fill_svm.csv", lambda text: read_graded(text)[1], _ADVICE)
 
 
 def grades_version(text: str) -> int:

@@ -9,20 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from ...arrays import Mask
-from ...errors import BuildError, SettingsError
+from ...errors import BuildError
 from ...model import ASSETS, Bricks, Catalogue, UnitGrid
 from ...safe_text import one_line
-from .sample_file import MOST_MODELS, MOST_SAMPLES, PARAMETERS, SampleFileError, file_text, parameter, whole
+from .sample_file import MOST_MODELS, MOST_SAMPLES, SHIPPED_VERSION, checked_text, parameter, whole
 from .svm import Samples, read, table_of
 from .svm_training import samples_of, train, written
-
-SHIPPED_VERSION: Final = 1
 
 EACH: Final = 60
 """Samples taken from each model."""
@@ -76,19 +73,7 @@ def samples_text(path: str) -> str:
     SettingsError
         It cannot be read, or is no file of samples.
     """
-    try:
-        text = file_text(Path(path or ASSETS / "layout_svm.csv"))
-        _, facts = read(text)
-        for name in PARAMETERS:
-            parameter(facts, name)
-        version_of(text)
-    except OSError as error:
-        raise SettingsError(
-            f"learned_from is {path!r}, which cannot be opened ({error.strerror or error}): {_ADVICE}"
-        ) from error
-    except SampleFileError as fault:
-        raise SettingsError(f"learned_from is {path!r}, which {fault}: {_ADVICE}") from fault
-    return text
+    return checked_text(path, ASSETS / "layout_svm.csv", lambda text: read(text)[1], _ADVICE)
 
 
 def version_of(text: str) -> int:

@@ -10,12 +10,14 @@ import math
 import os
 import re
 import stat
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ...errors import SettingsError
 
 MOST_SAMPLES: Final = 20_000
 """Samples in a file: learning adds 60 a model, and the time to train grows with their square."""
@@ -25,6 +27,9 @@ MOST_MODELS: Final = 10_000
 
 MOST_BYTES: Final = 2_000_000
 """Size of a file: a line of a sample is at most 19 bytes long, and the facts above the table are short."""
+
+SHIPPED_VERSION: Final = 1
+"""Version of the files that are shipped."""
 
 PARAMETERS: Final = ("C", "gamma")
 LEAST: Final = 1e-6
@@ -220,3 +225,42 @@ def _shown(value: str) -> str:
     """Return a value from a file, short and on one line."""
     most = 20
     return repr(value if len(value) <= most else value[: most - 3] + "...")
+
+
+def checked_text(path: str, shipped: Path, facts_of: Callable[[str], Mapping[str, str]], advice: str) -> str:
+    """Read a file of samples that a user chose, or the one that is shipped, and check its facts.
+
+    Parameters
+    ----------
+    path : str
+        The file; empty for the one that is shipped.
+    shipped : pathlib.Path
+        That one.
+    facts_of : callable
+        Reads a text to its end and returns its facts.
+    advice : str
+        What to do instead, the end of the sentence.
+
+    Returns
+    -------
+    str
+        Its text.
+
+    Raises
+    ------
+    SettingsError
+        It cannot be read, or is no such file.
+    """
+    try:
+        text = file_text(Path(path or shipped))
+        facts = facts_of(text)
+        for name in PARAMETERS:
+            parameter(facts, name)
+        whole(facts, "version", SHIPPED_VERSION)
+    except OSError as error:
+        raise SettingsError(
+            f"learned_from is {path!r}, which cannot be opened ({error.strerror or error}): {advice}"
+        ) from error
+    except SampleFileError as fault:
+        raise SettingsError(f"learned_from is {path!r}, which {fault}: {advice}") from fault
+    return text
