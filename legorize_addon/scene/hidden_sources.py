@@ -12,7 +12,8 @@ from typing import Final
 import bpy
 
 from .builds import all_builds, hidden_by
-from .state import SourceState, state_of
+from .source_state import SourceState
+from .state import state_of
 
 HIDDEN_SOURCES_KEY: Final = "legorize_hidden_sources"
 

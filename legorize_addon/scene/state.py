@@ -12,13 +12,14 @@ import base64
 import json
 import zlib
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any, Final
 
 import bpy
 
 from ..core.model import Role
 from .section import Section
+from .source_state import SourceState, source_states
 
 BUILD_KEY: Final = "legorize"
 VERSION: Final = 2
@@ -40,42 +41,6 @@ FORM: Final[Mapping[str, type]] = {
 
 POINTERS: Final = ("root", "plane", "parts")
 """Fields that every version has and that are empty where what they point to was deleted."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class SourceState:
-    """An object that a build was made of, and how it was hidden before.
-
-    Attributes
-    ----------
-    source : bpy.types.Object
-    hide_viewport, hide_render : bool
-    """
-
-    source: bpy.types.Object
-    hide_viewport: bool
-    hide_render: bool
-
-    @classmethod
-    def of(cls, source: bpy.types.Object) -> SourceState:
-        """Return an object as it is hidden now."""
-        return cls(source, source.hide_viewport, source.hide_render)
-
-    @classmethod
-    def read(cls, stored: Mapping[str, Any]) -> SourceState | None:
-        """Return what :meth:`stored` wrote; None where the object is gone or the form is another one."""
-        source = stored.get("object")
-        if not isinstance(source, bpy.types.Object):
-            return None
-        return cls(source, bool(stored.get("hide_viewport")), bool(stored.get("hide_render")))
-
-    def stored(self) -> dict[str, Any]:
-        """Return plain values for a custom property."""
-        return {"object": self.source, "hide_viewport": self.hide_viewport, "hide_render": self.hide_render}
-
-    def restore(self) -> None:
-        """Hide or show the object as it was."""
-        self.source.hide_viewport, self.source.hide_render = self.hide_viewport, self.hide_render
 
 
 class BuildState:
@@ -208,12 +173,12 @@ class BuildState:
     @property
     def sources(self) -> list[SourceState]:
         """Objects that the build was made of, without those deleted since."""
-        return _source_states(self._group["sources"])
+        return source_states(self._group["sources"])
 
     @property
     def holders(self) -> list[SourceState]:
         """Armatures and empties that hold them and nothing else, without those deleted since; none in old builds."""
-        return _source_states(self._group.get("holders", {}))
+        return source_states(self._group.get("holders", {}))
 
     @property
     def hidden(self) -> list[SourceState]:
@@ -308,11 +273,6 @@ class BuildState:
     def _plain(self, name: str) -> dict[str, Any]:
         found = self._group.get(name)
         return {} if found is None else dict(found.to_dict())
-
-
-def _source_states(stored: Mapping[str, Any]) -> list[SourceState]:
-    found = [SourceState.read(entry) for entry in stored.values()]
-    return [entry for entry in found if entry is not None]
 
 
 def state_of(build: bpy.types.Collection) -> BuildState:
