@@ -67,6 +67,22 @@ def test_a_start_is_taken_up() -> None:
         assert again.turns == 0
 
 
+def test_what_changed_is_asked_first(monkeypatch) -> None:
+    """Where a few forces of a proof are lost, others are found there without any projection, and only there."""
+    bricks = table(*(("3003", 0, 0, 3 * level) for level in range(30)))
+    whole, known = looked(bricks)
+    forces = known.forces
+    monkeypatch.setattr(module, "REGION", 18 * 3)
+    monkeypatch.setattr(module, "balance", None)
+    lost = forces.copy()
+    lost[(whole.contacts.on == 15) | (whole.contacts.on == 16)] = -5.0
+    found = search(whole, contact_graph(bricks, CATALOGUE), aims=AIMS, start=lost, programme=0)
+    assert (found.found, found.turns) == (True, 0)
+    assert is_equilibrium(whole, found.forces)
+    far = (whole.contacts.on < 7) | (whole.contacts.on > 23)
+    np.testing.assert_array_equal(found.forces[far], forces[far])
+
+
 def test_a_tower_that_tips_over_needs_no_search() -> None:
     """Its motion is written down at once, with the lightest forces in balance."""
     whole, found = looked(table(("3003", 0, 0, 0), ("3007", 0, 0, 3)))
@@ -106,6 +122,7 @@ def test_too_many_loose_bricks_are_not_tried(monkeypatch) -> None:
     """Where more would have to be let loose than a programme takes, the answer stays open."""
     bricks, limit = wall()
     monkeypatch.setattr(module, "LOOSE", 1)
+    monkeypatch.setattr(module, "REGION", 6)
     _, found = looked(bricks, programme=0, clutch=0.9 * limit, ground=Ground.BASEPLATE, aims=(Aim(0.01, 0.0, 9),))
     assert (found.found, found.collapse) == (False, False)
 
