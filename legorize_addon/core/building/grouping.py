@@ -172,7 +172,7 @@ class _Begun:
         self.taken: list[int] = []
         self.size = self.n_lots = self.level = self.due = self.tile = 0
         self.temporary = False
-        self.near = np.full(len(atoms), np.inf)
+        self.near = np.full(len(atoms), _FAR, dtype=np.int64)
         self.has_lot = np.zeros(int(atoms.lot.max()) + 1, dtype=bool)
         self.mirrored = np.zeros(len(atoms) + 1, dtype=bool)
         self.low, self.high = (_FAR, _FAR), (-_FAR, -_FAR)
@@ -192,16 +192,19 @@ class _Begun:
         x0, x1, y0, y1 = atoms.box[atom].tolist()
         self.low = min(self.low[0], x0), min(self.low[1], y0)
         self.high = max(self.high[0], x1), max(self.high[1], y1)
-        gap_x = np.maximum(atoms.box[:, 0] - x1, x0 - atoms.box[:, 1])
-        gap_y = np.maximum(atoms.box[:, 2] - y1, y0 - atoms.box[:, 3])
-        np.minimum(self.near, np.maximum(np.maximum(gap_x, gap_y) - 1, 0), out=self.near)
+        left, right, front, back = atoms.sides
+        gap = np.maximum(left - x1, x0 - right)
+        for other in (front - y1, y0 - back):
+            np.maximum(gap, other, out=gap)
+        gap -= 1
+        np.minimum(self.near, np.maximum(gap, 0, out=gap), out=self.near)
 
     def fits(self, ready: Ints) -> Mask:
         """Tell which atoms the step has room for: of its kind, not too far away, without the mirrored ones."""
         atoms = self.atoms
-        box = atoms.box[ready]
-        fits: Mask = np.maximum(box[:, 1], self.high[0]) - np.minimum(box[:, 0], self.low[0]) < REACH
-        fits &= np.maximum(box[:, 3], self.high[1]) - np.minimum(box[:, 2], self.low[1]) < REACH
+        left, right, front, back = atoms.sides.take(ready, axis=1)
+        fits: Mask = np.maximum(right, self.high[0]) - np.minimum(left, self.low[0]) < REACH
+        fits &= np.maximum(back, self.high[1]) - np.minimum(front, self.low[1]) < REACH
         fits &= (atoms.size[ready] <= atoms.most - self.size) & ~self.mirrored[ready]
         fits &= (atoms.temporary[ready] == self.temporary) & (atoms.tile[ready] == self.tile)
         return fits

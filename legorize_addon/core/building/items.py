@@ -102,6 +102,8 @@ class Atoms:
         Items of each atom.
     box, level, due, size, lot, temporary, image, tile : arrays
         As of :class:`Items`; ``image`` is ``NOBODY`` where both halves are in the atom.
+    sides : (4, n) int64 array
+        The boxes, by side.
     below, above : list of list of int
         Atoms that must come before each one, and after it.
     most : int
@@ -118,6 +120,8 @@ class Atoms:
         self.box = items.box[first].copy()
         for column, best in enumerate((np.minimum, np.maximum) * 2):
             best.at(self.box[:, column], atom, items.box[:, column])
+        # one side of all after the other: distances from all of them are found in every turn
+        self.sides = np.ascontiguousarray(self.box.T)
         self.level, self.due = items.level[first], items.due[first]
         self.lot: Ints = np.unique(items.lot, return_inverse=True)[1].reshape(-1)[first]
         self.temporary, self.tile = items.temporary[first], items.tile[first]

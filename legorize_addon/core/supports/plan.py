@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Final, Literal
 
 import numpy as np
@@ -124,14 +125,11 @@ def plan_supports(
     for turn, way in enumerate(ways):
         trying = part(progress, turn / len(ways), (turn + 1) / len(ways))
         trying("supports", 0.0)
-        # contacts are added, never taken away: what is too heavy to begin with stays so
-        first = _laid(contacts, need, assembly.catalogue, way, long_bricks=long_bricks)
-        if best is not None and (
-            not len(contacts.cells) or _worth(best, assembly.catalogue) <= (False, _mass(first, assembly.catalogue))
-        ):
-            continue
-        found = _settled(assembly, need, contacts, way, clutch, trying, long_bricks=long_bricks)
-        if best is None or _worth(found, assembly.catalogue) < _worth(best, assembly.catalogue):
+        if best is not None and not len(contacts.cells):
+            break
+        laid = partial(_laid, need=need, catalogue=assembly.catalogue, way=way, long_bricks=long_bricks)
+        found = _settled(assembly, need, contacts, clutch, trying, laid, best)
+        if best is None or (found is not None and _worth(found, assembly.catalogue) < _worth(best, assembly.catalogue)):
             best = found
     return _bare(assembly, need, contacts, progress) if best is None else best
 
@@ -149,16 +147,19 @@ def _settled(
     assembly: Assembly,
     need: Demand,
     contacts: SupportContacts,
-    way: Way,
     clutch: float,
     progress: Progress,
-    *,
-    long_bricks: bool,
-) -> Plan:
-    """Add contacts and straighten branches until all stands and bears, or nothing more helps."""
+    laid: partial[Bricks],
+    best: Plan | None,
+) -> Plan | None:
+    """Add contacts and straighten branches until all stands and bears, nothing more helps, or another is better."""
+    way: Way = laid.keywords["way"]
     for left in reversed(range(ROUNDS)):
         trying = part(progress, 1 - (left + 1) / ROUNDS, 1 - left / ROUNDS)
-        supports = _laid(contacts, need, assembly.catalogue, way, long_bricks=long_bricks)
+        supports = laid(contacts)
+        # contacts are added, never taken away: what is too heavy stays so
+        if best is not None and _worth(best, assembly.catalogue) <= (False, _mass(supports, assembly.catalogue)):
+            return None
         # what the last round finds is not laid any more
         falling, braces = _falling(assembly, supports, contacts, need, add=left > 0, progress=trying)
         giving, bears = np.zeros(len(contacts.cells), dtype=bool), True

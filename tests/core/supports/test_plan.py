@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.supports import plan as module
 from legorize_addon.core.supports.demand import support_demand
 from legorize_addon.core.supports.plan import plan_supports
 from tests.core.standing import CATALOGUE, table
@@ -73,6 +74,25 @@ def test_lightest_way_is_chosen():
     best, _ = plan(*APART, ways=["beams", "columns", "tree"])
     assert float(CATALOGUE.mass[best.supports.part].sum()) == min(mass.values())
     assert best.way == min(mass, key=mass.get)
+
+
+def test_a_way_that_becomes_too_heavy_is_given_up(monkeypatch):
+    """Columns that are light until the stair needs one are not tried once they weigh as much as others."""
+    asked = []
+    falling = module._falling
+
+    def counted(*args, **options):
+        """Count how often all steps are planned."""
+        asked.append(len(args[1]))
+        return falling(*args, **options)
+
+    monkeypatch.setattr(module, "_falling", counted)
+    once, _ = plan(*LEANING, ("3005", 9, 9, 30), ways=["columns"])
+    light, heavy = asked
+    assert light < heavy
+    twice, _ = plan(*LEANING, ("3005", 9, 9, 30), ways=["columns", "columns"])
+    assert asked[2:] == [light, heavy, light]
+    assert np.array_equal(once.supports.corner, twice.supports.corner)
 
 
 def test_no_supports_where_nothing_is_needed():
