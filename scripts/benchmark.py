@@ -20,7 +20,7 @@
     python scripts/benchmark.py tables    [MESH ...] [--out DIR]   the paper's Tables 1 to 4, ours, its own and B1 to B4
     python scripts/benchmark.py supports  [MESH ...] [--out DIR]   trees, columns and beams against full columns
     python scripts/benchmark.py building  [MESH ...] [--out DIR]   building orders, followed from their files
-    python scripts/benchmark.py steps     [MESH ...] [--out DIR]   whether hands can follow the building steps
+    python scripts/benchmark.py steps     [MESH ...] [--minutes N] whether hands can follow the building steps
     python scripts/benchmark.py judge     [MESH ...] --judge DIR   an external judge, on our bricks and on a peer's
     python scripts/benchmark.py mosaics   [IMAGE ...] [--out DIR]  likeness from afar, against a plain mosaic
     python scripts/benchmark.py kills    [MESH] [--runs N] [--out DIR] killed runs: old or new results, nothing left
@@ -221,6 +221,8 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
         "steps": of_models(
             "whether hands can follow the building steps", steps.measure, numbers("--widths", [32, 48], "studs"),
             number("--split", 8, "most pieces"),
+            number("--minutes", 0.0, "after which no build is begun; the next run goes on; 0 for no limit"),
+            needs_out=True,
         ),
         "judge": of_models(
             "an external judge", judge.measure, number("--width", 48, "studs"),

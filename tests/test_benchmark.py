@@ -23,7 +23,7 @@ from legorize_addon.core.settings import Settings  # noqa: E402
 from legorize_addon.core.slicing.slices import slice_mesh  # noqa: E402
 from legorize_addon.core.slicing.trajectories import link_loops  # noqa: E402
 from scripts import benchmark  # noqa: E402
-from scripts.benchmarks import clock, goals, hollowing, judge, layout_figures, meshes, slicing, steps, surface  # noqa: E402
+from scripts.benchmarks import clock, goals, hollowing, judge, kept, layout_figures, meshes, slicing, steps, surface  # noqa: E402
 from scripts.benchmarks.stablelego import placed  # noqa: E402
 from scripts.benchmarks.tables import Table  # noqa: E402
 from tests.core.test_pipeline import STAGES  # noqa: E402
@@ -464,6 +464,21 @@ def test_steps_are_counted_and_judged(box: Path) -> None:
     assert found["afloat"] == found["pressed"] == found["cramped"] == 0
     assert found["components"] == found["pieces"] == 1
     assert found["steps"] == len(build.supports.steps)
+
+
+def test_rows_are_measured_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a run that ended early has measured, the next one of the same program takes over, and only that."""
+    made: list[str] = []
+
+    def rows(minutes: float) -> list[object]:
+        table = kept.Kept(tmp_path / "rows", minutes)
+        return [table.row(name, lambda name=name: made.append(name) or {"n": len(made)}) for name in ("a", "b")]
+
+    assert rows(1e-9) == [[], []]
+    assert rows(0) == rows(1e-9) == [[{"n": 1}], [{"n": 2}]]
+    assert made == ["a", "b"]
+    monkeypatch.setattr(kept, "program", lambda: "another")
+    assert rows(1e-9) == [[], []]
 
 
 def test_mirrored_parts_far_apart_in_the_order_are_found() -> None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 import sys
 import time
 from collections.abc import Sequence
+from functools import partial
+from itertools import product
 from pathlib import Path
 from typing import Final
 
@@ -25,6 +28,7 @@ from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
+from scripts.benchmarks.kept import Kept
 from scripts.benchmarks.supports import with_fixtures
 from scripts.benchmarks.tables import Row, Table
 from tests.core.files.flattened import afloat
@@ -52,7 +56,7 @@ PRESSED: Final = 0.02
 """Goal: share of the bricks that are pressed from below at most."""
 
 
-def measure(paths: Sequence[Path], *, widths: Sequence[int], split: int) -> list[Table]:
+def measure(paths: Sequence[Path], *, widths: Sequence[int], split: int, minutes: float, out: Path) -> list[Table]:
     """Build every model, four fixtures and a picture, lying and upright, whole and in pieces.
 
     Parameters
@@ -63,11 +67,15 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int], split: int) -> list
         Studs along the longer horizontal side.
     split : int
         Most pieces.
+    minutes : float
+        After which no build is begun; 0 for no limit.
+    out : Path
+        For rows, which the next run of the same program takes over.
 
     Returns
     -------
     list of Table
-        One row a model, width and number of pieces.
+        One row a model, width and number of pieces; none if there was no time for any.
     """
     title = (
         f"Building steps: at most {SINGLE:.0%} with one brick, none above {MOST} ({TILE_MOST} in a mosaic), {NEAR:.0%} "
@@ -76,10 +84,16 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int], split: int) -> list
     )
     pictures = [(name, slab(photograph(), standing=standing)) for name, standing in ((MOSAIC, False), (WALL, True))]
     meshes = [*with_fixtures(paths), *pictures]
-    rows = [
-        _row(name, mesh, width, most) for width in widths for name, mesh in meshes for most in dict.fromkeys((1, split))
-    ]
-    return [Table("steps", title, tuple(rows))]
+    kept, rows = Kept(out / "steps", minutes), list[Row]()
+    for width, (name, mesh), most in product(widths, meshes, dict.fromkeys((1, split))):
+        rows += kept.row(f"{name}-{_digest(mesh)}-{width}-{most}", partial(_row, name, mesh, width, most))
+    kept.tell_left()
+    return [Table("steps", title, tuple(rows))] if rows else []
+
+
+def _digest(mesh: TriangleMesh) -> str:
+    """Return what tells meshes of one name apart."""
+    return hashlib.sha256(mesh.vertices.tobytes() + mesh.faces.tobytes() + mesh.uvs.tobytes()).hexdigest()[:8]
 
 
 def _row(name: str, mesh: TriangleMesh, width: int, most: int) -> Row:
@@ -113,6 +127,7 @@ def figures(build: Build) -> Row:
         "sub_assemblies": sum(each.kind == Kind.SUBASSEMBLY for each in steps.submodels),
         "median": float(np.median(sizes)),
         "median_of_model": float(np.median([len(step.bricks) for step in placed if _large(build, step)] or [0])),
+        "five_to_ten": float(np.mean((sizes >= 5) & (sizes <= 10))),
         "single": float(np.mean([len(step.bricks) + len(step.joined) == 1 for step in placed])),
         "most": int(max(_arriving(build, step) for step in placed)),
         "near": float(np.mean(near)),
