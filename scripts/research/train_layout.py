@@ -27,7 +27,7 @@ import sklearn
 ROOT: Final = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from legorize_addon.core.layout.learning.svm_training import N_SAMPLES, Trained, samples_of, train, written  # noqa: E402
+from legorize_addon.core.layout.learning.svm_training import N_SAMPLES, TrainedExchanges, samples_of, train, written  # noqa: E402
 from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402 - found through the line above
 from scripts.research.layout_controls import SHIPPED, judged  # noqa: E402
 from scripts.research.training_models import KINDS, built  # noqa: E402
@@ -77,7 +77,7 @@ def trained(*, seed: int, each: int, n: int) -> str:
     return written(result := train(samples_of(models, load_catalogue(), rng, n), rng), facts(seed, each, result))
 
 
-def facts(seed: int, each: int, result: Trained) -> dict[str, str]:
+def facts(seed: int, each: int, result: TrainedExchanges) -> dict[str, str]:
     """Return what the file says of where it is from."""
     tried = ", ".join(f"({c:g}, {gamma:g}) {share:.3f}" for (c, gamma), share in result.grid.items())
     return {

@@ -7,7 +7,6 @@ of these are judged by the exact fill. So samples need no labelling by hand.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -17,12 +16,12 @@ from ...arrays import Floats, Mask
 from ...errors import BuildError
 from ...model import Catalogue, UnitGrid
 from ..problem import Index, Sheets, shapes, split
+from .cross_validation import Trained, cross_validated, samples_file
 from .fill import Choice, decided, fill_upwards
 from .grading import COLUMNS, GRADES, Graded, Grader, drawn_best, relative
 from .layer import Layer
 from .regret import regrets
 from .simulation import Outcome, Windows
-from .svm_training import FOLDS, folds
 
 EACH_GRADE: Final = 500
 """Samples of each grade."""
@@ -49,30 +48,8 @@ Decision = tuple[NDArray[np.int16], Callable[[Mask], Floats]]
 """What candidates end with, (n, 4), and what tells the regret of some of them."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TrainedGrades:
-    """The outcome of a training.
-
-    Attributes
-    ----------
-    samples : Graded
-    c, gamma : float
-        The best of the grid.
-    grid : mapping of (C, gamma) to float
-        Share of right answers in the cross-validation (the micro-average F1).
-    micro, macro : float
-        F1 of the best, averaged over samples and over grades.
-    confusion : (3, 3) intp array
-        Rows: the grades; columns: what the machine held them for.
-    """
-
-    samples: Graded
-    c: float
-    gamma: float
-    grid: Mapping[tuple[float, float], float]
-    micro: float
-    macro: float
-    confusion: Index
+TrainedGrades = Trained[Graded]
+"""The outcome of a training; classes are grades."""
 
 
 def strayed(choose: Choice) -> Choice:
@@ -235,33 +212,11 @@ def train_grades(
     BuildError
         There are fewer models than folds.
     """
-    # loading it takes longer than building a small model, which does not need it
-    from sklearn.metrics import confusion_matrix, f1_score
 
-    fold = folds(samples.model, rng)
-    answers = {(c, gamma): _answers(samples, fold, c, gamma) for c in costs for gamma in gammas}
-    grid = {pair: float(np.mean(each == samples.grade)) for pair, each in answers.items()}
-    # the first of equal ones: the smoothest machine
-    c, gamma = max(grid, key=lambda pair: grid[pair])
-    best = answers[c, gamma]
-    return TrainedGrades(
-        samples=samples,
-        c=c,
-        gamma=gamma,
-        grid=grid,
-        micro=float(f1_score(samples.grade, best, average="micro")),
-        macro=float(f1_score(samples.grade, best, average="macro")),
-        confusion=confusion_matrix(samples.grade, best, labels=range(len(GRADES))),
-    )
+    def said(out: Mask, c: float, gamma: float) -> Index:
+        return Grader.of(samples.take(~out), c=c, gamma=gamma).grades(samples.energies[out])
 
-
-def _answers(samples: Graded, fold: Index, c: float, gamma: float) -> Index:
-    """Return what machines say of the samples of each fold when trained on the others."""
-    said = np.zeros(len(fold), dtype=np.intp)
-    for number in range(FOLDS):
-        inside = fold == number
-        said[inside] = Grader.of(samples.take(~inside), c=c, gamma=gamma).grades(samples.energies[inside])
-    return said
+    return cross_validated(samples, samples.grade, samples.model, said, rng, costs=costs, gammas=gammas)
 
 
 def written_grades(trained: TrainedGrades, facts: Mapping[str, str]) -> str:
@@ -280,14 +235,7 @@ def written_grades(trained: TrainedGrades, facts: Mapping[str, str]) -> str:
     """
     samples = trained.samples
     counts = np.bincount(samples.grade, minlength=len(GRADES)).tolist()
-    results = {
-        "samples": f"{len(samples.grade)}, of which "
-        + ", ".join(f"{n} {g}" for n, g in zip(counts, GRADES, strict=True)),
-        "C": repr(trained.c),
-        "gamma": repr(trained.gamma),
-        "cross-validation": f"{FOLDS} folds by model, micro F1 {trained.micro:.3f}, macro F1 {trained.macro:.3f}",
-        "confusion": " ".join(map(str, trained.confusion.ravel())),
-    }
-    lines = [f"# {name}: {value}" for name, value in {**facts, **results}.items()]
+    counted = ", ".join(f"{n} {g}" for n, g in zip(counts, GRADES, strict=True))
     rows = np.column_stack([samples.model, samples.grade, samples.energies]).astype(int)
-    return "\n".join([*lines, ",".join(COLUMNS), *(",".join(map(str, row)) for row in rows), ""])
+    told = trained.facts(f"{len(samples.grade)}, of which {counted}")
+    return samples_file({**facts, **told}, COLUMNS, rows.tolist())

@@ -8,21 +8,19 @@ need no labelling by hand, and users can train on their own models.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...arrays import Mask
 from ...errors import BuildError
 from ...model import NOBODY, Bricks, Catalogue, Fill, UnitGrid, contact_graph, ground_of
 from ..problem import GROUND, Index, Problem, owners, placements, pose, shapes, split, with_margins
 from ..solvers import cover, fewer_small, gains
+from .cross_validation import Trained, cross_validated, samples_file
 from .svm import COLUMNS, Machine, Samples, changes
 
 N_SAMPLES: Final = 1500
-FOLDS: Final = 5
 
 COSTS: Final = tuple(2.0**power for power in range(-3, 10, 3))
 GAMMAS: Final = tuple(2.0**power for power in range(-5, 4, 2))
@@ -35,30 +33,8 @@ _GAIN: Final = 1e-6
 """Bricks that a placement has to save to pay."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Trained:
-    """The outcome of a training.
-
-    Attributes
-    ----------
-    samples : Samples
-    c, gamma : float
-        The best of the grid; ``Machine.of`` wants them.
-    grid : mapping of (C, gamma) to float
-        Share of right answers in the cross-validation (the micro-average F1).
-    micro, macro : float
-        F1 of the best, averaged over samples and over classes.
-    confusion : (2, 2) intp array
-        Rows: does not pay, pays; columns: what the machine held it for.
-    """
-
-    samples: Samples
-    c: float
-    gamma: float
-    grid: Mapping[tuple[float, float], float]
-    micro: float
-    macro: float
-    confusion: Index
+TrainedExchanges = Trained[Samples]
+"""The outcome of a training; classes are: does not pay, pays."""
 
 
 def tasks(grid: UnitGrid, bricks: Bricks, catalogue: Catalogue) -> Iterator[Problem]:
@@ -158,7 +134,7 @@ def _drawn(pool: Samples, rows: Index, n: int, rng: np.random.Generator) -> Inde
 
 def train(
     samples: Samples, rng: np.random.Generator, *, costs: Sequence[float] = COSTS, gammas: Sequence[float] = GAMMAS
-) -> Trained:
+) -> TrainedExchanges:
     """Choose C and gamma by cross-validation.
 
     Parameters
@@ -179,69 +155,19 @@ def train(
     BuildError
         There are fewer models than folds.
     """
-    # loading it takes longer than building a small model, which does not need it
-    from sklearn.metrics import confusion_matrix, f1_score
 
-    fold = folds(samples.model, rng)
-    answers = {(c, gamma): _answers(samples, fold, c, gamma) for c in costs for gamma in gammas}
-    grid = {pair: float(np.mean(each == samples.pays)) for pair, each in answers.items()}
-    # the first of equal ones: the smoothest machine
-    c, gamma = max(grid, key=lambda pair: grid[pair])
-    best = answers[c, gamma]
-    return Trained(
-        samples=samples,
-        c=c,
-        gamma=gamma,
-        grid=grid,
-        micro=float(f1_score(samples.pays, best, average="micro")),
-        macro=float(f1_score(samples.pays, best, average="macro")),
-        confusion=confusion_matrix(samples.pays, best),
-    )
-
-
-def folds(model: NDArray[np.int16], rng: np.random.Generator) -> Index:
-    """Deal models out to folds, (n,): the fold of each sample.
-
-    Parameters
-    ----------
-    model : (n,) int16 array
-        Number of the model that each sample is from.
-    rng : numpy.random.Generator
-        Shuffles.
-
-    Returns
-    -------
-    (n,) intp array
-        From 0 to below ``FOLDS``.
-
-    Raises
-    ------
-    BuildError
-        There are fewer models than folds.
-    """
-    numbers, row = np.unique(model, return_inverse=True)
-    if len(numbers) < FOLDS:
-        raise BuildError(f"The samples are from {len(numbers)} models: train on at least {FOLDS} models.")
-    dealt: Index = rng.permutation(len(numbers))[row] % FOLDS
-    return dealt
-
-
-def _answers(samples: Samples, fold: Index, c: float, gamma: float) -> Mask:
-    """Return what machines say of the samples of each fold when trained on the others."""
-    said = np.zeros(len(fold), dtype=bool)
-    for number in range(FOLDS):
-        inside = fold == number
-        kinds = np.unique(samples.pays[~inside])
+    def said(out: Mask, c: float, gamma: float) -> Mask:
+        kinds = np.unique(samples.pays[~out])
         if len(kinds) == 1:
             # a machine that was trained on one kind alone predicts only this kind
-            said[inside] = kinds[0]
-            continue
-        machine = Machine.of(samples.take(~inside), c=c, gamma=gamma)
-        said[inside] = machine.decision(samples.levels[inside]) > 0
-    return said
+            return np.full(np.count_nonzero(out), kinds[0])
+        machine = Machine.of(samples.take(~out), c=c, gamma=gamma)
+        return machine.decision(samples.levels[out]) > 0
+
+    return cross_validated(samples, samples.pays, samples.model, said, rng, costs=costs, gammas=gammas)
 
 
-def written(trained: Trained, facts: Mapping[str, str]) -> str:
+def written(trained: TrainedExchanges, facts: Mapping[str, str]) -> str:
     """Write a training down as text that :func:`~.svm.read` reads.
 
     Parameters
@@ -256,14 +182,6 @@ def written(trained: Trained, facts: Mapping[str, str]) -> str:
         Lines of ``# name: value``, then a table in CSV.
     """
     samples = trained.samples
-    results = {
-        "samples": f"{len(samples.pays)}, of which {samples.pays.sum()} pay",
-        "C": repr(trained.c),
-        "gamma": repr(trained.gamma),
-        "cross-validation": f"{FOLDS} folds by model, micro F1 {trained.micro:.3f}, macro F1 {trained.macro:.3f}",
-        "confusion": " ".join(map(str, trained.confusion.ravel())),
-    }
-    lines = [f"# {name}: {value}" for name, value in {**facts, **results}.items()]
     rows = np.column_stack([samples.model, samples.pays, samples.levels]).astype(int)
-    table = [",".join(COLUMNS), *(",".join(map(str, row)) for row in rows)]
-    return "\n".join([*lines, *table, ""])
+    told = trained.facts(f"{len(samples.pays)}, of which {samples.pays.sum()} pay")
+    return samples_file({**facts, **told}, COLUMNS, rows.tolist())

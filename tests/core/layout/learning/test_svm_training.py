@@ -10,9 +10,7 @@ from legorize_addon.core.layout.lay import lay
 from legorize_addon.core.layout.learning.svm import Samples, read
 from legorize_addon.core.layout.learning.svm_training import (
     COSTS,
-    FOLDS,
     GAMMAS,
-    folds,
     samples_of,
     tasks,
     train,
@@ -69,16 +67,6 @@ def test_too_little_to_learn_from():
     bricks = lay(grid, CATALOGUE, rng=np.random.default_rng(0))
     with pytest.raises(BuildError, match="0 samples of 30"):
         samples_of([(grid, bricks)], CATALOGUE, np.random.default_rng(0), N)
-
-
-def test_folds_keep_models_together():
-    """All samples of a model are in one fold, no fold is empty, and too few models are refused."""
-    model = np.repeat(np.arange(12), 5).astype(np.int16)
-    fold = folds(model, np.random.default_rng(0))
-    assert set(fold) == set(range(FOLDS))
-    assert all(len(set(fold[model == number])) == 1 for number in range(12))
-    with pytest.raises(BuildError, match="from 4 models"):
-        folds(np.arange(4, dtype=np.int16), np.random.default_rng(0))
 
 
 def test_what_can_be_told_apart_is():
