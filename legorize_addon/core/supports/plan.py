@@ -6,7 +6,7 @@ trees that do not bear their load become trunks of their own.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Final, Literal
@@ -127,8 +127,8 @@ def plan_supports(
         trying("supports", 0.0)
         if best is not None and not len(contacts.cells):
             break
-        laid = partial(_laid, need=need, catalogue=assembly.catalogue, way=way, long_bricks=long_bricks)
-        found = _settled(assembly, need, contacts, clutch, trying, laid, best)
+        laid = partial(_light, best, need, assembly.catalogue, way, long_bricks=long_bricks)
+        found = _settled(assembly, need, contacts, way, clutch, trying, laid)
         if best is None or (found is not None and _worth(found, assembly.catalogue) < _worth(best, assembly.catalogue)):
             best = found
     return _bare(assembly, need, contacts, progress) if best is None else best
@@ -147,19 +147,17 @@ def _settled(
     assembly: Assembly,
     need: Demand,
     contacts: SupportContacts,
+    way: Way,
     clutch: float,
     progress: Progress,
-    laid: partial[Bricks],
-    best: Plan | None,
+    laid: Callable[[SupportContacts], Bricks | None],
 ) -> Plan | None:
-    """Add contacts and straighten branches until all stands and bears, nothing more helps, or another is better."""
-    way: Way = laid.keywords["way"]
+    """Add contacts and straighten branches until all stands and bears, nothing more helps, or none are laid."""
     for left in reversed(range(ROUNDS)):
         trying = part(progress, 1 - (left + 1) / ROUNDS, 1 - left / ROUNDS)
-        supports = laid(contacts)
-        # contacts are added, never taken away: what is too heavy stays so
-        if best is not None and _worth(best, assembly.catalogue) <= (False, _mass(supports, assembly.catalogue)):
+        if (offered := laid(contacts)) is None:
             return None
+        supports = offered
         # what the last round finds is not laid any more
         falling, braces = _falling(assembly, supports, contacts, need, add=left > 0, progress=trying)
         giving, bears = np.zeros(len(contacts.cells), dtype=bool), True
@@ -217,6 +215,18 @@ def _falling(
     return tipping(
         steps, Assembly(everything, assembly.catalogue), pairs, prop=prop if add else no_prop, progress=watched
     ), braces
+
+
+def _light(
+    best: Plan | None, need: Demand, catalogue: Catalogue, way: Way, contacts: SupportContacts, *, long_bricks: bool
+) -> Bricks | None:
+    """Return the bricks of all supports; None if another plan is better than these can become.
+
+    Contacts are added, never taken away: what is too heavy stays so.
+    """
+    supports = _laid(contacts, need, catalogue, way, long_bricks=long_bricks)
+    heavy = best is not None and _worth(best, catalogue) <= (False, _mass(supports, catalogue))
+    return None if heavy else supports
 
 
 def _laid(contacts: SupportContacts, need: Demand, catalogue: Catalogue, way: Way, *, long_bricks: bool) -> Bricks:

@@ -19,7 +19,7 @@ from ..model import CELL_SIZE, COLOUR_EMPTY, Fill, Role, UnitGrid, ground_of
 from ..units import PLATES_PER_BRICK
 
 STANDS: Final = 10.0
-"""Degrees by which a model with feet can be tilted: more than a push of a finger or a crooked shelf does."""
+"""Degrees by which a model with feet can be tilted: chosen, not measured."""
 
 THIN: Final = 3
 """Studs that the base of a wall or a post is deep at most: what is thicker has a shape that feet would spoil."""

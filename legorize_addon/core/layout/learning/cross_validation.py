@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final, Generic, TypeVar
 
@@ -158,22 +158,3 @@ def folds(model: NDArray[np.int16], rng: np.random.Generator) -> Index:
         raise BuildError(f"The samples are from {len(numbers)} models: train on at least {FOLDS} models.")
     dealt: Index = rng.permutation(len(numbers))[row] % FOLDS
     return dealt
-
-
-def samples_file(facts: Mapping[str, str], columns: Sequence[str], table: Iterable[Sequence[int]]) -> str:
-    """Return the text of a file of samples: lines of ``# name: value``, then a table in CSV.
-
-    Parameters
-    ----------
-    facts : mapping of str to str
-    columns : sequence of str
-        Of the table.
-    table : iterable of sequence of int
-        Its rows.
-
-    Returns
-    -------
-    str
-    """
-    lines = [f"# {name}: {value}" for name, value in facts.items()]
-    return "\n".join([*lines, ",".join(columns), *(",".join(map(str, row)) for row in table), ""])

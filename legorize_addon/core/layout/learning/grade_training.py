@@ -16,11 +16,12 @@ from ...arrays import Floats, Mask
 from ...errors import BuildError
 from ...model import Catalogue, UnitGrid
 from ..problem import Index, Sheets, shapes, split
-from .cross_validation import Trained, cross_validated, samples_file
+from .cross_validation import Trained, cross_validated
 from .fill import Choice, decided, fill_upwards
 from .grading import COLUMNS, GRADES, Graded, Grader, drawn_best, relative
 from .layer import Layer
 from .regret import regrets
+from .sample_file import text_of
 from .simulation import Outcome, Windows
 
 EACH_GRADE: Final = 500
@@ -238,4 +239,4 @@ def written_grades(trained: TrainedGrades, facts: Mapping[str, str]) -> str:
     counted = ", ".join(f"{n} {g}" for n, g in zip(counts, GRADES, strict=True))
     rows = np.column_stack([samples.model, samples.grade, samples.energies]).astype(int)
     told = trained.facts(f"{len(samples.grade)}, of which {counted}")
-    return samples_file({**facts, **told}, COLUMNS, rows.tolist())
+    return text_of({**facts, **told}, COLUMNS, rows.tolist())

@@ -1,4 +1,4 @@
-"""The text of a file of samples: read from the disk within limits, and checked line by line.
+"""The text of a file of samples: written, read from the disk within limits, and checked line by line.
 
 A user may choose any file: a picture, a device without an end, a table that a spreadsheet has changed. Everything that
 the training relies on is checked here, so that a wrong file gives one sentence that names the line.
@@ -10,7 +10,7 @@ import math
 import os
 import re
 import stat
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
@@ -89,6 +89,25 @@ def _check_kind(found: os.stat_result) -> None:
     # files that the system generates while they are read have no size
     if found.st_size == 0:
         raise SampleFileError("is empty")
+
+
+def text_of(facts: Mapping[str, str], columns: Sequence[str], table: Iterable[Sequence[int]]) -> str:
+    """Return the text of a file of samples: lines of ``# name: value``, then a table in CSV.
+
+    Parameters
+    ----------
+    facts : mapping of str to str
+    columns : sequence of str
+        Of the table.
+    table : iterable of sequence of int
+        Its rows.
+
+    Returns
+    -------
+    str
+    """
+    lines = [f"# {name}: {value}" for name, value in facts.items()]
+    return "\n".join([*lines, ",".join(columns), *(",".join(map(str, row)) for row in table), ""])
 
 
 def facts_and_rows(

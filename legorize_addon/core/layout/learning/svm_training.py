@@ -17,7 +17,8 @@ from ...errors import BuildError
 from ...model import NOBODY, Bricks, Catalogue, Fill, UnitGrid, contact_graph, ground_of
 from ..problem import GROUND, Index, Problem, owners, placements, pose, shapes, split, with_margins
 from ..solvers import cover, fewer_small, gains
-from .cross_validation import Trained, cross_validated, samples_file
+from .cross_validation import Trained, cross_validated
+from .sample_file import text_of
 from .svm import COLUMNS, Machine, Samples, changes
 
 N_SAMPLES: Final = 1500
@@ -184,4 +185,4 @@ def written(trained: TrainedExchanges, facts: Mapping[str, str]) -> str:
     samples = trained.samples
     rows = np.column_stack([samples.model, samples.pays, samples.levels]).astype(int)
     told = trained.facts(f"{len(samples.pays)}, of which {samples.pays.sum()} pay")
-    return samples_file({**facts, **told}, COLUMNS, rows.tolist())
+    return text_of({**facts, **told}, COLUMNS, rows.tolist())

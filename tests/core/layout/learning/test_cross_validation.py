@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.errors import BuildError
-from legorize_addon.core.layout.learning.cross_validation import FOLDS, cross_validated, folds, samples_file
-from legorize_addon.core.layout.learning.sample_file import facts_and_rows
+from legorize_addon.core.layout.learning.cross_validation import FOLDS, cross_validated, folds
 
 
 def test_folds_keep_models_together():
@@ -41,11 +40,3 @@ def test_the_best_pair_is_chosen():
     assert len(asked) == 4 * FOLDS
     np.testing.assert_array_equal(np.sum(asked[:FOLDS], axis=0), 1)
     assert all(set(model[out]).isdisjoint(model[~out]) for out in asked)
-
-
-def test_a_file_of_samples():
-    """What is written is read: facts and rows."""
-    text = samples_file({"C": "1.0", "gamma": "2.0", "what": "a test"}, ("model", "a"), [[0, 3], [1, 4]])
-    facts, rows = facts_and_rows(text, ("model", "a"), (10, 10))
-    assert facts["what"] == "a test"
-    assert rows.tolist() == [[0, 3], [1, 4]]

@@ -11,7 +11,7 @@ import pytest
 
 from legorize_addon.core.errors import BuildError, SettingsError
 from legorize_addon.core.layout.learning.own_samples import learned_table, samples_text
-from legorize_addon.core.layout.learning.sample_file import MOST_BYTES, MOST_SAMPLES, _shown
+from legorize_addon.core.layout.learning.sample_file import MOST_BYTES, MOST_SAMPLES, _shown, facts_and_rows, text_of
 from legorize_addon.core.layout.learning.svm import LEVELS, Machine, read, table_of
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
@@ -193,3 +193,11 @@ def test_a_wrong_file_is_refused_before_the_work(layout: str, learned: bool, pat
 def test_long_values_are_cut_to_twenty_characters(length, shown):
     """A value from a file is shown whole if it is short."""
     assert _shown("x" * length) == repr(shown)
+
+
+def test_a_file_of_samples():
+    """What is written is read: facts and rows."""
+    text = text_of({"C": "1.0", "gamma": "2.0", "what": "a test"}, ("model", "a"), [[0, 3], [1, 4]])
+    facts, rows = facts_and_rows(text, ("model", "a"), (10, 10))
+    assert facts["what"] == "a test"
+    assert rows.tolist() == [[0, 3], [1, 4]]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.layout.solvers import greedy
@@ -106,7 +106,8 @@ def plain(problem, rng):
     ties = []
     for row in range(len(cells)):
         x, y, sheet = found.corner[row].tolist()
-        odd = problem.sheets.level[sheet] // problem.sheets.height % 2
+        # a whole number of Python: the sum of two truths of numpy is one truth
+        odd = int(problem.sheets.level[sheet]) // problem.sheets.height % 2
         wide, deep = problem.shapes.extent[found.shape[row]].tolist()
         on_lattice = ((x + odd * (wide // 2)) % wide == 0) + ((y + odd * (deep // 2)) % deep == 0)
         ties.append(on_lattice * len(cells) + int(chance[row]))
@@ -132,18 +133,13 @@ def plain(problem, rng):
     return laid
 
 
-def test_bricks_are_those_of_the_plain_rules():
-    """Small sheets over nothing, over the ground and over seams: the same bricks in the same order.
-
-    In one sheet of sixty the last bricks differ, which is not understood yet.
-    """
-    assert sum(not laid_by_the_plain_rules(seed) for seed in range(60)) <= 1
-
-
-def laid_by_the_plain_rules(seed):
-    """Tell whether a random sheet is covered as by the plain rules."""
+@given(st.integers(0, 2**32 - 1))
+@example(21)
+@settings(max_examples=25)
+def test_bricks_are_those_of_the_plain_rules(seed):
+    """Small sheets over nothing, over the ground and over seams: the same bricks in the same order."""
     rng = np.random.default_rng(seed)
     colour, wanted = random_sheet(seed, (4, 5))
     below = rng.choice([NOBODY, 0, 1, 2], (4, 5)) if rng.random() < 0.7 else None
     problem = problem_of(colour, wanted, owner=below)
-    return cover(problem, np.random.default_rng(seed)).tolist() == plain(problem, np.random.default_rng(seed))
+    assert cover(problem, np.random.default_rng(seed)).tolist() == plain(problem, np.random.default_rng(seed))
