@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .again import as_good, cells_of, lay_again
 from .alike import Alike
+from .around import lay_around
 from .lay import FILLER, Manner, lay
 from .lay_learned import lay_learned
 from .recolour import recolour_visible
@@ -16,6 +17,7 @@ __all__ = [
     "cells_of",
     "lay",
     "lay_again",
+    "lay_around",
     "lay_learned",
     "recolour_visible",
 ]

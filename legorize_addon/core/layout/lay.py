@@ -25,6 +25,7 @@ from .learning import improved, shipped
 from .problem import (
     BRIDGE,
     GROUND,
+    Bar,
     Index,
     Placements,
     Problem,
@@ -38,6 +39,7 @@ from .problem import (
     shapes,
     split,
     with_margins,
+    without_barred,
 )
 from .solvers import exact, fewer_small, greedy, guessed_prices, linear
 from .symmetric import Fold
@@ -82,12 +84,15 @@ class Manner:
         Where the grid is folded, if it is one half of a symmetric one.
     beside : (n_plates + 2, n_y, n_x) int32 array, optional
         Bricks that lie in other cells already, see :func:`~.problem.owners`.
+    bars : tuple of Bar
+        Parts that may not lie at some places.
     """
 
     tier: Tier
     exchanges: Mask | None = None
     fold: Fold | None = None
     beside: Rows | None = None
+    bars: tuple[Bar, ...] = ()
 
 
 def lay(
@@ -211,7 +216,7 @@ def _listed(work: Work, layers: Mask, owner: Rows, required: Mask, manner: Manne
     for sheets, among in work:
         inside = sheets.take(layers[sheets.level // PLATES_PER_BRICK])
         if len(inside):
-            found = placements(inside, among)
+            found = without_barred(placements(inside, among), among, inside, manner.bars)
             found = found if manner.fold is None else manner.fold.possible(found, among)
             each = _Listed(inside, among, found, manner.fold)
             guessed = manner.tier == "standard"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .bars import Bar, without_barred
 from .blocks import blocks
 from .candidates import Amounts, Candidates
 from .dominance import dominated
@@ -16,6 +17,7 @@ __all__ = [
     "BRIDGE",
     "GROUND",
     "Amounts",
+    "Bar",
     "Candidates",
     "Index",
     "Placements",
@@ -39,4 +41,5 @@ __all__ = [
     "spread",
     "standing",
     "with_margins",
+    "without_barred",
 ]
