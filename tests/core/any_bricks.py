@@ -31,7 +31,7 @@ def table(rows):
 
 
 def _room(row):
-    return 5 * row + LONGEST * max(0, row - SMALL[-1])
+    return 5 * row + LONGEST * sum(large not in SMALL for large in range(row + 1))
 
 
 def everything():

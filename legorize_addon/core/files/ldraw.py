@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats
-from ..model import MISSING_CELL, Assembly, Bricks, Catalogue, Part, Role
+from ..model import MISSING_CELL, Assembly, Bricks, Catalogue, Part, Role, turned
 from ..safe_text import one_line, title_line
 from ..units import LDU_PER_MM, PLATE_LDU, STUD_LDU
 
@@ -105,7 +105,8 @@ def brick_lines(assembly: Assembly) -> list[str]:
     turn, origin = _places(assembly.bricks, assembly.catalogue)
     table = np.column_stack([assembly.bricks.part, assembly.bricks.colour, turn, origin]).tolist()
     return [
-        f"1 {colour} {x} {y} {z} {MATRICES[quarter]} {assembly.catalogue.parts[part].number}.dat"
+        f"1 {colour} {x} {y} {z} {MATRICES[matrix_of(assembly.catalogue.parts[part], quarter)]} "
+        f"{assembly.catalogue.parts[part].number}.dat"
         for part, colour, quarter, x, y, z in table
     ]
 
@@ -149,10 +150,20 @@ def _places(bricks: Bricks, catalogue: Catalogue) -> tuple[NDArray[np.uint8], ND
     return turn, origin + bricks.corner[:, [0, 2, 1]] * np.array((STUD_LDU, -PLATE_LDU, STUD_LDU))
 
 
+def matrix_of(part: Part, turn: int) -> int:
+    """Return the number of the matrix of a turned part: LDraw's slopes fall along -z, ours along x."""
+    return (turn + part.sloped) % len(MATRICES)
+
+
 def part_origin(part: Part, turn: int) -> tuple[int, int, int]:
     """Return a part's origin in LDU, from the lowest corner of its bounding box."""
+    high = 0 if part.profile == "cheese" else -part.height * PLATE_LDU
+    if part.sloped:
+        # under the middle of the high row
+        x, y = np.rint(turned(part, turn, np.array([0.5, part.width / 2])) * STUD_LDU).astype(int).tolist()
+        return x, high, y
     sides = (part.width, part.length) if turn % 2 else (part.length, part.width)
     if part.corner:
         # the elbow lies diagonally opposite the missing cell
         sides = (3 - 2 * MISSING_CELL[turn][0], 3 - 2 * MISSING_CELL[turn][1])
-    return sides[0] * STUD_LDU // 2, -part.height * PLATE_LDU, sides[1] * STUD_LDU // 2
+    return sides[0] * STUD_LDU // 2, high, sides[1] * STUD_LDU // 2

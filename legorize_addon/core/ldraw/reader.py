@@ -113,7 +113,9 @@ def read_ldraw(text: str, catalogue: Catalogue, *, beside: Callable[[str], str |
     known = part >= 0
     left_out = Counter(_number(names[row]) for row in parts.name[~known].tolist())
     corner_part = np.array([each.corner for each in catalogue.parts])[part] & known
-    turn, mirrored = quarter_turns(parts.matrix, corner_part)
+    matrix, mirrored = quarter_turns(parts.matrix, corner_part)
+    sloped = np.array([each.sloped for each in catalogue.parts])[part] & known
+    turn = np.where(matrix < 0, matrix, (matrix - sloped) % 4)
     # far away by calls within calls, or nowhere
     near: Mask = (np.abs(parts.place) < FARTHEST).all(axis=1)
     upright = known & near & (turn >= 0)

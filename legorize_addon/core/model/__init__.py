@@ -8,13 +8,25 @@ from ..on_demand import on_demand
 from .brick_columns import Touching, agree, brick_columns, every_plate
 from .bricks import NOBODY, SUPPORTS, Bricks, Role, concatenate
 from .catalogue import ASSETS, Catalogue, Colour, load_catalogue
-from .parts import MISSING_CELL, Part, Use, footprint
+from .parts import MISSING_CELL, SLOPED, Part, Use, footprint
+from .profiles import Columns, columns, lines, solid, turned
 from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
 from .verdict import UNSUPPORTED, Verdict
 
 if TYPE_CHECKING:
     from .assembly import Assembly
-    from .contacts import ContactGraph, Rows, clutches, components, contact_graph, middles, stacked, stud_columns
+    from .contacts import (
+        ContactGraph,
+        Rows,
+        centres,
+        clutches,
+        column_facts,
+        components,
+        contact_graph,
+        middles,
+        stacked,
+        stud_columns,
+    )
 else:
     # the graphs of scipy
     __getattr__ = on_demand(
@@ -23,7 +35,9 @@ else:
         contacts=(
             "ContactGraph",
             "Rows",
+            "centres",
             "clutches",
+            "column_facts",
             "components",
             "contact_graph",
             "middles",
@@ -39,12 +53,14 @@ __all__ = [
     "COLOUR_EMPTY",
     "MISSING_CELL",
     "NOBODY",
+    "SLOPED",
     "SUPPORTS",
     "UNSUPPORTED",
     "Assembly",
     "Bricks",
     "Catalogue",
     "Colour",
+    "Columns",
     "ContactGraph",
     "Fill",
     "Part",
@@ -56,15 +72,21 @@ __all__ = [
     "Verdict",
     "agree",
     "brick_columns",
+    "centres",
     "clutches",
+    "column_facts",
+    "columns",
     "components",
     "concatenate",
     "contact_graph",
     "every_plate",
     "footprint",
     "ground_of",
+    "lines",
     "load_catalogue",
     "middles",
+    "solid",
     "stacked",
     "stud_columns",
+    "turned",
 ]

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..arrays import Floats, Ints, Mask
 from ..errors import BuildError
 from .parts import MISSING_CELL as MISSING_CELL
-from .parts import Part, Profile, Use
+from .parts import SLOPED, Part, Profile, Use
 from .parts import footprint as footprint
 from .unit_grid import COLOUR_ANY
 
@@ -61,7 +61,7 @@ class Catalogue:
     Attributes
     ----------
     parts : tuple of Part
-        In the order of the table: bricks, plates, tall bricks, and what only mosaics use.
+        In the order of the table: bricks, plates, tall bricks, what only mosaics use, and slopes.
     colours : tuple of Colour
         By ascending LDraw code.
     exists : (n_parts, n_colours) bool array
@@ -104,7 +104,7 @@ class Catalogue:
 
     @property
     def studs(self) -> Mask:
-        """Whether each part has studs on top, shape (n_parts,)."""
+        """Whether each part has any studs on top, shape (n_parts,)."""
         return np.array([part.studs for part in self.parts])
 
     @property
@@ -113,8 +113,10 @@ class Catalogue:
         return np.array([part.sockets for part in self.parts])
 
     def used_for(self, use: Use) -> Mask:
-        """Return which parts are laid for something, shape (n_parts,)."""
-        return np.array([part.use == use for part in self.parts])
+        """Return which parts are laid for something, shape (n_parts,); tiles are for surfaces, too."""
+        return np.array(
+            [part.use == use or (use == "surface" and part.profile == "tile") for part in self.parts], dtype=bool
+        )
 
     def part_row(self, number: str) -> int:
         """Return the row of the part with an LDraw number or alias.
@@ -241,7 +243,10 @@ def _read(path: Path, convert: Callable[[dict[str, str]], _Row]) -> tuple[_Row, 
 
 def _part(cells: dict[str, str]) -> Part:
     length, width = int(cells["length"]), int(cells["width"])
-    if not length >= width > 0:
+    profile = _word(cells["profile"], Profile)
+    if min(length, width) < 1:
+        raise ValueError(f"{length} x {width} is no size")
+    if length < width and profile not in SLOPED:
         raise ValueError(f"{length} x {width} does not name the longer side first")
     return Part(
         number=cells["number"],
@@ -249,7 +254,7 @@ def _part(cells: dict[str, str]) -> Part:
         length=length,
         width=width,
         height=int(cells["height"]),
-        profile=_word(cells["profile"], Profile),
+        profile=profile,
         use=_word(cells["use"], Use),
         mass=float(cells["mass_g"]),
         mass_source=cells["mass_source"],

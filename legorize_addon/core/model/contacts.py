@@ -1,8 +1,8 @@
 """How the bricks are connected: cells, collisions, stud contacts, components.
 
 A brick sits on another one when a cell of its underside lies on a cell of the
-other's top, and there are studs to clutch: none sits on a tile, and no baseplate
-sits on anything. Bricks that are connected by such contacts form a component; a
+other's top, and there are a stud and a socket: none sits on a tile or on the fall
+of a slope, and no baseplate sits on anything. Bricks that are connected by such contacts form a component; a
 component that stands on the lowest plate is grounded, every other one floats.
 """
 
@@ -19,7 +19,8 @@ from scipy.sparse.csgraph import connected_components
 from ..arrays import Floats, Mask
 from .bricks import NOBODY as NOBODY
 from .bricks import Bricks
-from .catalogue import Catalogue, footprint
+from .catalogue import Catalogue
+from .profiles import Columns, centre, columns
 
 Rows = NDArray[np.int32]
 
@@ -82,16 +83,25 @@ def contact_graph(bricks: Bricks, catalogue: Catalogue) -> ContactGraph:
     ContactGraph
         Cells, contacts and components.
     """
-    brick, columns = stud_columns(bricks, catalogue)
-    heights = catalogue.height[bricks.part].astype(np.int32)
-    low = columns.min(axis=0, initial=0).astype(np.int32)
-    owner, collisions = _owners(brick, columns - low, heights[brick])
-    tops = columns - low
-    tops[:, 2] += heights[brick]
+    brick, squares = stud_columns(bricks, catalogue)
+    facts = column_facts(bricks, catalogue)
+    low = squares.min(axis=0, initial=0).astype(np.int32)
+    owner, collisions = _owners(brick, squares - low, facts.high - facts.low)
+    tops = squares - low
+    tops[:, 2] += facts.high - facts.low
     above = owner[tops[:, 2], tops[:, 1], tops[:, 0]]
-    pairs, studs = _contacts(brick, np.where(clutches(bricks, catalogue, brick, above), above, NOBODY), len(bricks))
+    held = clutches(bricks, catalogue, brick, above, squares[:, :2])
+    pairs, studs = _contacts(brick, np.where(held, above, NOBODY), len(bricks))
     component = components(pairs, len(bricks))
-    return ContactGraph(owner[:-1], low, collisions, pairs, studs, component, _grounded(component, bricks.corner[:, 2]))
+    return ContactGraph(
+        owner[:-1],
+        low,
+        collisions,
+        pairs,
+        studs,
+        component,
+        _grounded(component, brick[facts.foot], squares[facts.foot, 2]),
+    )
 
 
 def stud_columns(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, Rows]:
@@ -111,18 +121,36 @@ def stud_columns(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, Rows]:
     columns : (n_columns, 3) int32 array
         Stud square (x, y) and lowest plate z of the brick there.
     """
-    squares, size = _squares(catalogue)
-    kind = bricks.part.astype(np.intp) * 4 + bricks.turn
-    count = size[kind]
-    brick = np.repeat(np.arange(len(bricks), dtype=np.int32), count)
-    nth = np.arange(len(brick)) - np.repeat(np.cumsum(count) - count, count)
-    columns = bricks.corner[brick]
-    columns[:, :2] += squares[kind[brick], nth]
-    return brick, columns
+    brick, kind, nth = _each(bricks, catalogue)
+    table = _tables(catalogue)
+    squares = bricks.corner[brick]
+    squares[:, :2] += table.xy[kind, nth]
+    squares[:, 2] += table.low[kind, nth]
+    return brick, squares
 
 
-def clutches(bricks: Bricks, catalogue: Catalogue, lower: Rows, upper: Rows) -> Mask:
-    """Return whether the stud squares of a brick would hold another one that lies on it.
+def column_facts(bricks: Bricks, catalogue: Catalogue) -> Columns:
+    """Return what the bricks are in the stud squares that :func:`stud_columns` lists, in its order.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        The model.
+    catalogue : Catalogue
+        Whose parts the bricks are.
+
+    Returns
+    -------
+    Columns
+        All counted from the corner of each brick; arrays of length n_columns.
+    """
+    _, kind, nth = _each(bricks, catalogue)
+    table = _tables(catalogue)
+    return Columns(*(getattr(table, name)[kind, nth] for name in Columns.__slots__))
+
+
+def clutches(bricks: Bricks, catalogue: Catalogue, lower: Rows, upper: Rows, squares: Rows) -> Mask:
+    """Return whether bricks would hold others that lie on them in a stud square.
 
     Parameters
     ----------
@@ -132,32 +160,91 @@ def clutches(bricks: Bricks, catalogue: Catalogue, lower: Rows, upper: Rows) -> 
         Whose parts the bricks are.
     lower, upper : (k,) int32 arrays
         Rows of bricks; what ``NOBODY`` gets has no meaning.
+    squares : (k, 2) int32 array
+        The stud squares, x and y.
 
     Returns
     -------
     (k,) bool array
+        Whether the lower brick has a stud there and the upper one a socket.
     """
-    held: Mask = catalogue.studs[bricks.part][lower] & catalogue.sockets[bricks.part][upper]
+    if not len(bricks):
+        return np.zeros(len(lower), dtype=bool)
+    stud, socket, place = _places(catalogue)
+    held: Mask = np.ones(len(lower), dtype=bool)
+    for rows, there in ((lower, stud), (upper, socket)):
+        kind = bricks.part[rows].astype(np.intp) * 4 + bricks.turn[rows]
+        x, y = (np.asarray(squares) - bricks.corner[rows, :2]).T
+        start, wide, deep = place[kind].T
+        within = (x >= 0) & (x < wide) & (y >= 0) & (y < deep)
+        held &= there[np.where(within, start + x * deep + y, 0)] & within
     return held
 
 
 def middles(bricks: Bricks, catalogue: Catalogue) -> Floats:
-    """Return the middle of the stud squares of each brick, x and y in studs, (n, 2) float64."""
-    brick, columns = stud_columns(bricks, catalogue)
-    n_columns = np.bincount(brick, minlength=len(bricks))
-    across = [np.bincount(brick, columns[:, axis] + 0.5, len(bricks)) / n_columns for axis in (0, 1)]
-    return np.stack(across, axis=1)
+    """Return the middle of the weight of each brick seen from above, x and y in studs, (n, 2) float64."""
+    return centres(bricks, catalogue)[:, :2]
+
+
+def centres(bricks: Bricks, catalogue: Catalogue) -> Floats:
+    """Return the centre of mass of each brick, x and y in studs and z in plates, (n, 3) float64."""
+    return bricks.corner + _centres(catalogue)[bricks.part, bricks.turn]
 
 
 @lru_cache
-def _squares(catalogue: Catalogue) -> tuple[Rows, NDArray[np.intp]]:
-    """Return the stud squares of every part at every turn, (4 n_parts, most, 2), and how many there are."""
-    covered = [footprint(part, turn) for part in catalogue.parts for turn in range(4)]
-    size = np.array([len(each) for each in covered])
-    squares = np.zeros((len(covered), size.max(), 2), dtype=np.int32)
-    for row, each in enumerate(covered):
-        squares[row, : len(each)] = each
-    return squares, size
+def _centres(catalogue: Catalogue) -> Floats:
+    """Return the centre of every part at every turn from its corner, (n_parts, 4, 3)."""
+    return np.array([[centre(part, turn) for turn in range(4)] for part in catalogue.parts])
+
+
+def _each(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, NDArray[np.intp], NDArray[np.intp]]:
+    """Return the brick, the oriented part, and the number within it of each stud square."""
+    kind = bricks.part.astype(np.intp) * 4 + bricks.turn
+    count = _sizes(catalogue)[kind]
+    brick = np.repeat(np.arange(len(bricks), dtype=np.int32), count)
+    nth = np.arange(len(brick)) - np.repeat(np.cumsum(count) - count, count)
+    return brick, kind[brick], nth
+
+
+@lru_cache
+def _oriented(catalogue: Catalogue) -> tuple[Columns, ...]:
+    """Return the columns of every part at every turn."""
+    return tuple(columns(part, turn) for part in catalogue.parts for turn in range(4))
+
+
+@lru_cache
+def _sizes(catalogue: Catalogue) -> NDArray[np.intp]:
+    """Return how many stud squares every part has at every turn, (4 n_parts,)."""
+    return np.array([len(each.xy) for each in _oriented(catalogue)])
+
+
+@lru_cache
+def _tables(catalogue: Catalogue) -> Columns:
+    """Return the columns of every part at every turn, arrays of (4 n_parts, most)."""
+    found, most = _oriented(catalogue), _sizes(catalogue).max()
+    made = []
+    for name in Columns.__slots__:
+        first = getattr(found[0], name)
+        table = np.zeros((len(found), most, *first.shape[1:]), first.dtype)
+        for row, each in enumerate(found):
+            table[row, : len(each.xy)] = getattr(each, name)
+        made.append(table)
+    return Columns(*made)
+
+
+@lru_cache
+def _places(catalogue: Catalogue) -> tuple[Mask, Mask, NDArray[np.intp]]:
+    """Return studs and sockets by place in the boxes of oriented parts, one after the other; start and sides of each."""
+    studs, sockets, place, start = [], [], [], 0
+    for each in _oriented(catalogue):
+        wide, deep = (each.xy.max(axis=0) + 1).tolist()
+        for made, there in ((studs, each.stud), (sockets, each.socket)):
+            box = np.zeros((wide, deep), bool)
+            box[each.xy[:, 0], each.xy[:, 1]] = there
+            made.append(box.reshape(-1))
+        place.append((start, wide, deep))
+        start += wide * deep
+    return np.concatenate(studs), np.concatenate(sockets), np.array(place)
 
 
 def stacked(pairs: Rows, n: int) -> tuple[list[list[int]], list[list[int]]]:
@@ -229,9 +316,9 @@ def _contacts(lower: Rows, upper: Rows, n: int) -> tuple[Rows, Rows]:
     return np.stack(np.divmod(pair, max(n, 1)), axis=1).astype(np.int32), studs.astype(np.int32)
 
 
-def _grounded(component: Rows, level: Rows) -> Mask:
-    """Return which bricks are in components that stand on the lowest plate."""
-    standing = np.zeros(len(level), dtype=bool)
-    standing[component[level == level.min(initial=np.iinfo(np.int32).max)]] = True
+def _grounded(component: Rows, brick: Rows, level: Rows) -> Mask:
+    """Return which bricks are in components that stand on the lowest plate, given bricks and levels of their feet."""
+    standing = np.zeros(len(component), dtype=bool)
+    standing[component[brick[level == level.min(initial=np.iinfo(np.int32).max)]]] = True
     grounded: Mask = standing[component]
     return grounded

@@ -11,12 +11,17 @@ from numpy.typing import NDArray
 MISSING_CELL: Final = ((1, 1), (0, 1), (0, 0), (1, 0))
 """Cell (x, y) of the 2 x 2 bounding box that a corner part leaves free, by quarter turn."""
 
-Profile = Literal["box", "corner", "tile", "baseplate"]
+Profile = Literal["box", "corner", "tile", "baseplate", "slope", "cheese", "inverted"]
 """What a part looks like: a box with studs on top; the same as a 2 x 2 corner, which lacks one cell of its bounding
-box; smooth on top; or flat below and half as thick as a plate, in the upper half of its cells."""
+box; smooth on top; flat below and half as thick as a plate, in the upper half of its cells; or falling along its
+length: from a row of studs, from a sharp edge, or upside down under a top full of studs (see ``profiles``)."""
 
-Use = Literal["model", "tiles", "plates", "base"]
-"""What a part is laid for: models of all kinds; mosaics of tiles; mosaics of plates, and bases; bases alone."""
+SLOPED: Final = ("slope", "cheese", "inverted")
+"""Profiles that fall along the length: their high or deep end is at low x at turn 0."""
+
+Use = Literal["model", "tiles", "plates", "base", "surface"]
+"""What a part is laid for: models of all kinds; mosaics of tiles; mosaics of plates, and bases; bases alone; the
+surface of models."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,12 +35,12 @@ class Part:
     title : str
         Name for people, "Brick 2 x 4".
     length, width : int
-        Studs along x and y at turn 0; the length is the longer side.
+        Studs along x and y at turn 0; the length is the longer side, and that of a slope the one along which it falls.
     height : int
         Plates: 1 a plate, 3 a brick, 9 a tall brick.
-    profile : {"box", "corner", "tile", "baseplate"}
+    profile : {"box", "corner", "tile", "baseplate", "slope", "cheese", "inverted"}
         See ``Profile``.
-    use : {"model", "tiles", "plates", "base"}
+    use : {"model", "tiles", "plates", "base", "surface"}
         See ``Use``.
     mass : float
         Grams.
@@ -63,8 +68,8 @@ class Part:
 
     @property
     def studs(self) -> bool:
-        """Whether it has studs on top, for other parts to clutch."""
-        return self.profile != "tile"
+        """Whether it has any studs on top, for other parts to clutch."""
+        return self.profile not in ("tile", "cheese")
 
     @property
     def sockets(self) -> bool:
@@ -72,9 +77,14 @@ class Part:
         return self.profile != "baseplate"
 
     @property
+    def sloped(self) -> bool:
+        """Whether it falls along its length."""
+        return self.profile in SLOPED
+
+    @property
     def turns(self) -> int:
         """Number of different orientations: 1, 2 or 4 quarter turns."""
-        if self.corner:
+        if self.corner or self.sloped:
             return 4
         return 1 if self.length == self.width else 2
 

@@ -27,7 +27,18 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from ..arrays import Floats, Ints, Mask
-from ..model import NOBODY, Assembly, Bricks, Catalogue, ContactGraph, Rows, clutches, middles, stud_columns
+from ..model import (
+    NOBODY,
+    Assembly,
+    Bricks,
+    Catalogue,
+    ContactGraph,
+    Rows,
+    centres,
+    clutches,
+    column_facts,
+    stud_columns,
+)
 from ..units import PLATE, STUD
 
 GRAVITY: Final = 9.81
@@ -152,7 +163,8 @@ def statics(
     squares = stud_columns(assembly.bricks, assembly.catalogue)
     middle, rows = _centres(assembly.bricks, assembly.catalogue), np.flatnonzero(assembly.graph.grounded)
     narrow = np.array([part.width < 2 for part in assembly.catalogue.parts])[assembly.bricks.part]
-    standing = squares[1][:, 2] == squares[1][:, 2].min(initial=np.iinfo(np.int32).max)
+    foot = column_facts(assembly.bricks, assembly.catalogue).foot
+    standing = foot & (squares[1][:, 2] == squares[1][foot, 2].min(initial=np.iinfo(np.int32).max))
     feet = squares[0][standing], squares[1][standing]
     contacts = _joined(
         _studs(assembly, *squares, narrow, clutch),
@@ -169,8 +181,7 @@ def statics(
 
 def _centres(bricks: Bricks, catalogue: Catalogue) -> Floats:
     """Return the centre of mass of each brick in studs."""
-    height = catalogue.height[bricks.part]
-    return np.column_stack([middles(bricks, catalogue), (bricks.corner[:, 2] + height / 2) * (PLATE / STUD)])
+    return centres(bricks, catalogue) * (1, 1, PLATE / STUD)
 
 
 def _studs(assembly: Assembly, brick: Rows, columns: Rows, narrow: Mask, clutch: float) -> ContactForces:
@@ -179,7 +190,11 @@ def _studs(assembly: Assembly, brick: Rows, columns: Rows, narrow: Mask, clutch:
     x, y, z = (columns - graph.low).T
     # below the lowest plate the look-up would start again at the top
     lower = np.where(z > 0, graph.owner[z - 1, y, x], NOBODY)
-    held = (lower != NOBODY) & (lower != brick) & clutches(assembly.bricks, assembly.catalogue, lower, brick)
+    held = (
+        (lower != NOBODY)
+        & (lower != brick)
+        & clutches(assembly.bricks, assembly.catalogue, lower, brick, columns[:, :2])
+    )
     return _grips(brick[held], lower[held], columns[held], narrow, clutch)
 
 

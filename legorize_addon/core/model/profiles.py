@@ -1,0 +1,171 @@
+"""The shapes of the parts: what each of their columns claims and holds, and their exact solids.
+
+A part that falls along its length is given by two lines along it, of its top and its bottom, drawn out over its
+width. Columns, solids and centres of mass all follow from these lines. Measured in LDraw's library: slopes end in a
+lip of half a plate, cheese slopes are a twentieth of a plate lower than two plates and flat for 0.67 LDU at their edge.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import Floats, Mask
+from ..units import PLATE_LDU, STUD_LDU
+from .parts import Part, footprint
+
+Line = tuple[tuple[float, float], ...]
+
+LIP: Final = 4 / PLATE_LDU
+"""Height in plates of the edge in which a slope ends; that of an inverted slope is as thick."""
+
+CHEESE_TOP: Final = 15.6 / PLATE_LDU
+CHEESE_EDGE: Final = 0.67 / STUD_LDU
+
+_FINE: Final = 32
+"""Samples of a cell along each axis for the volume of a part: its centre is off by less than a thousandth of a stud."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Columns:
+    """The stud squares of a turned part, in the order of its footprint.
+
+    Attributes
+    ----------
+    xy : (k, 2) int32 array
+        Cells, from the lowest corner of the turned bounding box.
+    low, high : (k,) int32 arrays
+        Plates above the part's corner from which and up to which it claims the column.
+    stud : (k,) bool array
+        Whether a stud stands on the column, at `high`.
+    socket : (k,) bool array
+        Whether the column clutches a stud below, at `low`.
+    foot : (k,) bool array
+        Whether the column has a flat underside, at `low`, to stand on.
+    """
+
+    xy: NDArray[np.int32]
+    low: NDArray[np.int32]
+    high: NDArray[np.int32]
+    stud: Mask
+    socket: Mask
+    foot: Mask
+
+
+def lines(part: Part) -> tuple[Line, Line]:
+    """Return the lines of a part's top and bottom along its length: studs from its start, plates from its bottom."""
+    length, height = float(part.length), float(part.height)
+    top: Line = ((0.0, height), (length, height))
+    bottom: Line = ((0.0, 0.0), (length, 0.0))
+    if part.profile == "slope":
+        top = ((0.0, height), (1.0, height), (length, LIP))
+    elif part.profile == "cheese":
+        top = ((0.0, CHEESE_TOP), (CHEESE_EDGE, CHEESE_TOP), (length, LIP))
+    elif part.profile == "inverted":
+        bottom = ((0.0, 0.0), (1.0, 0.0), (length, height - LIP))
+    elif part.profile == "baseplate":
+        bottom = ((0.0, height / 2), (length, height / 2))
+    return top, bottom
+
+
+def columns(part: Part, turn: int) -> Columns:
+    """Return the stud squares of a part: what it claims there, and where it has studs, sockets and feet.
+
+    Parameters
+    ----------
+    part : Part
+        The part.
+    turn : int
+        Quarter turns, counter-clockwise as seen from above.
+
+    Returns
+    -------
+    Columns
+        In the order of :func:`footprint`.
+    """
+    xy = footprint(part, turn)
+    along = _unturned(part, turn, xy + 0.5)[:, 0]
+    low, high = np.zeros(len(xy), np.int32), np.full(len(xy), part.height, np.int32)
+    first = along < 1
+    stud, socket = np.full(len(xy), part.studs), np.full(len(xy), part.sockets)
+    foot = np.ones(len(xy), bool)
+    if part.sloped:
+        top, bottom = lines(part)
+        # both lines are flat or fall away from the start: their extremes in a column are at its ends
+        high = np.ceil(np.interp(along - 0.5, *zip(*top, strict=True))).astype(np.int32)
+        low = np.floor(np.interp(along - 0.5, *zip(*bottom, strict=True))).astype(np.int32)
+    if part.profile == "slope":
+        stud &= first
+    if part.profile == "inverted":
+        socket &= first
+        foot &= first
+    return Columns(xy, low, high, stud, socket, foot)
+
+
+def solid(part: Part, turn: int, across: int, up: int) -> Mask:
+    """Return the part as samples at the middles of subcells; walls, hollows and tubes are solid.
+
+    Parameters
+    ----------
+    part : Part
+        The part.
+    turn : int
+        Quarter turns, counter-clockwise as seen from above.
+    across : int
+        Samples of a stud along x and along y.
+    up : int
+        Samples of a plate.
+
+    Returns
+    -------
+    (k, height * up, across, across) bool array
+        By footprint cell, z, y and x; studs are left out.
+    """
+    xy = footprint(part, turn)
+    middle = (np.arange(across) + 0.5) / across
+    y, x = np.meshgrid(middle, middle, indexing="ij")
+    places = xy[:, None, None] + np.stack([x, y], axis=-1)
+    along = _unturned(part, turn, places)[..., 0]
+    top, bottom = (np.interp(along, *zip(*line, strict=True))[:, None] for line in lines(part))
+    z = ((np.arange(part.height * up) + 0.5) / up)[:, None, None]
+    inside: Mask = (z > bottom) & (z < top)
+    return inside
+
+
+@cache
+def centre(part: Part, turn: int) -> tuple[float, float, float]:
+    """Return the centre of mass of a part from its corner, x and y in studs, z in plates; as if solid all through.
+
+    Boxes have it in the middle of their squares, half way up.
+    """
+    cells = footprint(part, turn) + 0.5
+    if not part.sloped:
+        x, y = cells.mean(axis=0).tolist()
+        return x, y, part.height / 2
+    at = (np.arange(part.length * _FINE) + 0.5) / _FINE
+    top, bottom = (np.interp(at, *zip(*line, strict=True)) for line in lines(part))
+    weight = top - bottom
+    along = float((at * weight).sum() / weight.sum())
+    up = float(((top + bottom) / 2 * weight).sum() / weight.sum())
+    x, y = turned(part, turn, np.array([along, part.width / 2])).tolist()
+    return x, y, up
+
+
+def turned(part: Part, turn: int, places: Floats) -> Floats:
+    """Turn places (..., 2) in the bounding box of a part, in studs from its lowest corner before and after."""
+    x, y = places[..., 0], places[..., 1]
+    long, wide = part.length, part.width
+    ways = ((x, y), (wide - y, x), (long - x, wide - y), (y, long - x))
+    return np.stack(ways[turn % 4], axis=-1)
+
+
+def _unturned(part: Part, turn: int, places: Floats) -> Floats:
+    """Turn places in the bounding box of a turned part back to those at turn 0."""
+    x, y = places[..., 0], places[..., 1]
+    long, wide = part.length, part.width
+    ways = ((x, y), (y, wide - x), (long - x, wide - y), (long - y, x))
+    return np.stack(ways[turn % 4], axis=-1)

@@ -1,0 +1,50 @@
+"""The shapes of parts that fall along their length: columns, solids and centres agree with each other."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.model import columns, footprint, load_catalogue, solid
+from legorize_addon.core.model.profiles import centre
+
+PARTS = load_catalogue().parts
+NUMBER = {part.number: part for part in PARTS}
+SMALL = [part for part in PARTS if part.length <= 8]
+FINE = 8
+
+
+@pytest.mark.parametrize("turn", range(4))
+@pytest.mark.parametrize("part", SMALL, ids=lambda part: part.number)
+def test_columns_claim_the_plates_that_the_solid_reaches(part, turn):
+    """A column claims each plate with something of the part in it, and no other."""
+    found = columns(part, turn)
+    assert (found.xy == footprint(part, turn)).all()
+    plates = solid(part, turn, FINE, FINE).reshape(len(found.xy), part.height, -1).any(axis=2)
+    level = np.arange(part.height)
+    assert (plates == ((level >= found.low[:, None]) & (level < found.high[:, None]))).all()
+
+
+@pytest.mark.parametrize("turn", range(4))
+@pytest.mark.parametrize("part", SMALL, ids=lambda part: part.number)
+def test_centre_is_that_of_the_samples(part, turn):
+    """The centre of mass is the mean of fine samples of the solid, but for the height of the samples."""
+    cell, z, y, x = np.nonzero(solid(part, turn, 2 * FINE, 2 * FINE))
+    xy = footprint(part, turn)[cell] + (np.stack([x, y], axis=1) + 0.5) / (2 * FINE)
+    sampled = [*xy.mean(axis=0), (z.mean() + 0.5) / (2 * FINE)]
+    assert centre(part, turn) == pytest.approx(sampled, abs=0.03)
+
+
+def test_studs_sockets_and_feet_are_where_the_parts_have_them():
+    """A slope has one row of studs, an inverted one a row of sockets; a cheese slope has no stud."""
+    for number, studs, sockets, feet in (
+        ("3039", 2, 4, 4), ("4286", 1, 3, 3), ("54200", 0, 1, 1), ("3665", 2, 1, 1), ("3660", 4, 2, 2),
+    ):  # fmt: skip
+        for turn in range(4):
+            found = columns(NUMBER[number], turn)
+            assert (found.stud.sum(), found.socket.sum(), found.foot.sum()) == (studs, sockets, feet)
+    high = columns(NUMBER["3040b"], 0)
+    assert high.xy[high.stud].tolist() == [[0, 0]]
+    assert [columns(NUMBER["3040b"], turn).xy[columns(NUMBER["3040b"], turn).stud].tolist() for turn in (1, 2, 3)] == [
+        [[0, 0]], [[1, 0]], [[0, 1]],
+    ]  # fmt: skip
