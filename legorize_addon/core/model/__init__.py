@@ -8,8 +8,8 @@ from ..on_demand import on_demand
 from .brick_columns import Touching, agree, brick_columns, every_plate
 from .bricks import NOBODY, SUPPORTS, Bricks, Role, concatenate
 from .catalogue import ASSETS, Catalogue, Colour, load_catalogue
-from .parts import MISSING_CELL, SLOPED, Part, Use, footprint
-from .profiles import Columns, columns, lines, solid, turned
+from .parts import MISSING_CELL, Part, Use, footprint
+from .profiles import columns, solid, turned
 from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
 from .verdict import UNSUPPORTED, Verdict
 
@@ -53,14 +53,12 @@ __all__ = [
     "COLOUR_EMPTY",
     "MISSING_CELL",
     "NOBODY",
-    "SLOPED",
     "SUPPORTS",
     "UNSUPPORTED",
     "Assembly",
     "Bricks",
     "Catalogue",
     "Colour",
-    "Columns",
     "ContactGraph",
     "Fill",
     "Part",
@@ -82,7 +80,6 @@ __all__ = [
     "every_plate",
     "footprint",
     "ground_of",
-    "lines",
     "load_catalogue",
     "middles",
     "solid",

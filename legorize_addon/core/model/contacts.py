@@ -234,8 +234,10 @@ def _tables(catalogue: Catalogue) -> Columns:
 
 @lru_cache
 def _places(catalogue: Catalogue) -> tuple[Mask, Mask, NDArray[np.intp]]:
-    """Return studs and sockets by place in the boxes of oriented parts, one after the other; start and sides of each."""
-    studs, sockets, place, start = [], [], [], 0
+    """Return studs and sockets by place in the boxes of oriented parts, one by one; start and sides of each."""
+    studs: list[Mask] = []
+    sockets: list[Mask] = []
+    place, start = [], 0
     for each in _oriented(catalogue):
         wide, deep = (each.xy.max(axis=0) + 1).tolist()
         for made, there in ((studs, each.stud), (sockets, each.socket)):

@@ -88,7 +88,7 @@ def columns(part: Part, turn: int) -> Columns:
         In the order of :func:`footprint`.
     """
     xy = footprint(part, turn)
-    along = _unturned(part, turn, xy + 0.5)[:, 0]
+    along = _unturned(part, turn, _middles(xy))[:, 0]
     low, high = np.zeros(len(xy), np.int32), np.full(len(xy), part.height, np.int32)
     first = along < 1
     stud, socket = np.full(len(xy), part.studs), np.full(len(xy), part.sockets)
@@ -96,8 +96,8 @@ def columns(part: Part, turn: int) -> Columns:
     if part.sloped:
         top, bottom = lines(part)
         # both lines are flat or fall away from the start: their extremes in a column are at its ends
-        high = np.ceil(np.interp(along - 0.5, *zip(*top, strict=True))).astype(np.int32)
-        low = np.floor(np.interp(along - 0.5, *zip(*bottom, strict=True))).astype(np.int32)
+        high = np.ceil(_level(top, along - 0.5)).astype(np.int32)
+        low = np.floor(_level(bottom, along - 0.5)).astype(np.int32)
     if part.profile == "slope":
         stud &= first
     if part.profile == "inverted":
@@ -128,9 +128,9 @@ def solid(part: Part, turn: int, across: int, up: int) -> Mask:
     xy = footprint(part, turn)
     middle = (np.arange(across) + 0.5) / across
     y, x = np.meshgrid(middle, middle, indexing="ij")
-    places = xy[:, None, None] + np.stack([x, y], axis=-1)
+    places = xy[:, None, None].astype(np.float64) + np.stack([x, y], axis=-1)
     along = _unturned(part, turn, places)[..., 0]
-    top, bottom = (np.interp(along, *zip(*line, strict=True))[:, None] for line in lines(part))
+    top, bottom = (_level(line, along)[:, None] for line in lines(part))
     z = ((np.arange(part.height * up) + 0.5) / up)[:, None, None]
     inside: Mask = (z > bottom) & (z < top)
     return inside
@@ -142,12 +142,12 @@ def centre(part: Part, turn: int) -> tuple[float, float, float]:
 
     Boxes have it in the middle of their squares, half way up.
     """
-    cells = footprint(part, turn) + 0.5
+    cells = _middles(footprint(part, turn))
     if not part.sloped:
         x, y = cells.mean(axis=0).tolist()
         return x, y, part.height / 2
     at = (np.arange(part.length * _FINE) + 0.5) / _FINE
-    top, bottom = (np.interp(at, *zip(*line, strict=True)) for line in lines(part))
+    top, bottom = (_level(line, at) for line in lines(part))
     weight = top - bottom
     along = float((at * weight).sum() / weight.sum())
     up = float(((top + bottom) / 2 * weight).sum() / weight.sum())
@@ -161,6 +161,18 @@ def turned(part: Part, turn: int, places: Floats) -> Floats:
     long, wide = part.length, part.width
     ways = ((x, y), (wide - y, x), (long - x, wide - y), (y, long - x))
     return np.stack(ways[turn % 4], axis=-1)
+
+
+def _level(line: Line, along: Floats) -> Floats:
+    """Return how high a line is at places along the part."""
+    x, z = np.array(line).T
+    level: Floats = np.interp(along, x, z)
+    return level
+
+
+def _middles(xy: NDArray[np.int32]) -> Floats:
+    """Return the middles of stud squares."""
+    return xy.astype(np.float64) + 0.5
 
 
 def _unturned(part: Part, turn: int, places: Floats) -> Floats:

@@ -16,6 +16,7 @@ TALL = ["14716", "22886", "30145", "30144"]
 TILES = ["3070b", "3069b", "63864", "2431", "6636", "4162", "3068b", "26603", "87079"]
 LARGE_PLATES = ["3031", "3032", "3035", "3958", "3036", "41539"]
 BASES = ["91405", "3867", "3811", "4186"]
+SLOPES = ["3040b", "3039", "4286", "54200", "85984", "3665", "3660"]
 TABLES = ("parts.csv", "colours.csv", "availability.csv")
 
 
@@ -29,25 +30,26 @@ def copied_assets(tmp_path):
 
 def test_parts_are_the_bricks_the_plates_and_the_tall_ones():
     """The catalogue lists 12 bricks, 12 plates of the same footprints and 4 tall bricks, in this order; then others."""
-    assert [part.number for part in CATALOGUE.parts] == BRICKS + PLATES + TALL + TILES + LARGE_PLATES + BASES
-    assert [part.height for part in CATALOGUE.parts] == [3] * 12 + [1] * 12 + [9] * 4 + [1] * 19
+    assert [part.number for part in CATALOGUE.parts] == BRICKS + PLATES + TALL + TILES + LARGE_PLATES + BASES + SLOPES
+    assert [part.height for part in CATALOGUE.parts][:47] == [3] * 12 + [1] * 12 + [9] * 4 + [1] * 19
     for brick, plate in zip(CATALOGUE.parts[:12], CATALOGUE.parts[12:24], strict=True):
         assert (brick.length, brick.width, brick.corner) == (plate.length, plate.width, plate.corner)
 
 
 def test_what_parts_are_laid_for():
-    """Models are built of bricks and plates alone; tiles cover mosaics, large plates and baseplates bear them."""
+    """Models are built of bricks and plates, their surface of slopes and tiles; large plates bear mosaics of tiles."""
     number = np.array([part.number for part in CATALOGUE.parts])
     assert number[CATALOGUE.used_for("model")].tolist() == BRICKS + PLATES + TALL
     assert number[CATALOGUE.used_for("tiles")].tolist() == TILES
     assert number[CATALOGUE.used_for("plates")].tolist() == LARGE_PLATES
     assert number[CATALOGUE.used_for("base")].tolist() == BASES
+    assert number[CATALOGUE.used_for("surface")].tolist() == TILES + SLOPES
 
 
 def test_tiles_are_smooth_and_baseplates_flat_below():
-    """A tile has no studs on top, a baseplate does not clutch what is below; everything else does both."""
+    """No studs are on tiles and cheese slopes, a baseplate does not clutch what is below; everything else does both."""
     number = np.array([part.number for part in CATALOGUE.parts])
-    assert number[~CATALOGUE.studs].tolist() == TILES
+    assert number[~CATALOGUE.studs].tolist() == [*TILES, "54200", "85984"]
     assert number[~CATALOGUE.sockets].tolist() == ["3867", "3811", "4186"]
 
 
@@ -59,7 +61,7 @@ def test_tiles_are_made_wherever_one_and_two_studs_are():
 
 def test_footprint_areas_follow_from_the_titles():
     """A part titled "Brick 2 x 4" covers eight cells, a corner part three, and is as high as its title says."""
-    for part in CATALOGUE.parts:
+    for part in (each for each in CATALOGUE.parts if not each.sloped):
         sides = [int(word) for word in part.title.split() if word.isdigit()]
         assert len(footprint(part, 0)) == (3 if part.corner else sides[0] * sides[1])
         assert sorted(sides[:2]) == [part.width, part.length]
