@@ -12,6 +12,7 @@ from ..model import NOBODY, Bricks, Catalogue, Rows, stacked
 from ..progress import Progress, part, silent
 from .blocking import column_pairs
 from .grouping import group
+from .halves import match_halves
 from .items import MOST, Items, in_turn
 from .mirror import boxes, mirror_images
 from .steps import MAIN, Kind, Submodel
@@ -150,7 +151,10 @@ class Planner:
         below = column_pairs(self.bricks.take(rows), self.catalogue)
         # a piece may stand beside the first one
         ground = level == level[own].min(initial=np.iinfo(np.int64).max)
-        return find_units(node, level, pairs, below, ground=ground, rank=self.rank[rows], piece=~own)
+        units = find_units(node, level, pairs, below, ground=ground, rank=self.rank[rows], piece=~own)
+        image = np.where(own & (self.image[rows] != NOBODY), local[self.image[rows]], NOBODY)
+        # what is built elsewhere is whole
+        return match_halves(units, np.where(own[image], image, NOBODY), pairs)
 
     def _submodels(self, number: int, rows: Ints, node: Ints, units: Units, pieces: dict[int, int]) -> dict[int, int]:
         """Return the submodel that each unit is, if it is one, and plan those that are new."""
