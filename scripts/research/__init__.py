@@ -24,6 +24,7 @@
 ``layout_controls``  what the exchanges are worth without learning
 ``train_fill``    makes the samples of the learned fill, and judges what was learned
 ``fill_controls``  what its search is worth with something else to decide
+``fill_report``    the figures of both, kept as they come
 ``make_samples``  models and paints the sample
 ``rooster``       its shape and colours
 ================  ==================================================================

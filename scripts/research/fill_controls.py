@@ -7,18 +7,15 @@ layers below, without the joining that follows in a build.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 from scipy.stats import wilcoxon
 from sklearn.linear_model import LogisticRegression
 
-from legorize_addon.core.layout.joining.ties import add_ties
 from legorize_addon.core.layout.lay import FILLER, check_covered, sheets_and_shapes
-from legorize_addon.core.layout.lay_learned import lay_learned
 from legorize_addon.core.layout.learning.energies import gauss_normalised
 from legorize_addon.core.layout.learning.fill import Choice, decided, fill_upwards, simulated
 from legorize_addon.core.layout.learning.grade_training import cheapest
@@ -28,18 +25,12 @@ from legorize_addon.core.layout.learning.simulation import Outcome
 from legorize_addon.core.layout.problem.problem import Problem
 from legorize_addon.core.layout.solvers import linear
 from legorize_addon.core.measures.lower_bound import lower_bound
-from legorize_addon.core.model import contact_graph
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.model.unit_grid import UnitGrid
 from scripts.benchmarks.tables import Row, Table
-from scripts.research.layout_controls import laid
 from scripts.research.rules import Index, by_key, largest
-from scripts.research.training_models import KINDS, UNSEEN, WIDTHS, built
 
 Fill = Callable[[Layer, np.random.Generator], Index]
-
-HELD_BACK: Final = 4
-"""Models of each kind that are made by chance for the report."""
 
 LEARNED: Final = "SVM"
 
@@ -68,91 +59,21 @@ class Filled:
     seconds: float
 
 
-def judged_fill(paths: Sequence[Path], *, widths: Sequence[int], text: str, each: int = HELD_BACK) -> Iterator[Table]:
-    """Lay models that were not trained on in all ways.
-
-    Parameters
-    ----------
-    paths : sequence of Path
-        Model files.
-    widths : sequence of int
-        Their sizes in studs.
-    text : str
-        File of samples.
-    each : int
-        Models of each kind that are made by chance.
-
-    Yields
-    ------
-    Table
-        What the samples are; all ways over the files of each size, and over the models made by chance; and all models
-        as they are joined in a build.
-    """
-    yield of_samples(text)
-    groups: dict[str, dict[str, UnitGrid]] = {}
-    for width in widths if paths else ():
-        groups[f"model files at {width} studs"] = {f"{path.stem} {width}": laid(path, width)[0] for path in paths}
-    # the small ones: sizes follow the seeds
-    seeds = range(UNSEEN, UNSEEN + each * len(WIDTHS), len(WIDTHS))
-    chance = {f"{kind} {seed}": built(kind, seed)[0] for kind in KINDS for seed in seeds}
-    if chance:
-        groups[f"held-back models of {WIDTHS[0]} studs made by chance"] = chance
-    for title, group in groups.items():
-        yield compared(title, group, text)
-    every = {name: grid for group in groups.values() for name, grid in group.items()}
-    if every:
-        yield joined(every)
-
-
-def of_samples(text: str) -> Table:
-    """Return what the samples of a file are: how many differ, and how many have two labels."""
-    samples, facts = read_graded(text)
-    kinds, kind = np.unique(samples.energies, axis=0, return_inverse=True)
-    labels = np.unique(np.column_stack([kind.reshape(-1), samples.grade]), axis=0)
-    line: Row = {
-        "samples": len(samples.grade),
-        "distinct": len(kinds),
-        "with_two_labels": len(labels) - len(kinds),
-        "models": len(np.unique(samples.model)),
-        "C": facts["C"],
-        "gamma": facts["gamma"],
-        "cross_validation": facts["cross-validation"],
-        "confusion": facts["confusion"],
-    }
-    return Table("fill_samples", "Samples and training", (line,))
-
-
-def joined(models: Mapping[str, UnitGrid]) -> Table:
-    """Return the table of models laid by the shipped machine and joined as in a build; seconds are the processor's."""
-    return Table("fill_joined", "Joined, as in a build", tuple(_joined(*each) for each in models.items()))
-
-
-def _joined(name: str, grid: UnitGrid) -> Row:
-    catalogue, start = load_catalogue(), time.process_time()
-    bricks = lay_learned(grid, catalogue, rng=np.random.default_rng(0))
-    seconds = time.process_time() - start
-    bricks, _ = add_ties(bricks, grid, catalogue, plates=True)
-    graph = contact_graph(bricks, catalogue)
-    return {
-        "model": name,
-        "bricks": len(bricks),
-        "to_bound": len(bricks) / lower_bound(grid, catalogue),
-        "components": graph.n_components,
-        "in_the_air": graph.n_floating,
-        "seconds": seconds,
-        "s_per_1000": 1000 * seconds / len(bricks),
-    }
-
-
 def compared(title: str, models: Mapping[str, UnitGrid], text: str) -> Table:
     """Return the table of all ways over some models."""
     catalogue = load_catalogue()
-    least = np.array([lower_bound(grid, catalogue) for grid in models.values()])
+    least = [lower_bound(grid, catalogue) for grid in models.values()]
     results = {name: [in_way(fill, grid) for grid in models.values()] for name, fill in ways(text).items()}
+    return controls("fill_controls", title, results, least)
+
+
+def controls(name: str, title: str, results: Mapping[str, Sequence[Filled]], least: Sequence[int]) -> Table:
+    """Return the table of all ways, given what came of each on each model, and the bound of each model."""
+    results = dict(results)
     shuffles = [each for name, each in results.items() if name.startswith(SHUFFLED)]
     results[f"{SHUFFLED}, mean of {SHUFFLES}"] = [mean_of(each) for each in zip(*shuffles, strict=True)]
-    rows = [row(name, each, results[LEARNED], least) for name, each in results.items()]
-    return Table("fill_controls", f"{len(models)} {title}; J is the cost that the learned fill counts", tuple(rows))
+    rows = [row(way, each, results[LEARNED], np.array(least)) for way, each in results.items()]
+    return Table(name, f"{len(least)} {title}; J is the cost that the learned fill counts", tuple(rows))
 
 
 def ways(text: str) -> Mapping[str, Fill]:

@@ -38,11 +38,14 @@ from legorize_addon.core.layout.learning.grade_training import (  # noqa: E402 -
 )
 from legorize_addon.core.layout.learning.grading import Graded, Grader  # noqa: E402
 from legorize_addon.core.model.catalogue import load_catalogue  # noqa: E402
+from scripts.benchmarks.kept import Kept  # noqa: E402
 from scripts.benchmarks.tables import write  # noqa: E402
-from scripts.research.fill_controls import HELD_BACK, judged_fill  # noqa: E402
+from scripts.research.fill_report import HELD_BACK, Asked, judged_fill  # noqa: E402
 from scripts.research.training_models import KINDS, built  # noqa: E402
 
 SHIPPED: Final = ROOT / "assets" / "fill_svm.csv"
+
+TABLES: Final = ROOT / "out" / "fill"
 
 EACH: Final = 2
 """Training models of each kind; their seeds count from 0."""
@@ -59,24 +62,19 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--out", metavar="FILE", type=Path, default=SHIPPED, help="where to write the samples")
     parser.add_argument("meshes", metavar="MESH", type=Path, nargs="*", help="model files for the report")
     parser.add_argument("--report", action="store_true", help="judge the built-in training instead of training anew")
-    parser.add_argument("--widths", type=int, nargs="+", default=[32], metavar="N", help="studs of the model files")
+    parser.add_argument("--widths", type=int, nargs="*", default=[32], metavar="N", help="studs of the model files")
+    parser.add_argument("--joined", type=int, nargs="*", default=[], metavar="N", help="further studs, for time alone")
     parser.add_argument("--held-back", type=int, default=HELD_BACK, help="unseen models of each kind in the report")
     parser.add_argument(
         "--pool", metavar="FILE", type=Path, help="candidates judged so far (.npz), to go on from there"
     )
-    parser.add_argument("--tables", metavar="FOLDER", type=Path, help="where to write the report as CSV and JSON")
+    parser.add_argument("--tables", metavar="FOLDER", type=Path, default=TABLES, help="for the report as CSV and JSON")
+    parser.add_argument("--minutes", type=float, default=0.0, help="after which the report stops; the next run goes on")
     parser.add_argument("--each", type=int, default=EACH, help="models of each kind (default: %(default)s)")
     parser.add_argument("--samples", type=int, default=EACH_GRADE, help="of each grade (default: %(default)s)")
     options = parser.parse_args(arguments)
     if options.report:
-        text = SHIPPED.read_text(encoding="utf-8")
-        tables = []
-        for table in judged_fill(options.meshes, widths=options.widths, text=text, each=options.held_back):
-            # it takes long, and what is known is shown
-            print(table.markdown(), flush=True)
-            tables.append(table)
-        if options.tables:
-            write(options.tables, "fill", tables)
+        report(options)
         return 0
     text = trained(seed=0, each=options.each, n=options.samples, kept=options.pool)
     unfinished = options.out.with_suffix(".part")
@@ -84,6 +82,19 @@ def main(arguments: Sequence[str]) -> int:
     unfinished.replace(options.out)
     print(text.split("\nmodel,")[0])
     return 0
+
+
+def report(options: argparse.Namespace) -> None:
+    """Print and write the tables of the report that are whole."""
+    asked = Asked(tuple(options.meshes), tuple(options.widths), tuple(options.joined), options.held_back)
+    kept = Kept(options.tables / "fill_rows", options.minutes)
+    tables = []
+    for table in judged_fill(asked, SHIPPED.read_text(encoding="utf-8"), kept):
+        # it takes long, and what is known is shown
+        print(table.markdown(), flush=True)
+        tables.append(table)
+    kept.tell_left()
+    write(options.tables, "fill", tables)
 
 
 def trained(*, seed: int, each: int, n: int, kept: Path | None = None) -> str:
