@@ -79,6 +79,7 @@ try:
     from legorize_addon.render.film import Cut, make_film, render_frames
     from legorize_addon.render.still import AZIMUTH, View, render_still
     from legorize_addon.scene.collections import clear_build
+    from legorize_addon.scene.lettering import title_for
     from legorize_addon.scene.model import Source
     from legorize_addon.scene.section import AXES, Section
     from legorize_addon.scene.state import state_of
@@ -660,7 +661,10 @@ def write_method(build: Finished, folder: Path, wanted: Wanted, title: str, prog
 def write_booklet(build: Finished, folder: Path, wanted: Wanted, title: str, progress: Progress) -> None:
     """Write the booklet."""
     plan, paper = build.supports, PAPERS[wanted.paper]
-    made = Booklet(plan.bricks, load_catalogue(), plan.steps, temporary=plan.temporary, title=title, paper=paper)
+    name = title_for(title)
+    if name.lost:
+        print(name.lost, file=sys.stderr)
+    made = Booklet(plan.bricks, load_catalogue(), plan.steps, temporary=plan.temporary, title=name, paper=paper)
     made.write(folder / "instructions.html", folder / "instructions.pdf", progress)
 
 

@@ -38,6 +38,7 @@ from .instancing import (
     plastic,
     set_input,
 )
+from .lettering import title_for
 from .model import Model, Source
 from .part_meshes import PART_KEY, Detail, detail_of, parts_collection, parts_in_use, set_detail
 from .placing import layer_collections, world_from_mm
@@ -117,6 +118,7 @@ __all__ = [
     "steps_of",
     "sweep",
     "there_after",
+    "title_for",
     "way_after",
     "world_from_mm",
 ]

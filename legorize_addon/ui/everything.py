@@ -12,14 +12,15 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..core.model import Assembly, Role, load_catalogue
 from ..core.progress import Progress, part
-from ..scene import read_bricks, state_of, steps_of
+from ..scene import read_bricks, state_of, steps_of, title_for
 from .export import chosen_path
-from .instructions import PAPER_ITEMS, OnPaper, title_of
+from .instructions import PAPER_ITEMS, OnPaper, title_of, unfinished
 from .parts import lists_of
 from .properties import current_build
 
 if TYPE_CHECKING:
     from ..core.building import Steps
+    from ..core.instructions import Title
     from ..core.model import Bricks
     from ..core.shopping import ShoppingList
 
@@ -38,7 +39,7 @@ class FolderRequest:
         What to buy for the model and for its supports.
     texts : mapping of str to str
         Files that were kept with the model.
-    title : str
+    title : Title
         Name of the model.
     paper : str
         A key of the papers.
@@ -51,7 +52,7 @@ class FolderRequest:
     steps: Steps
     lists: tuple[ShoppingList, ShoppingList]
     texts: Mapping[str, str]
-    title: str
+    title: Title
     paper: str
     booklet: bool
     maps: bool
@@ -65,8 +66,8 @@ class FolderRequest:
         whole = Assembly(self.bricks, load_catalogue())
         finished = whole.take(self.bricks.role != Role.SUPPORT_OUTSIDE)
         texts = {
-            "model.ldr": write_ldr(finished, name="model.ldr", title=self.title, follow="model.mpd"),
-            "model.mpd": write_mpd(whole, self.steps, name="model.ldr", title=self.title),
+            "model.ldr": write_ldr(finished, name="model.ldr", title=self.title.text, follow="model.mpd"),
+            "model.mpd": write_mpd(whole, self.steps, name="model.ldr", title=self.title.text),
             **list_texts(*self.lists),
             **self.texts,
         }
@@ -91,7 +92,7 @@ class FolderRequest:
                 (fresh / "layers" / name).write_text(text, encoding="utf-8", newline="")
         if self.booklet:
             made = Booklet(self.bricks, catalogue, self.steps, temporary=temporary, title=self.title, paper=paper)
-            made.write(fresh / "instructions.html", fresh / "instructions.pdf", part(progress, 0.2, 1.0))
+            unfinished().write(made, fresh / "instructions.html", fresh / "instructions.pdf", part(progress, 0.2, 1.0))
 
 
 class LEGORIZE_OT_export_folder(OnPaper, bpy.types.Operator):
@@ -117,12 +118,15 @@ class LEGORIZE_OT_export_folder(OnPaper, bpy.types.Operator):
         build = current_build(context.scene)
         return FolderRequest(
             bricks=read_bricks(build), steps=steps_of(build), lists=lists_of(build), texts=state_of(build).texts,
-            title=title_of(build), paper=self.paper, booklet=self.booklet, maps=self.maps, folder=chosen_path(self),
+            title=title_for(title_of(build)), paper=self.paper, booklet=self.booklet, maps=self.maps,
+            folder=chosen_path(self),
         )  # fmt: skip
 
     def _show(self, context: bpy.types.Context, order: FolderRequest, paths: tuple[Path, ...]) -> set[str]:
         if "report.json" not in order.texts:
             self.report({"WARNING"}, "Built by an earlier version: its report is not known, build it again for that.")
+        if order.booklet and order.title.lost:
+            self.report({"WARNING"}, order.title.lost)
         return super()._show(context, order, paths)
 
 

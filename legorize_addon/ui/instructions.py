@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -11,13 +12,14 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..core.model import Role, load_catalogue
 from ..core.progress import Progress
-from ..scene import read_bricks, steps_of
+from ..scene import read_bricks, steps_of, title_for
 from .build import Browsing, OnBuild
 from .export import chosen_path
 from .properties import current_build
 
 if TYPE_CHECKING:
     from ..core.building import Steps
+    from ..core.instructions import Title, Unfinished
     from ..core.model import Bricks
 
 PAPER_ITEMS: Final = [("A4", "A4", "297 x 210 mm"), ("Letter", "Letter", "11 x 8.5 inches")]
@@ -33,7 +35,7 @@ class BookletRequest:
         Model and supports.
     steps : Steps
         How they are built.
-    title : str
+    title : Title
         Name of the model.
     paper : str
         A key of the papers.
@@ -43,7 +45,7 @@ class BookletRequest:
 
     bricks: Bricks
     steps: Steps
-    title: str
+    title: Title
     paper: str
     path: Path
 
@@ -62,8 +64,16 @@ class BookletRequest:
         catalogue, paper = load_catalogue(), PAPERS[self.paper]
         made = Booklet(self.bricks, catalogue, self.steps, temporary=supports, title=self.title, paper=paper)
         with replacing(html) as new_html, replacing(pdf) as new_pdf:
-            made.write(new_html, new_pdf, progress)
+            unfinished().write(made, new_html, new_pdf, progress)
         return html, pdf
+
+
+@cache
+def unfinished() -> Unfinished:
+    """Return what keeps the pages of a booklet that was stopped, until Blender is closed or another one is written."""
+    from ..core.instructions import Unfinished
+
+    return Unfinished()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -145,7 +155,13 @@ class LEGORIZE_OT_booklet(OnPaper, bpy.types.Operator):
 
     def _take_order(self, context: bpy.types.Context) -> BookletRequest:
         build = current_build(context.scene)
-        return BookletRequest(read_bricks(build), steps_of(build), title_of(build), self.paper, chosen_path(self))
+        title = title_for(title_of(build))
+        return BookletRequest(read_bricks(build), steps_of(build), title, self.paper, chosen_path(self))
+
+    def _show(self, context: bpy.types.Context, order: BookletRequest, paths: tuple[Path, ...]) -> set[str]:
+        if order.title.lost:
+            self.report({"WARNING"}, order.title.lost)
+        return super()._show(context, order, paths)
 
 
 class LEGORIZE_OT_layer_maps(OnPaper, bpy.types.Operator):

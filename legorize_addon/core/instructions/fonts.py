@@ -63,10 +63,15 @@ def wrapped(text: str, size: float, room: float, *, bold: bool = False) -> list[
     return found
 
 
+def in_fonts(text: str) -> bool:
+    """Tell whether these fonts have all letters of a text."""
+    return len(text.encode("cp1252", "ignore")) == len(text)
+
+
 def western(text: str) -> str:
-    """Return a text in letters of these fonts: without accents where that helps, else with question marks."""
+    """Return a text in letters of these fonts: without accents where that helps, else as their numbers in Unicode."""
     letters = []
     for letter in text:
-        plain = letter if letter.encode("cp1252", "ignore") else normalize("NFKD", letter)[:1]
-        letters.append(plain if plain.encode("cp1252", "ignore") else "?")
+        plain = letter if in_fonts(letter) else normalize("NFKD", letter)[:1]
+        letters.append(plain if in_fonts(plain) else f"[U+{ord(letter):04X}]")
     return "".join(letters)

@@ -15,6 +15,7 @@ from .canvas import Item, Page, Paint, Rgb, Text, moved, rectangle
 from .fonts import shortened, width, wrapped
 from .icons import arrow, turn_sign
 from .lattice import FRONT, View
+from .lettering import Title
 from .lots import GREY, Lot, lots_of, picture_of, placed
 from .panel_layout import SUB
 from .panels import Panels
@@ -36,16 +37,15 @@ Entry = tuple[Lot, Rgb | None]
 """A lot of a parts list; those of supports have a tint."""
 
 
-def cover(panels: Panels, title: str, paper: Paper) -> Page:
+def cover(panels: Panels, title: Title, paper: Paper) -> Page:
     """Return the cover: picture, name, size, parts, time."""
     finished = np.flatnonzero(~panels.temporary)
     model = panels.bricks.take(finished)
     picture = panels.whole(FRONT, finished)
-    name = shortened(title, 15, paper.width - 2 * MARGIN, bold=True)
     items: list[Item] = [
         rectangle(0, 0, paper.width, paper.height, Paint(fill=(244, 248, 252))),
         rectangle(0, paper.height - 34, paper.width, 34, Paint(fill=(0, 92, 160))),
-        Text(name, MARGIN + 2, MARGIN + 14, 15, bold=True),
+        *title.items((MARGIN + 2, MARGIN + 14), 15, paper.width - 2 * MARGIN, bold=True),
         Text("Building instructions", MARGIN + 2, MARGIN + 22, 6, colour=GREY),
         _fitted(picture, MARGIN, MARGIN + 26, paper.width - 2 * MARGIN, paper.height - 34 - MARGIN - 32),
     ]
@@ -195,7 +195,7 @@ def _entry(lot: Lot, tint: Rgb | None, catalogue: Catalogue, room: float) -> lis
     ]
 
 
-def last_page(panels: Panels, title: str, paper: Paper) -> Page:
+def last_page(panels: Panels, title: Title, paper: Paper) -> Page:
     """Return the page of the finished model, from the other sides, with the one line about the trademark."""
     finished = np.flatnonzero(~panels.temporary)
     wide = (paper.width - 2 * MARGIN - 12) / 2
@@ -206,6 +206,9 @@ def last_page(panels: Panels, title: str, paper: Paper) -> Page:
         _fitted(panels.whole(View(0), finished), MARGIN, MARGIN + 16, wide, high),
         _fitted(panels.whole(View(3), finished), MARGIN + wide + 12, MARGIN + 16, wide, high),
         Text(DISCLAIMER, paper.width / 2, paper.height - MARGIN - 6, 2.9, anchor="middle", colour=GREY),
-        Text(f"{title}, made with Legorize", paper.width / 2, paper.height - MARGIN, 2.9, anchor="middle", colour=GREY),
-    ]
+        *title.items(
+            (paper.width / 2, paper.height - MARGIN), 2.9, paper.width - 2 * MARGIN,
+            after=", made with Legorize", anchor="middle", colour=GREY,
+        ),
+    ]  # fmt: skip
     return Page(paper.width, paper.height, items, "Finished")

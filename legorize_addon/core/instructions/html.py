@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Final
 
 from .canvas import Page
-from .svg import svg
 
 _HERE: Final = Path(__file__).parent
 
@@ -27,13 +26,14 @@ _LINKS: Final = ("Parts", "Step 1", "Layer maps", "Finished")
 
 
 def html_file(
-    pages: Iterable[Page], title: str, viewer: Callable[[Mapping[int, int]], str], n_steps: int
+    pages: Iterable[tuple[Page, str]], title: str, viewer: Callable[[Mapping[int, int]], str], n_steps: int
 ) -> Iterator[str]:
     """Write the booklet as HTML, piece by piece, so that it need not be kept.
 
     Parameters
     ----------
-    pages : iterable of Page
+    pages : iterable of (Page, str)
+        Each page, and how it is drawn as SVG: its items are not looked at.
     title : str
         Name of the model.
     viewer : callable
@@ -47,11 +47,11 @@ def html_file(
     """
     yield _head(title)
     firsts: list[int] = []
-    for number, page in enumerate(pages):
+    for number, (page, drawn) in enumerate(pages):
         anchor = f"step-{page.step + 1}" if page.step is not None else _anchor(page.title) or f"page-{number + 1}"
         size = f"contain-intrinsic-size:auto {1120 * page.height / page.width:.0f}px"
         yield f'<section class="page" id="{anchor}" style="{size}">'
-        yield f"{svg(page, name=f'p{number}-')}</section>\n"
+        yield f"{drawn}</section>\n"
         if number == 0:
             yield _VIEWER
         if page.step is not None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
 from typing import Final
 
 import numpy as np
@@ -59,6 +60,7 @@ def layer_pages(
     temporary: Mask,
     paper: Paper,
     actual_size: bool = False,
+    skip: int = 0,
     progress: Progress = silent,
 ) -> Iterator[Page]:
     """Draw the layer maps.
@@ -75,6 +77,8 @@ def layer_pages(
     actual_size : bool
         Whether a stud is 8 mm wide on the page, so that bricks can be laid on
         its print; the page is as large as that takes.
+    skip : int
+        Maps from the first one on that are not drawn.
     progress : Progress
 
     Yields
@@ -91,6 +95,8 @@ def layer_pages(
     tiles = sorted({layer.tile for layer in layers if layer.tile})
     for number, (layer, legend) in enumerate(zip(layers, legends, strict=True)):
         progress("layer maps", number / len(layers))
+        if number < skip:
+            continue
         new, frame = bricks.take(layer.new), whole
         if layer.tile:
             frame = Frame.of_tile(plan_outlines(new, catalogue)[0], layer.tile, whole, _widest(legends), paper)
@@ -249,7 +255,14 @@ def _marks(bricks: Bricks, lot: Ints, catalogue: Catalogue, frame: Frame) -> Ite
 
 
 def map_pages(
-    bricks: Bricks, catalogue: Catalogue, *, temporary: Mask, paper: Paper, first: int, progress: Progress = silent
+    bricks: Bricks,
+    catalogue: Catalogue,
+    *,
+    temporary: Mask,
+    paper: Paper,
+    first: int,
+    skip: int = 0,
+    progress: Progress = silent,
 ) -> Iterator[Page]:
     """Draw the layer maps, as many on a page as can be read; see :func:`layer_pages`.
 
@@ -257,6 +270,8 @@ def map_pages(
     ----------
     first : int
         Number of the first page.
+    skip : int
+        Pages from the first one on that are not drawn.
     """
     counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in _mapped(bricks, catalogue)]
 
@@ -266,13 +281,14 @@ def map_pages(
 
     rows = next((rows for rows in (3, 2) if stud(_strip(paper, rows)) >= _READABLE), 1)
     strip = _strip(paper, rows)
-    maps = list(layer_pages(bricks, catalogue, temporary=temporary, paper=strip, progress=progress))
-    for start in range(0, len(maps), rows):
-        some = maps[start : start + rows]
+    drawn = layer_pages(bricks, catalogue, temporary=temporary, paper=strip, skip=skip * rows, progress=progress)
+    start = skip * rows
+    while some := list(islice(drawn, rows)):
         items = [moved(tuple(each.items), 0, number * strip.height) for number, each in enumerate(some)]
         yield Page(
             paper.width, paper.height, (*items, *foot(first + start // rows, paper)), some[0].title if start else MAPS
         )
+        start += rows
 
 
 _READABLE: Final = 3.2

@@ -10,6 +10,7 @@ import numpy as np
 from ..arrays import Floats, Ints, Mask
 from ..building import Action, Kind, Steps
 from ..model import NOBODY, Bricks, Catalogue
+from ..progress import Progress, silent
 from .canvas import Paint, Path, Rgb
 from .lattice import FRONT, Sight, View
 from .lots import rgb_of, shown_rgb
@@ -83,7 +84,17 @@ class Panels:
         self._pale = np.array([pale(_rgb(row)) for row in own], dtype=np.int64).reshape(-1, 3)
         self.names = submodel_names(steps)
         self._views: dict[int, View] = {}
+        self._found: list[Panel] = []
+        self._looked = 0
         self._letters = dict.fromkeys(range(len(steps)), 0)
+
+    def all(self, progress: Progress = silent) -> list[Panel]:
+        """Return the pictures of all steps; what was found before it was stopped is not looked for again."""
+        while self._looked < len(self.shots):
+            progress("pictures", self._looked / len(self.shots))
+            self._found += self.of(self.shots[self._looked])
+            self._looked += 1
+        return self._found
 
     def of(self, shot: Shot) -> list[Panel]:
         """Return the pictures of a step; of one table they are to be asked for in order."""

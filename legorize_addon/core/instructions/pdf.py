@@ -41,19 +41,18 @@ class Document:
         self._resources = pydyf.Dictionary({"Font": pydyf.Dictionary(fonts)})
         self._marks: list[tuple[str, pydyf.Dictionary]] = []
 
-    def add(self, page: Page) -> None:
-        """Add a page."""
+    def add(self, page: Page, content: bytes | None = None) -> None:
+        """Add a page; of one that :func:`content_of` has drawn before, the items are not looked at."""
         wide, high = (length * POINTS_PER_MM for length in (page.width, page.height))
-        start = f"{POINTS_PER_MM:.6f} 0 0 {-POINTS_PER_MM:.6f} 0 {high:.3f} cm".encode()
-        content = pydyf.Stream([start, _ROUND, *_written(page.items)], compress=True)
-        self._pdf.add_object(content)
+        drawn = pydyf.Stream([content_of(page) if content is None else content], compress=True)
+        self._pdf.add_object(drawn)
         entry = pydyf.Dictionary(
             {
                 "Type": "/Page",
                 "Parent": self._pdf.pages.reference,
                 "MediaBox": pydyf.Array([0, 0, round(wide, 3), round(high, 3)]),
                 "Resources": self._resources,
-                "Contents": content.reference,
+                "Contents": drawn.reference,
             }
         )
         self._pdf.add_page(entry)
@@ -82,6 +81,12 @@ class Document:
             before["Next"], after["Prev"] = after.reference, before.reference
         root["First"], root["Last"] = entries[0].reference, entries[-1].reference
         self._pdf.catalog["Outlines"] = root.reference
+
+
+def content_of(page: Page) -> bytes:
+    """Return what draws a page."""
+    start = f"{POINTS_PER_MM:.6f} 0 0 {-POINTS_PER_MM:.6f} 0 {page.height * POINTS_PER_MM:.3f} cm".encode()
+    return b"\n".join([start, _ROUND, *_written(page.items)])
 
 
 def _written(items: Sequence[Item]) -> Iterator[bytes]:

@@ -34,7 +34,9 @@ _INSET: Final = 3.0
 """mm between the rim of a cell and what is in it."""
 
 
-def step_pages(panels: Panels, paper: Paper, first: int, progress: Progress = silent) -> Iterator[Page]:
+def step_pages(
+    panels: Panels, paper: Paper, first: int, progress: Progress = silent, *, skip: int = 0
+) -> Iterator[Page | None]:
     """Draw the steps.
 
     Parameters
@@ -44,28 +46,32 @@ def step_pages(panels: Panels, paper: Paper, first: int, progress: Progress = si
     first : int
         Number of the first page.
     progress : Progress
+    skip : int
+        Pages from the first one on that are not drawn.
 
     Yields
     ------
-    Page
+    Page or None
+        None for a page that is skipped.
     """
-    found: list[Panel] = []
-    looking, drawing = part(progress, 0.0, 0.4), part(progress, 0.4, 1.0)
-    for number, shot in enumerate(panels.shots):
-        looking("pictures", number / len(panels.shots))
-        found += panels.of(shot)
+    drawing = part(progress, 0.4, 1.0)
+    found = panels.all(part(progress, 0.0, 0.4))
     page = page_cell(paper)
     layout = _Layout(panels, scales(panels, found, paper), page)
     start = 0
     while start < len(found):
         drawing("pictures", start / len(found))
         cells = layout.filled(page, found[start:])
-        items = [item for panel, cell in zip(found[start:], cells, strict=False) for item in layout.items(panel, cell)]
+        start, here = start + len(cells), found[start : start + len(cells)]
+        first, skip = first + 1, skip - 1
+        if skip >= 0:
+            yield None
+            continue
+        items = [item for panel, cell in zip(here, cells, strict=True) for item in layout.items(panel, cell)]
         if len(cells) > 1:
             items.append(_middle(paper))
-        number = found[start].shot.step.number
-        yield Page(paper.width, paper.height, (*items, *foot(first, paper)), f"Step {number + 1}", number)
-        start, first = start + len(cells), first + 1
+        number = here[0].shot.step.number
+        yield Page(paper.width, paper.height, (*items, *foot(first - 1, paper)), f"Step {number + 1}", number)
 
 
 def scales(panels: Panels, found: Sequence[Panel], paper: Paper) -> dict[int, float]:

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.errors import Cancelled
+from legorize_addon.core.instructions import Title, booklet
+from legorize_addon.core.instructions.svg import svg
 from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.collections import read_bricks, steps_of
 from legorize_addon.scene.state import BUILD_KEY
@@ -101,7 +103,7 @@ def test_stopped_work_leaves_nothing(build, what, tmp_path):
     bricks, steps, old = read_bricks(build), steps_of(build), tmp_path / "a.html"
     old.write_text("old", encoding="utf-8")
     requests = {
-        "booklet": BookletRequest(bricks, steps, "Table", "A4", old),
+        "booklet": BookletRequest(bricks, steps, Title("Table"), "A4", old),
         "maps": MapsRequest(bricks, "A4", False, Path(tmp_path / "maps")),
     }
 
@@ -113,6 +115,36 @@ def test_stopped_work_leaves_nothing(build, what, tmp_path):
         requests[what].work(stop)
     assert [path.name for path in tmp_path.iterdir()] == ["a.html"]
     assert old.read_text(encoding="utf-8") == "old"
+
+
+def test_a_stopped_booklet_goes_on(build, tmp_path, monkeypatch):
+    """Asked for again, its first pages are there; the files are those of a run that was not stopped."""
+    assert bpy.ops.legorize.booklet(filepath=str(tmp_path / "whole.html")) == {"FINISHED"}
+    request = BookletRequest(read_bricks(build), steps_of(build), Title("Table"), "A4", tmp_path / "a.html")
+    drawn = []
+    monkeypatch.setattr(booklet, "svg", lambda page, name: drawn.append(name) or svg(page, name=name))
+
+    def stop(stage: str, share: float) -> None:
+        if share > 0.6:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        request.work(stop)
+    n_first = len(drawn)
+    request.work(lambda stage, share: None)
+    assert 0 < n_first < len(drawn) == len(set(drawn))
+    for suffix in (".html", ".pdf"):
+        assert (tmp_path / f"a{suffix}").read_bytes() == (tmp_path / f"whole{suffix}").read_bytes()
+
+
+def test_a_name_in_other_scripts_is_drawn(build, tmp_path):
+    """A name in Greek or Chinese letters is outlines in both files; what no font has is told."""
+    build.name = "Legorize Αλεπού 狐"
+    assert bpy.ops.legorize.booklet(filepath=str(tmp_path / "a.html")) == {"FINISHED"}
+    text = (tmp_path / "a.html").read_text(encoding="utf-8")
+    assert "<title>Αλεπού 狐: building instructions</title>" in text
+    assert ">Αλεπού" not in text[text.index("<svg") :]
+    assert b"[U+" not in (tmp_path / "a.pdf").read_bytes()
 
 
 def test_no_name_is_one_of_blenders_own():

@@ -10,8 +10,10 @@ import pytest
 
 from legorize_addon.core.building import steps_of
 from legorize_addon.core.errors import Cancelled
-from legorize_addon.core.instructions.booklet import Booklet
+from legorize_addon.core.instructions import booklet
+from legorize_addon.core.instructions.booklet import Booklet, Unfinished
 from legorize_addon.core.instructions.layer_maps import layer_files, layer_pages
+from legorize_addon.core.instructions.panels import Panels
 from legorize_addon.core.instructions.paper import PAPERS
 from legorize_addon.core.instructions.pdf import _written
 from legorize_addon.core.instructions.svg import svg
@@ -67,6 +69,56 @@ def test_it_can_be_stopped(tmp_path):
     with pytest.raises(Cancelled):
         booklet_of(arm()).write(tmp_path / "a.html", tmp_path / "a.pdf", stop)
     assert not (tmp_path / "a.pdf").exists()
+
+
+@pytest.mark.parametrize("at", [0.1, 0.36, 0.6, 0.9])
+@pytest.mark.parametrize("model", [arm, pair])
+def test_what_was_stopped_goes_on(model, at, tmp_path, monkeypatch):
+    """No page is drawn twice, no step is looked at twice, and the files are those of a run that was not stopped."""
+    booklet_of(model()).write(tmp_path / "whole.html", tmp_path / "whole.pdf")
+    n_pages = len(list(booklet_of(model()).pages()))
+    written, looked = [], []
+    content, scenes = booklet.content_of, Panels._scenes
+    monkeypatch.setattr(booklet, "content_of", lambda page: written.append(page.title) or content(page))
+
+    def look(self, shot, first):
+        looked.append((shot.step.number, shot.submodel))
+        return scenes(self, shot, first)
+
+    monkeypatch.setattr(Panels, "_scenes", look)
+
+    def stop(stage, share):
+        if share >= at:
+            raise Cancelled
+
+    desk = Unfinished()
+    with pytest.raises(Cancelled):
+        desk.write(booklet_of(model()), tmp_path / "a.html", tmp_path / "a.pdf", stop)
+    n_before, n_looked = len(written), len(looked)
+    desk.write(booklet_of(model()), tmp_path / "a.html", tmp_path / "a.pdf")
+    assert n_before >= 3
+    assert len(written) == n_pages
+    assert len(looked) == len(set(looked)) >= n_looked
+    for suffix in ("html", "pdf"):
+        assert (tmp_path / f"a.{suffix}").read_bytes() == (tmp_path / f"whole.{suffix}").read_bytes()
+
+
+def test_another_booklet_begins_anew(tmp_path):
+    """Pages of another model, name or paper are never taken over; nor are those of one that is finished."""
+    made = [booklet_of(arm()), booklet_of(arm(), "Letter"), booklet_of(pair()), booklet_of(arm())]
+    assert len({each.fingerprint for each in made}) == 3
+    assert made[0].fingerprint == made[3].fingerprint
+
+    def stop(stage, share):
+        if share > 0.5:
+            raise Cancelled
+
+    desk = Unfinished()
+    with pytest.raises(Cancelled):
+        desk.write(made[0], None, tmp_path / "a.pdf", stop)
+    desk.write(made[2], None, tmp_path / "a.pdf")
+    made[2].write(None, tmp_path / "b.pdf")
+    assert (tmp_path / "a.pdf").read_bytes() == (tmp_path / "b.pdf").read_bytes()
 
 
 def test_progress_goes_from_0_to_the_end():

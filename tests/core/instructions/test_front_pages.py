@@ -17,6 +17,7 @@ from legorize_addon.core.instructions.front_pages import (
     last_page,
     parts_pages,
 )
+from legorize_addon.core.instructions.lettering import Title
 from legorize_addon.core.instructions.paper import PAPERS
 from tests.core.instructions.built import arm, pair
 from tests.core.instructions.test_panels import panels_of
@@ -36,7 +37,7 @@ def texts(items):
 def test_the_cover_tells_size_parts_steps_and_time():
     """The arm is 13 studs wide, 4 deep, 8 bricks high."""
     plan = arm()
-    shown = list(texts(cover(panels_of(plan), "Arm", A4).items))
+    shown = list(texts(cover(panels_of(plan), Title("Arm"), A4).items))
     bricks = int((~plan.temporary).sum())
     assert "Arm" in shown
     assert "10 x 3 x 8 cm" in shown
@@ -84,7 +85,7 @@ def test_only_signs_that_occur_are_explained():
 
 def test_the_last_page_has_the_line_about_the_trademark():
     """One line, and two pictures from other sides."""
-    page = last_page(panels_of(arm()), "Arm", A4)
+    page = last_page(panels_of(arm()), Title("Arm"), A4)
     shown = list(texts(page.items))
     assert DISCLAIMER in shown
     assert "trademark" in DISCLAIMER
@@ -93,6 +94,6 @@ def test_the_last_page_has_the_line_about_the_trademark():
 
 def test_long_names_are_cut():
     """A name that does not fit on the cover is cut."""
-    shown = list(texts(cover(panels_of(arm()), "very long name " * 20, A4).items))
+    shown = list(texts(cover(panels_of(arm()), Title("very long name " * 20), A4).items))
     assert shown[0].endswith("...")
     assert np.all([len(text) < 200 for text in shown])

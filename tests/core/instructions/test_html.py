@@ -7,6 +7,7 @@ from html.parser import HTMLParser
 
 from legorize_addon.core.instructions.canvas import Page, Text
 from legorize_addon.core.instructions.html import html_file
+from legorize_addon.core.instructions.svg import svg
 
 
 class Reader(HTMLParser):
@@ -48,7 +49,8 @@ def file_of(title="Box", data='{"a":1}'):
         asked.append(dict(shown))
         return data
 
-    return "".join(html_file(pages, title, viewer, 5)), asked
+    drawn = [(page, svg(page, name=f"p{number}-")) for number, page in enumerate(pages)]
+    return "".join(html_file(drawn, title, viewer, 5)), asked
 
 
 def test_links_lead_to_pages():
