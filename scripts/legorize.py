@@ -48,6 +48,7 @@ try:
     import bpy
 
     from legorize_addon.core.build import Build, Finished
+    from legorize_addon.core.edits import NO_EDITS, read_edits
     from legorize_addon.core.errors import BuildError, LegorizeError, SettingsError, enough_memory
     from legorize_addon.core.existing import Existing, StepsFrom
     from legorize_addon.core.files.folder import new_folder, temporary_of, writing
@@ -124,6 +125,7 @@ class Taken(NamedTuple):
     object: list[str]
     again: bool
     steps: StepsFrom | None
+    edits: Path | None
 
     @property
     def is_bricks(self) -> bool:
@@ -141,6 +143,8 @@ class Taken(NamedTuple):
             raise SettingsError("An image has no animation and no objects: leave --frame and --object out.")
         if self.is_bricks and (self.object or self.frame is not None):
             raise SettingsError("--object and --frame choose from meshes: leave them out for a brick model.")
+        if self.edits is not None and (self.is_bricks or self.is_picture):
+            raise SettingsError("--edits are made in models of meshes: leave them out for a brick model or an image.")
         if not self.is_bricks and (self.again or self.steps):
             raise SettingsError("--again and --steps are for brick models, .ldr and .mpd: leave them out for a mesh.")
 
@@ -309,6 +313,10 @@ def add_source(made: Parser) -> None:
     made.add_argument(
         "--steps", choices=get_args(StepsFrom),
         help="keep the building steps of a brick model, or plan new ones with supports (default: file, if it has any)",
+    )  # fmt: skip
+    made.add_argument(
+        "--edits", metavar="FILE", type=lambda text: named(text, "file"),
+        help="JSON file with changes by hand, as a run or the panel writes it (edits.json): they are made again",
     )  # fmt: skip
 
 
@@ -588,6 +596,7 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
 
 def work_on_mesh(source: Path, taken: Taken, settings: Settings, timed: Timed) -> Work:
     """Read a mesh, to be legorized."""
+    edits = NO_EDITS if taken.edits is None else read_edits(text_of(readable(taken.edits)), load_catalogue())
     with timed("import"):
         objects, left_out, up = load(source, frame=taken.frame, names=taken.object, up=settings.up)
     with timed("read"), quiet():
@@ -595,7 +604,7 @@ def work_on_mesh(source: Path, taken: Taken, settings: Settings, timed: Timed) -
 
     def build(progress: Progress) -> Finished:
         """Legorize it."""
-        made = legorize(mesh, replace(settings, up=up), progress)
+        made = legorize(mesh, replace(settings, up=up), progress, edits=edits)
         return replace(made, settings=settings, notes=(*left_out, *remarks, *made.notes))
 
     return Work(objects, build)

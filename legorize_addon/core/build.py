@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .arrays import Floats
 from .building import Proof
 from .colours import SurfaceColours
+from .edits import NO_EDITS, Edits, Outcome
 from .mesh import Repairs, TriangleMesh
 from .model import Assembly, Bricks, ContactGraph, UnitGrid
 from .mosaic import Canvas, Covered, Goal
@@ -191,6 +192,10 @@ class Build(Finished):
         All unit bricks, before hollowing.
     hollow : UnitGrid
         Required and optional cells.
+    edits : Edits
+        Changes by hand that were made.
+    outcomes : tuple of Outcome
+        What became of each of them.
     """
 
     mesh: TriangleMesh
@@ -202,6 +207,9 @@ class Build(Finished):
     offsets: Offsets
     grid: UnitGrid
     hollow: UnitGrid
+
+    edits: Edits = NO_EDITS
+    outcomes: tuple[Outcome, ...] = ()
 
     @property
     def draft(self) -> Draft:

@@ -13,7 +13,8 @@ traceback.
     ├── SettingsError    a setting, or a combination of settings, is impossible
     │   └── LimitError   the model would be larger than a limit that the user can raise
     └── BuildError       the model cannot be built or written
-        └── PartsError   the owned parts do not suffice for it
+        ├── PartsError   the owned parts do not suffice for it
+        └── EditError    an edit by hand cannot be made
     Cancelled            the user asked to stop (not a failure)
 """
 
@@ -45,6 +46,10 @@ class BuildError(LegorizeError):
 
 class PartsError(BuildError):
     """The owned parts do not suffice, and nothing can be bought."""
+
+
+class EditError(BuildError):
+    """An edit by hand cannot be read or made."""
 
 
 class Cancelled(Exception):  # noqa: N818 - a request, not an error

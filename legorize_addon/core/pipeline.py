@@ -9,7 +9,9 @@ import numpy as np
 
 from .build import Build, Judged, Mosaic
 from .building import Proof, prove_steps
+from .by_hand import ByHand, edit_bricks
 from .drafting import drafted, stand_up
+from .edits import NO_EDITS, Edits
 from .errors import enough_memory
 from .estimate import COUNTED, estimate
 from .existing import (
@@ -37,6 +39,7 @@ from .progress import Overall, Progress, silent
 from .report import (
     remarks,
     remarks_on_building,
+    remarks_on_edits,
     remarks_on_owned,
     remarks_on_prices,
     remarks_on_proof,
@@ -53,7 +56,7 @@ from .unit_bricks import remarks_on_dithering
 
 
 @enough_memory()
-def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent) -> Build:
+def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent, *, edits: Edits = NO_EDITS) -> Build:
     """Turn a textured mesh into a brick model.
 
     Parameters
@@ -64,6 +67,8 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     progress : Progress
         Called at least once a second with the current stage, or its current part, and the share of the whole run that
         is done, which never decreases.
+    edits : Edits, optional
+        Changes by hand, which are made again.
 
     Returns
     -------
@@ -74,18 +79,18 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     LegorizeError
         The mesh or the settings cannot be used, in one sentence.
     """
-    make = partial(with_enough_parts, _legorize)
+    make = partial(with_enough_parts, partial(_legorize, edits))
     if settings.size_by in COUNTED:
         return watched(partial(fit, mesh, settings, make), progress)
     return watched(partial(make, mesh, settings), progress)
 
 
-def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Build:
+def _legorize(edits: Edits, mesh: TriangleMesh, settings: Settings, progress: Progress) -> Build:
     """Go through the stages."""
     check_limits(expected := estimate(mesh, settings), settings)
     run = Run.of(settings, Overall(expected.stages, progress))
     made, told = drafted(run, mesh)
-    assembly, shell, found = _put_up(run, made.hollow)
+    assembly, shell, found, by_hand = _put_up(run, made.hollow, edits, made.scale)
     with run.stage("pieces"):
         assembly, found, exchanged = take_fewer_lots(run, assembly, found)
         assembly, joints = segment(assembly, most=settings.split, deepest=settings.hanging)
@@ -98,19 +103,19 @@ def _legorize(mesh: TriangleMesh, settings: Settings, progress: Progress) -> Bui
     run.progress.finish()
     notes = (
         *made.repairs.sentences(), *told, *remarks_on_dithering(made.mesh, settings.dithering), *run.learning,
-        *exchanged,
+        *exchanged, *remarks_on_edits(outcomes := by_hand.outcomes(plan.final), run.catalogue),
         *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
     )  # fmt: skip
     return Build(
         settings=settings, mesh=made.mesh, repairs=made.repairs, scale=made.scale, turn=made.turn,
         surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
-        hollow=shell, assembly=plan.final, stability=found, supports=plan, joints=joints, **run.parts.files,
-        proof=proof, notes=notes, timings=run.timings,
+        hollow=shell, edits=by_hand.edits, outcomes=outcomes, assembly=plan.final, stability=found, supports=plan,
+        joints=joints, **run.parts.files, proof=proof, notes=notes, timings=run.timings,
     )  # fmt: skip
 
 
-def _put_up(run: Run, shell: UnitGrid) -> tuple[Assembly, UnitGrid, Stability]:
-    """Lay the bricks of cells, and let them hold and stand; return the cells that they cover as well."""
+def _put_up(run: Run, shell: UnitGrid, edits: Edits, scale: float) -> tuple[Assembly, UnitGrid, Stability, ByHand]:
+    """Lay the bricks of cells, edit them, and let them hold and stand; return the cells that they cover as well."""
     plates = run.settings.plates != "none"
     with run.stage("layout"):
         bricks, shell = lay_bricks(run, shell)
@@ -119,12 +124,17 @@ def _put_up(run: Run, shell: UnitGrid) -> tuple[Assembly, UnitGrid, Stability]:
     with run.stage("strengthening"):
         bricks, shell, sparing = strengthen_joints(run, bricks, shell)
         bricks = recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue)
+    by_hand = ByHand(edits, {})
+    if edits.edits:
+        with run.stage("edits"):
+            laid, (bricks, shell, by_hand) = bricks, edit_bricks(run, edits, scale, bricks, shell)
+            sparing = sparing if bricks is laid else None
     with run.stage("stability"):
         assembly = carry(run, Assembly(bricks, run.catalogue))
         found = check_strong(run, assembly, sparing)
     with run.stage("bracing"):
         assembly, found = brace(run, assembly, found, sparing)
-    return assembly, shell, found
+    return assembly, shell, found, by_hand
 
 
 @enough_memory()
@@ -161,7 +171,7 @@ def _legorize_image(picture: Picture, settings: Settings, progress: Progress) ->
         goal, colour = mosaic_colours(run, picture, canvas)
     if settings.standing:
         shell, told = stand_up(run, wall_cells(run, canvas, colour))
-        assembly, _, found = _put_up(run, shell)
+        assembly, _, found, _ = _put_up(run, shell, NO_EDITS, 1.0)
         covered = Covered(assembly.bricks, 0, 0)
     else:
         with run.stage("layout"):

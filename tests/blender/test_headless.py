@@ -1076,6 +1076,8 @@ def test_brick_models_are_judged_and_laid_again(
         ("m.ldr", ["--object", "A"], "--object and --frame choose from meshes"),
         ("m.obj", ["--again"], "--again and --steps are for brick models"),
         ("m.obj", ["--steps", "new"], "--again and --steps are for brick models"),
+        ("m.ldr", ["--edits", "e.json"], "--edits are made in models of meshes"),
+        ("m.obj", ["--edits", "e.json"], "There is no file e.json"),
         ("m.ldr", [], "m.ldr has no brick that can be read"),
         ("none.ldr", [], "There is no file"),
     ],
@@ -1089,6 +1091,27 @@ def test_wrong_use_of_brick_models(
     assert script.main([str(tmp_path / name), "--out", str(tmp_path / "out"), *flags]) == 1
     assert message in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
+
+
+def test_edits_are_made_again(script: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A file of edits changes the model; what does not fit is printed; the file that is written does the same again."""
+    add_box(BOX)
+    source = save(tmp_path / "box.blend")
+    edits = tmp_path / "edits.json"
+    edits.write_text(
+        '{"edits": [{"kind": "recolour", "part": "3005", "cell": [1, 1, 0], "colour": 1},'
+        ' {"kind": "delete", "part": "3005", "cell": [2, 1, 0]}, {"kind": "lock", "part": "3001", "cell": [-9, 0, 0]}]}'
+    )
+    once, again = tmp_path / "once", tmp_path / "again"
+    assert script.main([str(source), "--out", str(once), "--width", "8", "--edits", str(edits)]) == 0
+    assert "An edit no longer fits: Lock Brick 2 x 4 in layer 1" in capsys.readouterr().out
+    model = read_ldraw((once / "model.ldr").read_text(), load_catalogue()).bricks
+    assert model.colour[(model.corner == (1, 1, 0)).all(axis=1)].tolist() == [1]
+    assert report(once)["edits"]["made"] == 2
+    written = ["--edits", str(once / "edits.json")]
+    assert script.main([str(source), "--out", str(again), "--width", "8", *written]) == 0
+    assert (again / "model.ldr").read_bytes() == (once / "model.ldr").read_bytes()
+    assert (again / "edits.json").read_bytes() == (once / "edits.json").read_bytes()
 
 
 def rows(bricks: Bricks) -> list[tuple[int, ...]]:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any, Final
 
 from ..build import Build, Finished, Mosaic
+from ..edits import edits_text
 from ..errors import enough_memory
 from ..files import build_order_csv, tiles_csv, write_ldr, write_mpd
 from ..model import Assembly, Catalogue
@@ -43,6 +44,7 @@ def later_texts(build: Finished, catalogue: Catalogue, facts: dict[str, Any], ti
         "report.json": json.dumps(facts, indent=2, allow_nan=False) + "\n",
         **missing_texts(build, catalogue, title),
         **(_tables(build, catalogue, title) if isinstance(build, Build) else {}),
+        **({"edits.json": edits_text(build.edits)} if isinstance(build, Build) and len(build.edits) else {}),
         **(
             {"tiles.csv": tiles_csv(Assembly(build.bricks, catalogue))}
             if isinstance(build, Mosaic) and not build.settings.standing

@@ -18,6 +18,7 @@ from ..progress import Progress, silent
 from ..shopping import Lot, ShoppingList, not_made, shopping_list
 from ..supports import AssemblyPlan
 from ..units import PLATES_PER_BRICK
+from .edit_remarks import edit_facts
 from .mesh_facts import facts_of_mesh
 from .money import price_facts
 from .mosaic_facts import facts_of_mosaic
@@ -90,6 +91,7 @@ def report(
         "size": _size(wanted),
         "building_time_s": round(wanted.seconds),
         "layout": _layout(build, catalogue, progress if with_bound else None),
+        **({"edits": edit_facts(build.outcomes, catalogue)} if isinstance(build, Build) else {}),
         "owned": owned_facts(build, catalogue),
         "few_lots": lot_facts(build, catalogue),
         "price": price_facts(build, catalogue, progress if with_bound else None),

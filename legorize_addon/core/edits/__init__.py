@@ -1,0 +1,23 @@
+"""Changes by hand that survive: told by cells of the grid, made in windows of a layout, and looked up in its bricks."""
+
+from __future__ import annotations
+
+from .apply import apply_edits
+from .edit import Edit, check_edit, edit_of
+from .edits_file import NO_EDITS, Edits, edits_text, read_edits
+from .outcomes import Outcome, outcomes_of
+from .rules import rules_of
+
+__all__ = [
+    "NO_EDITS",
+    "Edit",
+    "Edits",
+    "Outcome",
+    "apply_edits",
+    "check_edit",
+    "edit_of",
+    "edits_text",
+    "outcomes_of",
+    "read_edits",
+    "rules_of",
+]

@@ -1,0 +1,125 @@
+"""Making edits in a layout, one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+
+from ..arrays import Ints
+from ..model import SUPPORTS, Bricks, Catalogue
+from .edit import LAYS, Cell, Edit
+from .rules import Rule, rules_of
+from .workpiece import Workpiece
+
+NOT_OURS: Final = "a support lies there, which is planned anew with the model"
+NO_BRICK: Final = "the model has no brick there any more"
+OUTSIDE: Final = "it would stand out of the grid of the model"
+ALOFT: Final = "nothing would hold it there"
+TAKEN: Final = "what another edit laid is in its way"
+
+
+def apply_edits(
+    bricks: Bricks, catalogue: Catalogue, edits: Sequence[Edit], *, shape: tuple[int, ...] | None = None
+) -> tuple[Bricks, Mapping[int, str]]:
+    """Make edits in a layout.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        Without collisions, none at negative coordinates.
+    catalogue : Catalogue
+        Parts that may be laid.
+    edits : sequence of Edit
+        In the order in which they were made: where two are about the same cells, the later one rules.
+    shape : (int, int, int), optional
+        Plates, rows and columns of the grid; that of the bricks if it is left out.
+
+    Returns
+    -------
+    bricks : Bricks
+        The same object if nothing had to change. In no more components than before, and no more bricks float.
+    refused : mapping of int to str
+        Numbers of the edits that cannot be made, and why, as the end of a sentence.
+    """
+    work = Workpiece(bricks, catalogue, shape)
+    refused = {}
+    for number, rule in enumerate(rules_of(edits, catalogue)):
+        reason = "" if rule.by >= 0 else _made(work, rule)
+        if reason:
+            refused[number] = reason
+    return work.bricks, refused
+
+
+def _made(work: Workpiece, rule: Rule) -> str:
+    """Make an edit; return why not, and change nothing then."""
+    cells = work.inside(rule.cells)
+    if rule.edit.kind in LAYS:
+        return _lay(work, rule.edit, cells, missing=len(rule.cells) - len(cells))
+    filled = work.filled(cells)
+    if not filled and rule.edit.kind == "recolour":
+        return NO_BRICK
+    rows = work.rows_in(filled)
+    if np.isin(work.bricks.role[rows], SUPPORTS).any():
+        return NOT_OURS
+    make = {"recolour": _recolour, "delete": _delete, "forbid": _forbid}[rule.edit.kind]
+    return make(work, rule.edit, cells if rule.edit.kind == "forbid" else filled, rows)
+
+
+def _recolour(work: Workpiece, edit: Edit, filled: Sequence[Cell], rows: Ints) -> str:
+    """Let cells have a colour: their bricks, where these lie in no others and are made in it, else smaller ones."""
+    wrong = rows[work.bricks.colour[rows] != edit.colour]
+    made = work.catalogue.exists_in(work.bricks.part[wrong], edit.colour)
+    cut = wrong[~(made & work.lie_in(wrong, filled))]
+    if not work.may_change(cut):
+        return TAKEN
+    before = work.settle(filled, edit.colour)
+    reason = work.relay(cut) if len(cut) else ""
+    if reason:
+        work.settle(filled, before)
+        return reason
+    work.paint(work.rows_in(filled), edit.colour)
+    return ""
+
+
+def _delete(work: Workpiece, edit: Edit, filled: Sequence[Cell], rows: Ints) -> str:
+    """Leave cells empty."""
+    cut = rows[~work.lie_in(rows, filled)]
+    if not work.may_change(cut):
+        return TAKEN
+    return work.relay(rows, emptied=filled) if len(rows) else ""
+
+
+def _lay(work: Workpiece, edit: Edit, cells: Sequence[Cell], missing: int) -> str:
+    """Lay a brick, or let the one that lies there stay."""
+    part = work.catalogue.part_row(edit.part)
+    if missing:
+        return OUTSIDE
+    filled = work.filled(cells)
+    if edit.kind == "lock" and len(filled) < len(cells):
+        return NO_BRICK
+    if not work.catalogue.exists_in(part, edit.colour):
+        return f"{work.catalogue.parts[part].title} is not to be had in its colour"
+    there, rows = edit.rows_of(work.bricks, work.catalogue), work.rows_in(filled)
+    if np.isin(work.bricks.role[rows], SUPPORTS).any():
+        return NOT_OURS
+    if len(there):
+        work.fix(int(there[0]))
+        return ""
+    if not work.may_change(rows):
+        return TAKEN
+    reason = work.relay(rows, put=edit)
+    return ALOFT if reason and not len(rows) else reason
+
+
+def _forbid(work: Workpiece, edit: Edit, cells: Sequence[Cell], rows: Ints) -> str:
+    """Lay others in the place of a part, and keep it away."""
+    part = work.catalogue.part_row(edit.part)
+    bar, gone = work.bar(part, cells), rows[work.bricks.part[rows] == part]
+    if not work.may_change(gone):
+        return TAKEN
+    reason = work.relay(gone, bars=[bar]) if len(gone) else ""
+    if not reason:
+        work.keep(bar)
+    return reason
