@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .order import plan_steps, steps_of
     from .proof import Proof, prove_steps
     from .tiles import SIDE, tile_places
-    from .towers import STEADY, Tipping, no_prop, tipping
+    from .towers import STEADY, Tipping, falling, no_prop, tipping
     from .units import presses
     from .views import quarter_turns
 else:
@@ -32,7 +32,7 @@ else:
         order=("plan_steps", "steps_of"),
         proof=("Proof", "prove_steps"),
         tiles=("SIDE", "tile_places"),
-        towers=("STEADY", "Tipping", "no_prop", "tipping"),
+        towers=("STEADY", "Tipping", "falling", "no_prop", "tipping"),
         units=("presses",),
         views=("quarter_turns",),
     )
@@ -53,6 +53,7 @@ __all__ = [
     "Walk",
     "building_contacts",
     "column_pairs",
+    "falling",
     "given_steps",
     "no_prop",
     "plan_steps",

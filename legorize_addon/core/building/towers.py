@@ -6,7 +6,7 @@ the bricks come that hold it in the finished model.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -91,10 +91,39 @@ def tipping(
         Of each tower that falls the first time, by step. A tower that grows
         together with one that falls is not named again.
     """
-    towers = _Towers(assembly.bricks, assembly.catalogue, pairs, steps.floor(table, assembly.bricks))
+    arrivals = list(_arrivals(steps, table))
+    floor = steps.floor(table, assembly.bricks)
+    return falling(arrivals, assembly, pairs, floor=floor, prop=prop, progress=progress)
+
+
+def falling(
+    arrivals: Sequence[tuple[int, list[int]]],
+    assembly: Assembly,
+    pairs: Rows,
+    *,
+    floor: int,
+    prop: Prop = no_prop,
+    progress: Progress = silent,
+) -> list[Tipping]:
+    """Find the towers that fall over as bricks arrive on a table.
+
+    Parameters
+    ----------
+    arrivals : sequence of (int, list of int)
+        Step and rows of what comes at once, by step.
+    assembly, pairs, prop, progress
+        As for :func:`tipping`.
+    floor : int
+        Plate on which the table is.
+
+    Returns
+    -------
+    list of Tipping
+        As :func:`tipping`.
+    """
+    towers = _Towers(assembly.bricks, assembly.catalogue, pairs, floor)
     found = []
     changed: set[int] = set()
-    arrivals = list(_arrivals(steps, table))
     for number, (step, rows) in enumerate(arrivals):
         if number % _PAUSE == 0:
             progress("supports", number / len(arrivals))

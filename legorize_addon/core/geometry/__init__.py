@@ -6,13 +6,14 @@ from .grid_lines import split_at_lattice
 from .mirroring import mirror_axis
 from .neighbourhoods import outer_air, visible
 from .ranges import ranges
-from .support_polygon import beyond, corners, hull, inside
+from .support_polygon import beyond, corners, hull, inside, inside_with
 
 __all__ = [
     "beyond",
     "corners",
     "hull",
     "inside",
+    "inside_with",
     "mirror_axis",
     "outer_air",
     "ranges",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Final, Literal
@@ -203,7 +203,9 @@ def plan_assembly(
     temporary = everything.role == Role.SUPPORT_OUTSIDE
     catalogue, ordering = assembly.catalogue, part(progress, 0.8, 0.9)
     contacts = building_contacts(Assembly(everything, catalogue), temporary=temporary)
-    steps = plan_steps(everything, catalogue, contacts.pairs, temporary=temporary, progress=ordering)
+    steps = _steps_known(pieces, everything)
+    if steps is None:
+        steps = plan_steps(everything, catalogue, contacts.pairs, temporary=temporary, progress=ordering)
     planned = Assembly(replace(everything, step=steps.moves.step_of(len(everything))), catalogue)
     found = walk(steps, planned, contacts, temporary=temporary, progress=part(progress, 0.9, 1.0))
     unsteady = _unsteady(steps, planned, contacts)
@@ -241,14 +243,21 @@ def plan_as_given(
         for number in np.unique(model.bricks.piece).tolist()
     ]
     contacts = building_contacts(assembly, temporary=temporary)
-    if own_steps:
-        steps = given_steps(assembly, contacts.pairs)
-    else:
+    steps = given_steps(assembly, contacts.pairs) if own_steps else _steps_known(pieces, bricks)
+    if steps is None:
         ordering = part(progress, 0.5, 0.8)
         steps = plan_steps(bricks, assembly.catalogue, contacts.pairs, temporary=temporary, progress=ordering)
     planned = Assembly(replace(bricks, step=steps.moves.step_of(len(bricks))), assembly.catalogue)
     found = walk(steps, planned, contacts, temporary=temporary, progress=part(progress, 0.8, 1.0))
     return AssemblyPlan(planned, contacts, tuple(pieces), steps, found, _unsteady(steps, planned, contacts))
+
+
+def _steps_known(pieces: Sequence[Piece], bricks: Bricks) -> Steps | None:
+    """Return the steps of a model that is its first piece, planned with just its supports; None of any other."""
+    taken_out = np.count_nonzero(bricks.role == Role.SUPPORT_OUTSIDE)
+    if len(pieces) != 1 or bricks.piece.any() or taken_out != len(pieces[0].plan.supports):
+        return None
+    return pieces[0].plan.grown.steps
 
 
 def _unsteady(steps: Steps, assembly: Assembly, contacts: BuildingContacts) -> tuple[Tipping, ...]:

@@ -14,9 +14,8 @@ from typing import Final, Literal
 import numpy as np
 
 from ..arrays import Floats, Ints, Mask
-from ..building import STEADY, Tipping, no_prop, plan_steps, tipping
-from ..geometry import corners, inside
-from ..model import Assembly, Bricks, Catalogue, ContactGraph, Role, Rows, Verdict, concatenate, contact_graph
+from ..building import Tipping
+from ..model import Assembly, Bricks, Catalogue, ContactGraph, Role, Rows, Verdict, contact_graph
 from ..progress import Progress, part, silent
 from ..statics import Effort, stability
 from .beams import beams
@@ -24,6 +23,7 @@ from .boxes import OUTSIDE_COLOUR, bricks_of_boxes, merge_upwards, sizes_in, spl
 from .chassis import carried_by, chassis, without
 from .columns import columns
 from .demand import Demand
+from .growth import Grown, Growth
 from .stacks import widen
 from .tree import tree
 
@@ -34,9 +34,6 @@ ROUNDS: Final = 6
 
 BY_HAND: Final = 50.0
 """Weight in g of supports for which it is worth to hold one more tower by hand."""
-
-ENOUGH: Final = 1.0
-"""Studs inside of its feet from which on a tower is as steady as it needs to be."""
 
 MOVING: Final = 1e-6
 """Share of the fastest motion of a collapse from which on a brick moves."""
@@ -74,9 +71,9 @@ class Plan:
     supports : Bricks
         What is taken out again.
     contacts : NearContacts
-    unsteady : tuple of Tipping
-        Towers that fall over on the way, as no contact can hold them; their rows
-        count the bricks of the piece and then the supports.
+    grown : Grown
+        How it is built: its steps, and the towers that fall over on the way as no
+        contact can hold them.
     bears : bool
         Whether the supports are proven to bear what lies on them.
     """
@@ -84,8 +81,13 @@ class Plan:
     way: Way
     supports: Bricks
     contacts: SupportContacts
-    unsteady: tuple[Tipping, ...]
+    grown: Grown
     bears: bool
+
+    @property
+    def unsteady(self) -> tuple[Tipping, ...]:
+        """Towers that fall over on the way."""
+        return tuple(self.grown.towers)
 
 
 def plan_supports(
@@ -121,6 +123,7 @@ def plan_supports(
         The lightest of those with the fewest faults.
     """
     contacts = SupportContacts(need.contacts, need.carried, need.load, np.zeros(len(need.contacts), dtype=bool))
+    growth = Growth(assembly, need)
     best: Plan | None = None
     for turn, way in enumerate(ways):
         trying = part(progress, turn / len(ways), (turn + 1) / len(ways))
@@ -128,10 +131,10 @@ def plan_supports(
         if best is not None and not len(contacts.cells):
             break
         laid = partial(_light, best, need, assembly.catalogue, way, long_bricks=long_bricks)
-        found = _settled(assembly, need, contacts, way, clutch, trying, laid)
+        found = _settled(growth, contacts, way, clutch, trying, laid)
         if best is None or (found is not None and _worth(found, assembly.catalogue) < _worth(best, assembly.catalogue)):
             best = found
-    return _bare(assembly, need, contacts, progress) if best is None else best
+    return _bare(growth, contacts, progress) if best is None else best
 
 
 def _worth(plan: Plan, catalogue: Catalogue) -> tuple[bool, float]:
@@ -144,8 +147,7 @@ def _mass(bricks: Bricks, catalogue: Catalogue) -> float:
 
 
 def _settled(
-    assembly: Assembly,
-    need: Demand,
+    growth: Growth,
     contacts: SupportContacts,
     way: Way,
     clutch: float,
@@ -153,68 +155,47 @@ def _settled(
     laid: Callable[[SupportContacts], Bricks | None],
 ) -> Plan | None:
     """Add contacts and straighten branches until all stands and bears, nothing more helps, or none are laid."""
+    need, catalogue = growth.need, growth.assembly.catalogue
     for left in reversed(range(ROUNDS)):
         trying = part(progress, 1 - (left + 1) / ROUNDS, 1 - left / ROUNDS)
         if (offered := laid(contacts)) is None:
             return None
         supports = offered
-        # what the last round finds is not laid any more
-        falling, braces = _falling(assembly, supports, contacts, need, add=left > 0, progress=trying)
         giving, bears = np.zeros(len(contacts.cells), dtype=bool), True
         if way != "columns" and len(contacts.cells):
-            giving, bears = _giving(contacts, supports, need, assembly.catalogue, clutch, trying)
-        better = contacts
-        if way == "tree":
-            n = len(assembly)
-            leaning = [tower.bricks - n for tower in falling if tower.bricks[0] >= n]
-            crooked = giving | _resting_on(contacts, supports, need, assembly.catalogue, leaning)
-            if (crooked & ~contacts.straight).any():
-                better = replace(contacts, straight=contacts.straight | crooked)
-        if braces:
-            better = _with(better, need, braces)
+            giving, bears = _giving(contacts, supports, need, catalogue, clutch, trying)
+        # what the last round finds is not laid any more
+        for planned in (False, True) if growth.known and left else (True,):
+            grown = growth.with_supports(supports, contacts.cells, add=left > 0, planned=planned, progress=trying)
+            better = contacts if way != "tree" else _straighter(contacts, giving, grown, supports, growth)
+            if grown.braces:
+                better = _with(better, need, grown.braces)
+            if better is not contacts:
+                break
         if better is contacts or not left:
             break
         contacts = better
-    return Plan(way, supports, contacts, tuple(falling), bears)
+    return Plan(way, supports, contacts, grown, bears)
 
 
-def _bare(assembly: Assembly, need: Demand, contacts: SupportContacts, progress: Progress) -> Plan:
+def _straighter(
+    contacts: SupportContacts, giving: Mask, grown: Grown, supports: Bricks, growth: Growth
+) -> SupportContacts:
+    """Return contacts with those straight that give way, or that rest on trees that fall over."""
+    n = len(growth.assembly)
+    leaning = [tower.bricks - n for tower in grown.towers if tower.bricks[0] >= n]
+    crooked = giving | _resting_on(contacts, supports, growth.need, growth.assembly.catalogue, leaning)
+    if not (crooked & ~contacts.straight).any():
+        return contacts
+    return replace(contacts, straight=contacts.straight | crooked)
+
+
+def _bare(growth: Growth, contacts: SupportContacts, progress: Progress) -> Plan:
     """Return the plan that puts nothing under a piece."""
-    nothing = assembly.bricks.take(np.zeros(0, dtype=np.int64))
+    nothing = growth.assembly.bricks.take(np.zeros(0, dtype=np.int64))
     none = SupportContacts(contacts.cells[:0], contacts.carried[:0], contacts.load[:0], contacts.straight[:0])
-    falling, _ = _falling(assembly, nothing, none, need, add=False, progress=progress)
-    return Plan("none", nothing, none, tuple(falling), True)
-
-
-def _falling(
-    assembly: Assembly,
-    supports: Bricks,
-    contacts: SupportContacts,
-    need: Demand,
-    *,
-    add: bool,
-    progress: Progress,
-) -> tuple[list[Tipping], list[int]]:
-    """Return the towers that fall over while a piece is built, and undersides, if some may be added, that save more."""
-    everything = concatenate([assembly.bricks, supports])
-    pairs = contact_graph(everything, assembly.catalogue).pairs
-    temporary = np.arange(len(everything)) >= len(assembly.bricks)
-    steps = plan_steps(everything, assembly.catalogue, pairs, temporary=temporary, progress=part(progress, 0.0, 0.5))
-    braces: list[int] = []
-
-    def prop(tower: Tipping) -> tuple[int, int] | None:
-        """Note the underside that saves a tower."""
-        best = _steadying(tower, contacts, need, braces)
-        if best is None:
-            return None
-        braces.append(best)
-        x, y = (need.undersides[best] + need.room.low)[:2].tolist()
-        return x, y
-
-    watched = part(progress, 0.5, 1.0)
-    return tipping(
-        steps, Assembly(everything, assembly.catalogue), pairs, prop=prop if add else no_prop, progress=watched
-    ), braces
+    grown = growth.with_supports(nothing, none.cells, add=False, planned=True, progress=progress)
+    return Plan("none", nothing, none, grown, True)
 
 
 def _light(
@@ -294,19 +275,6 @@ def _resting_on(
     graph = contact_graph(supports, catalogue)
     tops = _tops(contacts, need, graph)
     return np.isin(graph.component[tops], graph.component[np.concatenate(towers)])
-
-
-def _steadying(tower: Tipping, contacts: SupportContacts, need: Demand, braces: Sequence[int]) -> int | None:
-    """Return the underside at which a support keeps a tower upright best, if one helps."""
-    under = np.flatnonzero(np.isin(need.over, tower.bricks))
-    taken = np.concatenate([contacts.cells, need.undersides[list(braces)]])[:, :2]
-    under = under[~(need.undersides[under, None, :2] == taken[None]).all(axis=2).any(axis=1)]
-    cells = need.undersides[under] + need.room.low
-    before = inside(tower.feet, tower.middle)
-    after = np.array([inside(np.concatenate([tower.feet, corners([(x, y)])]), tower.middle) for x, y, _ in cells])
-    if not len(after) or after.max() <= before + STEADY:
-        return None
-    return int(under[np.lexsort((cells[:, 2], -np.minimum(after, ENOUGH)))[0]])
 
 
 def _with(contacts: SupportContacts, need: Demand, undersides: Sequence[int]) -> SupportContacts:

@@ -189,7 +189,7 @@ class _Bench:
             return False
         if self.free[cells].shape != (PLATES_PER_BRICK, b, a) or not self.free[cells].all():
             return False
-        inside = [each for each in np.unique(self.owner[cells]).tolist() if each != NOBODY]
+        inside = set(self.owner[cells].ravel().tolist()) - {NOBODY}
         return all(each < len(self.rows) and self.rows[each][2:] == [z, 1, 1, PLATES_PER_BRICK] for each in inside)
 
 
