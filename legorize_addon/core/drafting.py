@@ -15,8 +15,8 @@ from .native import watched
 from .progress import Overall, Progress, silent
 from .settings import Settings
 from .shell import make_cohesive
-from .slicing import fit_grid, link_loops
-from .stages import Run, close_overhangs, cut_mesh, find_colours, hollow_out, make_unit_grid, prepare_mesh
+from .slicing import link_loops
+from .stages import Run, close_overhangs, cut_mesh, find_colours, hollow_out, make_unit_grid, place_grid, prepare_mesh
 from .unit_bricks import add_feet
 
 STAGES: Final = ("mesh", "colours", "slicing", "trajectories", "unit bricks", "overhangs", "hollowing")
@@ -72,15 +72,15 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
     -------
     draft : Draft
     remarks : tuple of str
-        On parts of the mesh that cannot be seen, and on feet.
+        On parts of the mesh that cannot be seen, on another size, and on feet.
     """
     settings, plates = run.settings, run.settings.plates != "none"
     with run.stage("mesh"):
         mesh, repairs, turn, scale, unseen = prepare_mesh(run, given)
+        mesh, scale, frame, sized = place_grid(run, mesh, scale)
     with run.stage("colours"):
         surface = find_colours(run, mesh, given)
     with run.stage("slicing"):
-        frame = fit_grid(mesh, symmetric=settings.symmetric, plates=plates)
         cut = cut_mesh(run, mesh, surface, frame)
     with run.stage("trajectories"):
         trajectories = link_loops(mesh, cut.slices, surface, chord_deviation=settings.chord_deviation)
@@ -94,7 +94,7 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
         mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut, trajectories=trajectories,
         offsets=offsets, grid=grid, hollow=shell,
     )  # fmt: skip
-    return made, (*unseen, *feet)
+    return made, (*unseen, *sized, *feet)
 
 
 def stand_up(run: Run, grid: UnitGrid) -> tuple[UnitGrid, tuple[str, ...]]:

@@ -100,6 +100,11 @@ class Settings:
     symmetric: bool = setting(
         True, "Symmetric", "Centre the grid on the model, so that a symmetric object becomes a symmetric model.",
         group="Shape")
+    grid_fit: Literal["none", "shifts", "sizes"] = setting(
+        "none", "Fit of the grid", "Where the grid of studs lies over the model.", group="Shape", words={
+            "none": "in its middle, or as in the paper", "shifts": "where it fits best, by quarters of a stud; a "
+            "symmetric model stays so", "sizes": "the same, also of a size up to 3 % smaller or larger if it is set in "
+            "studs, bricks or cm"})
     superposition: Literal["median", "middle"] = setting(
         "median", "Ends of plates", "Where a brick ends if its three plates end at different places.", group="Shape",
         words={"median": "between the two others, which keeps its volume",

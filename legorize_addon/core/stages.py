@@ -24,7 +24,18 @@ from .part_choice import PartChoice
 from .progress import Overall
 from .settings import Settings
 from .shell import hollow
-from .slicing import Grid, Marks, Trajectories, adaptive_heights, differing_layers, levels_of, slice_mesh
+from .slicing import (
+    LEEWAY,
+    Grid,
+    Marks,
+    Trajectories,
+    adaptive_heights,
+    best_grid,
+    differing_layers,
+    fit_grid,
+    levels_of,
+    slice_mesh,
+)
 from .supports import (
     INSIDE_COLOUR,
     AssemblyPlan,
@@ -116,6 +127,21 @@ def prepare_mesh(run: Run, mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs, F
     # where nothing can be seen, all of it was used
     mesh = reduce_images(mesh, least=least * (share < 1), mean=settings.fine_texture == "mean")
     return mesh, repairs, turn, factor, remarks_on_unseen(share, least=least)
+
+
+def place_grid(run: Run, mesh: TriangleMesh, scale: float) -> tuple[TriangleMesh, float, Grid, tuple[str, ...]]:
+    """Lay the grid over a mesh; return both, the scale, and a remark if the size changed, where that is allowed."""
+    settings, plates = run.settings, _in_plates(run.settings)
+    if settings.grid_fit == "none":
+        return mesh, scale, fit_grid(mesh, symmetric=settings.symmetric, plates=plates), ()
+    # a factor is meant as it is given, and sizes by counting are searched by it
+    leeway = LEEWAY if settings.grid_fit == "sizes" and settings.size_by != "scale" else 0.0
+    frame, factor = best_grid(mesh, symmetric=settings.symmetric, plates=plates, leeway=leeway)
+    if factor == 1:
+        return mesh, scale, frame, ()
+    way = "larger" if factor > 1 else "smaller"
+    told = f"The model is {100 * abs(factor - 1):.0f} % {way} than asked for: its surface fits the studs better so."
+    return scale_mesh(mesh, factor), scale * factor, frame, (told,)
 
 
 def _scale(mesh: TriangleMesh, settings: Settings) -> float:

@@ -9,7 +9,7 @@ from legorize_addon.core.drafting import STAGES, draft_model
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from tests.core.solids import sphere
+from tests.core.solids import box, sphere
 
 
 def test_a_draft_is_what_a_build_begins_with():
@@ -30,3 +30,16 @@ def test_sizes_that_building_finds_are_refused(size_by):
     """A draft has no bricks to count."""
     with pytest.raises(SettingsError, match="choose the width"):
         draft_model(sphere(4), Settings(size_by=size_by))
+
+
+@pytest.mark.parametrize("size_by", ["width", "scale"])
+def test_a_size_that_fits_better_is_taken_and_told_unless_it_is_a_factor(size_by):
+    """A box that is not whole studs deep and high errs less a little larger or smaller."""
+    mesh = box((0, 0, 0), (160.0, 78.4, 94.08))
+    settings = Settings(size_by=size_by, width=20, up="z", grid_fit="sizes", layout="fast", supports="none")
+    build = legorize(mesh, settings)
+    told = [note for note in build.notes if "% larger" in note or "% smaller" in note]
+    assert bool(told) == (size_by == "width")
+    assert (build.scale == pytest.approx(1.0)) == (size_by == "scale")
+    # the scale that is told is that of the mesh that was built
+    assert np.ptp(build.draft.mesh.vertices[:, 0]) == pytest.approx(160 * build.scale)

@@ -25,12 +25,13 @@ def mirror_axis(cells: Mask) -> int | None:
         2 for x or 1 for y, that along which more cells have an image; None if
         fewer than :data:`SYMMETRIC` of them have one, or there are none.
     """
-    shares = {axis: _agreeing(cells, np.flip(cells, axis)) for axis in (2, 1)}
+    shares = {axis: mirrored_share(cells, axis) for axis in (2, 1)}
     best = max(shares, key=lambda axis: shares[axis])
     return best if shares[best] >= SYMMETRIC else None
 
 
-def _agreeing(cells: Mask, image: Mask) -> float:
-    """Return the share of the cells of both that are in both."""
+def mirrored_share(cells: Mask, axis: int) -> float:
+    """Return the share of cells, (n_z, n_y, n_x) bool, that have an image in the middle of an axis, 0 to 1."""
+    image = np.flip(cells, axis)
     either = np.count_nonzero(cells | image)
     return np.count_nonzero(cells & image) / either if either else 0.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .coverage import Pieces, covered_area_shares, cut_at_grid
+from .grid_search import LEEWAY, best_grid
 from .lattice import ALPHA, Grid, fit_grid
 from .layer_differences import Marks, differing_layers
 from .levels import Levels, levels_of
@@ -11,6 +12,7 @@ from .trajectories import Trajectories, link_loops
 
 __all__ = [
     "ALPHA",
+    "LEEWAY",
     "Grid",
     "Levels",
     "Marks",
@@ -18,6 +20,7 @@ __all__ = [
     "Slices",
     "Trajectories",
     "adaptive_heights",
+    "best_grid",
     "covered_area_shares",
     "cut_at_grid",
     "differing_layers",

@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from ..arrays import Floats, Mask
+from ..arrays import Floats, Ints, Mask
 from ..geometry import corners, inside
 from ..mesh import TriangleMesh
 from ..units import BRICK, CELL_AREA, PLATE, PLATES_PER_BRICK, STUD
@@ -89,6 +89,17 @@ def fit_grid(mesh: TriangleMesh, *, symmetric: bool, plates: bool = False) -> Gr
         start = middle - cells * STUD / 2
     else:
         cells = np.maximum(cells, np.ceil((high[:2] - start) / STUD).astype(int) + 1)
+    return _on_ground(mesh, start, cells, plates=plates)
+
+
+def begun_earlier(grid: Grid, mesh: TriangleMesh, by: Floats, *, plates: bool) -> Grid:
+    """Return the grid that begins some mm earlier along x and y, at most a cell, and ends no earlier."""
+    cells = np.array([grid.n_x, grid.n_y]) + (by > 0)
+    return _on_ground(mesh, grid.origin[:2] - by, cells, plates=plates)
+
+
+def _on_ground(mesh: TriangleMesh, start: Floats, cells: Ints, *, plates: bool) -> Grid:
+    """Return the grid with a corner at x and y and so many cells, at the height where the model stands best."""
     ground, n_layers = _ground(mesh, start, cells, 1 if plates else PLATES_PER_BRICK)
     return Grid(np.array([*start, ground]), n_layers, int(cells[1]), int(cells[0]))
 

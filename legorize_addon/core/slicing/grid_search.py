@@ -1,0 +1,130 @@
+"""Where a grid fits a mesh best: shifts by quarters of a stud, and sizes a few per cent apart.
+
+A leg of one stud's width is two half-filled rows on one grid and one full row on
+another. A cell errs by the share of it that it fills or leaves empty in spite of
+the mesh; the sum of this over all cells, as plates, is what a grid is chosen by.
+One cut of the mesh into quarters of a stud gives it for all shifts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from ..arrays import Floats
+from ..geometry import SYMMETRIC, mirrored_share
+from ..mesh import TriangleMesh, scale_mesh
+from ..units import CELL_AREA, PLATE, PLATES_PER_BRICK, STUD
+from .coverage import covered_area
+from .lattice import Grid, begun_earlier, fit_grid
+from .slices import slice_mesh
+from .trajectories import linked
+
+PARTS: Final = 4
+"""Steps of a shift in a stud: those of half a stud and between, as finer ones gain next to nothing."""
+
+LEEWAY: Final = 0.03
+"""Share by which a size may differ: less than a stud of 32."""
+
+_STEP: Final = 0.01
+"""Between two sizes that are tried."""
+
+_CELLS: Final = 4_000_000
+"""Fine cells at a time: 32 MB."""
+
+_GAIN: Final = 0.005
+"""Share of the error that another shift has to save: less is not worth a model that lies askew to its middle."""
+
+
+def best_grid(mesh: TriangleMesh, *, symmetric: bool, plates: bool, leeway: float = 0.0) -> tuple[Grid, float]:
+    """Find the grid that fits a mesh best.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        In its size, in mm.
+    symmetric, plates : bool
+        As for :func:`~.lattice.fit_grid`: a symmetric model keeps a cell border
+        or a cell centre in its middle.
+    leeway : float, optional
+        Share by which the size may differ.
+
+    Returns
+    -------
+    grid : Grid
+    factor : float
+        The size, as a multiple of that given; the grid is that of the scaled mesh.
+    """
+    steps = round(leeway / _STEP)
+    # the given size first: another one has to be better
+    found = [_shifted(mesh, factor, symmetric=symmetric, plates=plates) for factor in _factors(steps)]
+    best = min(found, key=lambda each: each.error)
+    return best.grid, best.factor
+
+
+def _factors(steps: int) -> Iterator[float]:
+    yield 1.0
+    for step in range(1, steps + 1):
+        yield from (1 - step * _STEP, 1 + step * _STEP)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Found:
+    """The best grid of a size, and its error in cells over the square of the factor of the size."""
+
+    grid: Grid
+    factor: float
+    error: float
+
+
+def _shifted(mesh: TriangleMesh, factor: float, *, symmetric: bool, plates: bool) -> _Found:
+    """Find the best shift of the usual grid of a size."""
+    mesh = mesh if factor == 1 else scale_mesh(mesh, factor)
+    grid = fit_grid(mesh, symmetric=symmetric, plates=plates)
+    errors, mirrored = _errors(mesh, grid)
+    for axis in range(2):
+        # a shift by half a stud leaves a middle in the middle
+        if symmetric and mirrored[axis]:
+            errors[(slice(None),) * axis + (slice(1, None, 2),)] = np.inf
+    best = np.unravel_index(errors.argmin(), errors.shape)
+    if errors[best] > (1 - _GAIN) * errors[0, 0]:
+        best = (np.intp(0), np.intp(0))
+    y, x = (int(each) for each in best)
+    shift = np.array([x, y]) * STUD / PARTS
+    moved = begun_earlier(grid, mesh, (STUD - shift) * (shift > 0), plates=plates) if shift.any() else grid
+    return _Found(moved, factor, float(errors[best]) / factor**2)
+
+
+def _errors(mesh: TriangleMesh, grid: Grid) -> tuple[Floats, tuple[bool, bool]]:
+    """Return the error of every shift along y and x in cells, (4, 4), and whether the model has an image in y and x."""
+    n_plates = PLATES_PER_BRICK * grid.n_layers
+    heights = grid.origin[2] + (np.arange(n_plates) + 0.5) * PLATE
+    # a stud more before the grid, which shifts reach
+    corner, n_y, n_x = grid.origin[:2] - STUD, PARTS * (grid.n_y + 2), PARTS * (grid.n_x + 2)
+    errors, cells = np.zeros((PARTS, PARTS)), []
+    for some in np.array_split(heights, -(-n_plates * n_y * n_x // _CELLS)):
+        outline = linked(mesh.faces, slice_mesh(mesh, some))
+        fine = replace(outline, start=outline.start * PARTS)
+        sums = _sums(covered_area(fine, len(some), corner * PARTS, n_y, n_x) / CELL_AREA)
+        for y, x in np.ndindex(PARTS, PARTS):
+            share = _cells(sums[:, y::PARTS, x::PARTS]) / PARTS**2
+            errors[y, x] += np.minimum(share, 1 - share).sum()
+        cells.append(_cells(sums[:, ::PARTS, ::PARTS])[:, 1:-1, 1:-1] >= PARTS**2 / 2)
+    solid = np.concatenate(cells)
+    y, x = (mirrored_share(solid, axis) >= SYMMETRIC for axis in (1, 2))
+    return errors, (y, x)
+
+
+def _sums(fine: Floats) -> Floats:
+    """Return the sums of all that lies before each grid point, (n, n_y + 1, n_x + 1)."""
+    sums: Floats = np.pad(fine, ((0, 0), (1, 0), (1, 0))).cumsum(axis=1).cumsum(axis=2)
+    return sums
+
+
+def _cells(sums: Floats) -> Floats:
+    """Return what lies between neighbouring points, given the sums before them."""
+    cells: Floats = np.diff(np.diff(sums, axis=1), axis=2)
+    return cells

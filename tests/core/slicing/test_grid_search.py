@@ -1,0 +1,96 @@
+"""The grid is laid where the mesh fills its cells best, keeps a symmetric model's middle, and may change its size."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from legorize_addon.core.mesh import scale_mesh
+from legorize_addon.core.slicing import LEEWAY, best_grid, fit_grid, slice_mesh
+from legorize_addon.core.slicing.coverage import covered_area
+from legorize_addon.core.slicing.grid_search import PARTS
+from legorize_addon.core.slicing.trajectories import linked
+from legorize_addon.core.units import BRICK, PLATE, STUD
+from tests.core.solids import box, joined
+
+QUARTER = STUD / PARTS
+
+
+def error(mesh, grid):
+    """Return the cells, as plates, by which the grid errs: a plain sum over all of them."""
+    n = 3 * grid.n_layers
+    heights = grid.origin[2] + (np.arange(n) + 0.5) * PLATE
+    area = covered_area(linked(mesh.faces, slice_mesh(mesh, heights)), n, grid.origin[:2], grid.n_y, grid.n_x)
+    return sum(min(share, 1 - share) for share in (area / 64).ravel())
+
+
+def covers(mesh, grid) -> bool:
+    """Tell whether a free cell is left on every side."""
+    low, high = mesh.vertices.min(axis=0)[:2], mesh.vertices.max(axis=0)[:2]
+    end = grid.origin[:2] + STUD * np.array([grid.n_x, grid.n_y])
+    return bool((grid.origin[:2] <= low - STUD + 1e-6).all() and (end >= high + STUD - 1e-6).all())
+
+
+def bridge():
+    """Return a beam of seven studs on posts of one stud, half a stud inside its ends."""
+    posts = [box((x, 0, 0), (x + 8, 8, 5 * BRICK)) for x in (4.0, 44.0)]
+    return joined(*posts, box((0, 0, 5 * BRICK), (56, 8, 6 * BRICK)))
+
+
+def test_posts_between_two_rows_become_one_row_in_the_middle_of_the_model():
+    """Half filled in two rows on the usual grid, they fill one row wholly on the other; the image stays the image."""
+    mesh = bridge()
+    usual, (best, factor) = fit_grid(mesh, symmetric=True, plates=True), best_grid(mesh, symmetric=True, plates=True)
+    # two half cells for each plate of two posts, and afterwards for each plate of the beam
+    assert error(mesh, usual) == pytest.approx(2 * 15)
+    assert error(mesh, best) == pytest.approx(3)
+    assert factor == 1
+    assert best.origin[0] + STUD * best.n_x / 2 == pytest.approx(28)
+    assert best.n_x == usual.n_x + 1
+    assert covers(mesh, best)
+
+
+def test_a_grid_that_is_as_good_stays():
+    """Where the usual grid has no error, no other one is taken."""
+    mesh = box((3, -2, 5), (3 + 13 * 8, -2 + 6 * 8, 5 + 7 * BRICK))
+    usual, (best, factor) = fit_grid(mesh, symmetric=True), best_grid(mesh, symmetric=True, plates=False, leeway=LEEWAY)
+    assert (best.origin == usual.origin).all()
+    assert best.shape == usual.shape
+    assert factor == 1
+
+
+@pytest.mark.parametrize(("width", "factor"), [(10.2, 0.98), (9.8, 1.02), (9.6, 1.03), (10, 1)])
+def test_size_changes_to_whole_studs_and_no_further_than_allowed(width, factor):
+    """A cube whose sides are near whole studs is made a little smaller or larger."""
+    mesh = box((0, 0, 0), (width * 8, width * 8, width * 9.6))
+    grid, found = best_grid(mesh, symmetric=True, plates=True, leeway=LEEWAY)
+    assert found == pytest.approx(factor)
+    assert covers(scale_mesh(mesh, found), grid)
+    assert best_grid(mesh, symmetric=True, plates=True)[1] == 1
+
+
+sides = st.floats(10, 60)
+
+
+@settings(max_examples=10)
+@given(st.tuples(sides, sides, sides), st.tuples(sides, sides, sides), st.tuples(sides, sides))
+def test_no_shift_is_better(first, second, beside):
+    """Of two boxes somewhere, plain sums over the sixteen shifts show none that is half a per cent better."""
+    # side by side: where bodies overlap, the shares of quarters say more than those of cells
+    place = (first[0] + beside[0], beside[1], 0)
+    mesh = joined(box((0, 0, 0), first), box(place, np.add(place, second)))
+    usual, (best, _) = fit_grid(mesh, symmetric=False), best_grid(mesh, symmetric=False, plates=False)
+    assert covers(mesh, best)
+    steps = (best.origin[:2] - usual.origin[:2]) / QUARTER
+    assert steps == pytest.approx(np.round(steps))
+    others = []
+    for y, x in np.ndindex(PARTS, PARTS):
+        origin = usual.origin - [QUARTER * x, QUARTER * y, 0]
+        others.append(error(mesh, replace(usual, origin=origin, n_x=usual.n_x + 1, n_y=usual.n_y + 1)))
+    # where the ground follows the base, layers differ
+    if best.origin[2] == usual.origin[2]:
+        assert error(mesh, best) <= min(others) / 0.995 + 1e-6
