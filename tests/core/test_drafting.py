@@ -9,7 +9,7 @@ from legorize_addon.core.drafting import STAGES, draft_model
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from tests.core.solids import box, sphere
+from tests.core.solids import box, joined, sphere
 
 
 def test_a_draft_is_what_a_build_begins_with():
@@ -34,8 +34,8 @@ def test_sizes_that_building_finds_are_refused(size_by):
 
 @pytest.mark.parametrize("size_by", ["width", "scale"])
 def test_a_size_that_fits_better_is_taken_and_told_unless_it_is_a_factor(size_by):
-    """A box that is not whole studs deep and high errs less a little larger or smaller."""
-    mesh = box((0, 0, 0), (160.0, 78.4, 94.08))
+    """A box of 9.8 studs on a beam of 20 studs by two errs less a little larger."""
+    mesh = joined(box((-80, -8, 0), (80, 8, 9.6)), box((-39.2, -39.2, 9.6), (39.2, 39.2, 57.6)))
     settings = Settings(size_by=size_by, width=20, up="z", grid_fit="sizes", layout="fast", supports="none")
     build = legorize(mesh, settings)
     told = [note for note in build.notes if "% larger" in note or "% smaller" in note]
