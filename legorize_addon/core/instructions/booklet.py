@@ -24,7 +24,7 @@ from .panels import Panels, submodel_names
 from .paper import Paper
 from .pdf import Document, content_of
 from .shades import tint_for
-from .step_pages import step_pages
+from .step_pages import largest_picture, step_pages
 from .svg import svg
 from .viewer import viewer_data
 
@@ -97,7 +97,8 @@ class Booklet:
 
     @cached_property
     def _panels(self) -> Panels:
-        return Panels(self._bricks, self._catalogue, self._steps, self._temporary, self._tint)
+        room = largest_picture(self._paper)
+        return Panels(self._bricks, self._catalogue, self._steps, self._temporary, self._tint, room)
 
     @cached_property
     def _front(self) -> list[Page]:

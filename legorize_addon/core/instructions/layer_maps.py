@@ -17,12 +17,13 @@ from .fonts import width
 from .layers import Layer, by_tiles, layers_of
 from .legend import Legend, lettered
 from .lots import GREY, lots_of, rgb_of
-from .map_frame import LABELS, TITLE, Frame
+from .map_frame import LABELS, TITLE, Frame, map_room
 from .paper import MARGIN, Paper, foot
 from .plans import STUD, by_colour, hatched, plan_outlines, plan_studs
 from .shades import DARK, LIGHT_LINE, LINE, brightness, mixed, tint_for
 from .sheets import sheets
 from .svg import svg
+from .zoom import locator, zoomed
 
 MAPS: Final = "Layer maps"
 """Title of the first of their pages."""
@@ -88,10 +89,8 @@ def layer_pages(
     """
     # the tint of the supports in the booklet, as the model is the same
     tint = tint_for(rgb_of(bricks.take(~temporary), catalogue))
-    layers = _mapped(bricks, catalogue)
-    counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers]
-    legends = _legends(counts, paper)
-    whole = Frame.of(bricks, catalogue, _widest(legends), paper, actual_size=actual_size)
+    layers, whole = _mapped(bricks, catalogue, paper, actual_size=actual_size)
+    legends = _legends(bricks, catalogue, layers, paper)
     tiles = sorted({layer.tile for layer in layers if layer.tile})
     for number, (layer, legend) in enumerate(zip(layers, legends, strict=True)):
         progress("layer maps", number / len(layers))
@@ -100,6 +99,8 @@ def layer_pages(
         new, frame = bricks.take(layer.new), whole
         if layer.tile:
             frame = Frame.of_tile(plan_outlines(new, catalogue)[0], layer.tile, whole, _widest(legends), paper)
+        elif layer.box:
+            frame = Frame.of_box(layer.box, whole, legend.width, paper)
         lots, lot = lots_of(new, catalogue)
         items = (
             *_heading(layer, f"{number + 1} of {len(layers)}", frame, actual_size=actual_size),
@@ -108,13 +109,29 @@ def layer_pages(
             *_marks(new, lot, catalogue, frame),
             moved(tuple(legend.items(lots, catalogue)), frame.width - MARGIN - legend.width, MARGIN + TITLE),
             *(_where(layer.tile, tiles, frame) if layer.tile else ()),
+            *(_place(layer, bricks, catalogue, whole, frame) if layer.box else ()),
         )
         yield Page(frame.width, frame.height, items, layer.title)
 
 
-def _mapped(bricks: Bricks, catalogue: Catalogue) -> list[Layer]:
-    """Return what gets a map each."""
-    return by_tiles(layers_of(bricks, catalogue), tile_places(bricks, catalogue))
+def _mapped(bricks: Bricks, catalogue: Catalogue, paper: Paper, *, actual_size: bool) -> tuple[list[Layer], Frame]:
+    """Return what gets a map each, and the frame of maps that show the whole."""
+    layers = by_tiles(layers_of(bricks, catalogue), tile_places(bricks, catalogue))
+    legend = _widest(_legends(bricks, catalogue, layers, paper))
+    whole = Frame.of(bricks, catalogue, legend, paper, actual_size=actual_size)
+    if not actual_size:
+        layers = zoomed(layers, bricks, catalogue, whole, map_room(legend, paper), SMALLEST / _LETTER)
+    return layers, whole
+
+
+_LETTER: Final = 0.4
+"""Height of the letters on bricks, in studs."""
+
+
+def _place(layer: Layer, bricks: Bricks, catalogue: Catalogue, whole: Frame, frame: Frame) -> Iterator[Item]:
+    """Yield a small picture of the whole layer at the head of the page, with a box around what the map shows."""
+    items = locator(layer, bricks, catalogue, whole, (2.2 * _HEAD, _HEAD))
+    yield moved(items, frame.width - MARGIN - 24 - 2.2 * _HEAD, MARGIN - 2)
 
 
 def _where(tile: tuple[int, int], tiles: Sequence[tuple[int, int]], frame: Frame) -> Iterator[Item]:
@@ -131,8 +148,9 @@ _HEAD: Final = 11.0
 """mm of the picture of all tiles."""
 
 
-def _legends(counts: Sequence[int], paper: Paper) -> list[Legend]:
-    """Return the legends of maps with so many lots."""
+def _legends(bricks: Bricks, catalogue: Catalogue, layers: Iterable[Layer], paper: Paper) -> list[Legend]:
+    """Return the legends of maps."""
+    counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers]
     return [Legend.of(count, paper.height - 2 * MARGIN - TITLE) for count in counts]
 
 
@@ -194,16 +212,21 @@ def _plan(
     """Yield the map of a layer, in studs."""
     line = 0.3 / frame.stud
     yield _grid(frame)
+    around = tuple(_around(bricks, catalogue, layer, line))
+    yield from (Group(around, clip=_box(frame)),) if layer.tile or layer.box else around
+    yield from _new(bricks.take(layer.new), catalogue, temporary[layer.new], tint, line)
+
+
+def _around(bricks: Bricks, catalogue: Catalogue, layer: Layer, line: float) -> Iterator[Item]:
+    """Yield what was there before: what reaches through the layer, and what lies below."""
     if len(layer.through):
         points, count = plan_outlines(bricks.take(layer.through), catalogue)
-        between = Path(points, count, True, (Paint(_THROUGH, _GHOST, line),))
-        yield Group((between,), clip=_box(frame)) if layer.tile else between
+        yield Path(points, count, True, (Paint(_THROUGH, _GHOST, line),))
     if len(layer.below):
         below = bricks.take(layer.below)
         points, count = plan_outlines(below, catalogue)
         yield plan_studs(below, catalogue, Paint(stroke=_GHOST, width=STUD), Paint(stroke=WHITE, width=STUD - 2 * line))
         yield Path(points, count, True, (Paint(stroke=_GHOST, width=line, dash=(0.18, 0.12)),))
-    yield from _new(bricks.take(layer.new), catalogue, temporary[layer.new], tint, line)
 
 
 def _box(frame: Frame) -> Path:
@@ -241,7 +264,7 @@ def _new(bricks: Bricks, catalogue: Catalogue, temporary: Mask, tint: Rgb, line:
 
 def _marks(bricks: Bricks, lot: Ints, catalogue: Catalogue, frame: Frame) -> Iterator[Item]:
     """Yield the letter of its lot on the first stud of each brick."""
-    size = 0.4 * frame.stud
+    size = _LETTER * frame.stud
     if size < SMALLEST:
         return
     first, columns = stud_columns(bricks, catalogue)
@@ -273,13 +296,9 @@ def map_pages(
     skip : int
         Pages from the first one on that are not drawn.
     """
-    counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in _mapped(bricks, catalogue)]
-
-    def stud(strip: Paper) -> float:
-        """Return the mm of a stud on maps of a size."""
-        return Frame.of(bricks, catalogue, _widest(_legends(counts, strip)), strip, actual_size=False).stud
-
-    rows = next((rows for rows in (3, 2) if stud(_strip(paper, rows)) >= _READABLE), 1)
+    rows = next(
+        (n for n in (3, 2) if _mapped(bricks, catalogue, _strip(paper, n), actual_size=False)[1].stud >= _READABLE), 1
+    )
     strip = _strip(paper, rows)
     drawn = layer_pages(bricks, catalogue, temporary=temporary, paper=strip, skip=skip * rows, progress=progress)
     start = skip * rows

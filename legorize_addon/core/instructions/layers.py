@@ -28,6 +28,8 @@ class Layer:
         Rows of the bricks that are laid, of those on which they lie, and of taller or other ones between them.
     tile : (int, int) or None
         Row and column of the tile of a mosaic, from 0, if it shows one tile alone.
+    box : ((int, int), (int, int)) or None
+        Studs from which and to which it goes, if it does not show the whole.
     """
 
     title: str
@@ -35,6 +37,7 @@ class Layer:
     below: Ints
     through: Ints
     tile: tuple[int, int] | None = None
+    box: tuple[tuple[int, int], tuple[int, int]] | None = None
 
 
 def layers_of(bricks: Bricks, catalogue: Catalogue) -> list[Layer]:

@@ -70,12 +70,20 @@ class Frame(NamedTuple):
         return found._replace(first=whole.low)
 
     @classmethod
-    def _around(cls, points: Floats, legend: float, paper: Paper, *, actual_size: bool) -> Frame:
+    def of_box(cls, box: tuple[tuple[int, int], tuple[int, int]], whole: Frame, legend: float, paper: Paper) -> Frame:
+        """Return the frame for a part of a model, which lies as the whole does."""
+        found = cls._around(np.array(box, dtype=np.float64), legend, paper, actual_size=False, turned=whole.turned)
+        return found._replace(first=whole.low)
+
+    @classmethod
+    def _around(
+        cls, points: Floats, legend: float, paper: Paper, *, actual_size: bool, turned: bool | None = None
+    ) -> Frame:
         low, high = points.min(axis=0).astype(np.int64), points.max(axis=0).astype(np.int64)
-        turned = bool((high - low)[1] > (high - low)[0]) and not actual_size
+        if turned is None:
+            turned = bool((high - low)[1] > (high - low)[0]) and not actual_size
         across, up = (high - low)[:: -1 if turned else 1].tolist()
-        # what is beside and above the maps
-        beside, above = 2 * MARGIN + 2 * LABELS + FRONT + legend, 2 * MARGIN + 2 * LABELS + FRONT + TITLE
+        beside, above = _besides(legend)
         stud = min((paper.width - beside) / across, (paper.height - above) / up, LARGEST)
         if actual_size:
             stud = STUD_MM
@@ -96,3 +104,14 @@ class Frame(NamedTuple):
         """Return where a place in studs lies on the page."""
         a, b, c, d, e, f = self.matrix
         return a * x + c * y + e, b * x + d * y + f
+
+
+def map_room(legend: float, paper: Paper) -> tuple[float, float]:
+    """Return how many mm a map may be wide and high beside a legend of a width."""
+    beside, above = _besides(legend)
+    return paper.width - beside, paper.height - above
+
+
+def _besides(legend: float) -> tuple[float, float]:
+    """Return the mm that are taken beside and above the maps."""
+    return 2 * MARGIN + 2 * LABELS + FRONT + legend, 2 * MARGIN + 2 * LABELS + FRONT + TITLE

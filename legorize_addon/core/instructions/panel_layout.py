@@ -9,6 +9,7 @@ from typing import Final
 from ..arrays import Mask
 from ..building import Action
 from .canvas import Item, Paint, Rgb, Text, moved, rectangle
+from .closeup import LOCATOR
 from .fonts import width, wrapped
 from .icons import arrow, turn_sign
 from .lots import GREY, Callout, callout, lots_of, placed
@@ -64,6 +65,8 @@ def header(panels: Panels, panel: Panel, room: float) -> Callout:
     Callout
     """
     items: list[Item] = []
+    aside = LOCATOR[0] + _PAD if panel.window is not None else 0.0
+    room -= aside
     number = f"{panel.shot.step.number + 1}{panel.letter}"
     x = width(number, _NUMBER, bold=True) + 4
     items.append(Text(number, 0, _NUMBER * 0.78, _NUMBER, bold=True))
@@ -89,7 +92,8 @@ def header(panels: Panels, panel: Panel, room: float) -> Callout:
     elif signs.width:
         items.append(moved(signs.items, x, bottom + 2))
         right, bottom = max(right, x + signs.width), bottom + 2 + signs.height
-    return Callout(tuple(items), right, max(bottom, 16.0 if times > 1 else 0.0))
+    least = LOCATOR[1] if aside else 16.0 if times > 1 else 0.0
+    return Callout(tuple(items), right + aside, max(bottom, least))
 
 
 def _parts(panels: Panels, panel: Panel, room: float) -> Callout:
@@ -143,8 +147,9 @@ def panel_items(panels: Panels, panel: Panel, wide: float, high: float, scale: f
         mm on paper for a mm of the model; less if the picture does not fit otherwise.
     """
     top = header(panels, panel, wide)
-    picture = panels.picture(panel)
     free = wide, high - top.height - 3
+    picture = panels.picture(panel, (free[0] / (scale * MM), free[1] / (scale * MM)))
     unit = min(scale * MM, free[0] / picture.size[0], free[1] / picture.size[1])
     left, down = (free[0] - picture.size[0] * unit) / 2, top.height + 3 + (free[1] - picture.size[1] * unit) / 2
-    return [*top.items, placed(picture, left, down, unit / MM)]
+    small = moved(panels.locator(panel, picture), wide - LOCATOR[0], 0) if panel.window is not None else None
+    return [*top.items, *([small] if small else []), placed(picture, left, down, unit / MM)]

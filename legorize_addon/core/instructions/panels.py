@@ -11,7 +11,8 @@ from ..arrays import Floats, Ints, Mask
 from ..building import Action, Kind, Steps
 from ..model import NOBODY, Bricks, Catalogue
 from ..progress import Progress, silent
-from .canvas import Paint, Path, Rgb
+from .canvas import Item, Paint, Path, Rgb
+from .closeup import Window, cut, framed, grown, locator, window_of
 from .lattice import FRONT, Sight, View
 from .lots import rgb_of, shown_rgb
 from .picture import Look, Picture, at, draw, extent
@@ -41,8 +42,10 @@ class Panel:
         Rows of the new bricks that are listed as parts.
     turned : View or None
         The view before, if it was another one.
+    window : (low, high) or None
+        The part of the picture that is shown, None for the whole.
     size : (2,) float64 array
-        Width and height of the picture in its units.
+        Width and height of what is shown in the units of the picture.
     shares : (k,) float64 array
         Share of what could be seen of each new brick that is seen.
     """
@@ -56,6 +59,7 @@ class Panel:
     left_out: Ints
     placed: Ints
     turned: View | None
+    window: Window | None
     size: Floats
     shares: Floats
 
@@ -73,11 +77,21 @@ class Panels:
         Bricks that are taken out again.
     tint : tuple of three int
         Colour in which supports are drawn.
+    room : (float, float), optional
+        mm on paper for the largest picture; what would be too small there is shown in part.
     """
 
-    def __init__(self, bricks: Bricks, catalogue: Catalogue, steps: Steps, temporary: Mask, tint: Rgb) -> None:
+    def __init__(
+        self,
+        bricks: Bricks,
+        catalogue: Catalogue,
+        steps: Steps,
+        temporary: Mask,
+        tint: Rgb,
+        room: tuple[float, float] = (np.inf, np.inf),
+    ) -> None:
         self.bricks, self.catalogue, self.steps, self.temporary, self.tint = bricks, catalogue, steps, temporary, tint
-        self.stage = Stage(bricks, catalogue)
+        self.stage, self._room = Stage(bricks, catalogue), room
         self._smooth = ~catalogue.studs[bricks.part]
         self.shots = list(shots(steps, temporary=temporary))
         self._own = own = shown_rgb(bricks, catalogue, temporary, tint)
@@ -114,11 +128,12 @@ class Panels:
         for letter, (scene, turned) in zip(letters, found, strict=True):
             drawn = np.setdiff1d(stays, scene.left_out)
             listed = scene.new[np.isin(scene.new, shot.placed)]
-            low, high = extent(scene.sight)
+            window = window_of(scene.sight, scene.new, self._room)
+            low, high = window or extent(scene.sight)
             last = letter == letters[-1] and table == step.submodel
             panels.append(
-                Panel(shot, letter, last, scene.view, drawn, scene.new, scene.left_out, listed, turned, high - low,
-                      scene.shares)
+                Panel(shot, letter, last, scene.view, drawn, scene.new, scene.left_out, listed, turned, window,
+                      high - low, scene.shares)
             )  # fmt: skip
             stays = np.concatenate([stays, scene.new])
         return panels
@@ -131,19 +146,33 @@ class Panels:
             return [next(scene for scene in seen if scene.shares.mean() >= 0.8 * best)]
         return list(scenes(self.stage, shot.stays, shot.placed, shot.came, first, below=shot.step.pressed))
 
-    def picture(self, panel: Panel) -> Picture:
-        """Draw the picture of a panel."""
+    def picture(self, panel: Panel, room: tuple[float, float] = (0.0, 0.0)) -> Picture:
+        """Draw the picture of a panel; where a part is shown, as much of it as there is room for, in its units."""
         new = np.zeros(len(self.bricks), dtype=bool)
         new[panel.new] = True
         colour = np.where(new[:, None], self._own, self._pale)
         sight = self.stage.sight(np.concatenate([panel.stays, panel.new]), panel.view)
+        window = None
+        if panel.window is not None:
+            window = grown(panel.window, sight, np.array(room))
+            sight = cut(sight, window)
         made = draw(sight, Look(colour, new, studs=not panel.view.below, smooth=self._smooth))
-        if not len(panel.left_out):
+        ghosts = [_outline(self.stage.sight(panel.left_out, panel.view))] if len(panel.left_out) else []
+        if window is not None:
+            return Picture(framed((*made.items, *ghosts), window), *window)
+        if not ghosts:
             return made
-        ghost = _outline(self.stage.sight(panel.left_out, panel.view))
+        [ghost] = ghosts
         low = np.minimum(made.low, ghost.points.min(axis=0))
         high = np.maximum(made.high, ghost.points.max(axis=0))
         return Picture((*made.items, ghost), low, high)
+
+    def locator(self, panel: Panel, picture: Picture) -> list[Item]:
+        """Draw the small picture of the whole that says which part a picture shows; nothing if it shows all."""
+        if panel.window is None:
+            return []
+        sight = self.stage.sight(np.concatenate([panel.stays, panel.new]), panel.view)
+        return locator(sight, panel.new, (picture.low, picture.high))
 
     def whole(self, view: View, rows: Ints) -> Picture:
         """Draw bricks in their own colours, as they are in the end."""

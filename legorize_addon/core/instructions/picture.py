@@ -117,9 +117,9 @@ def at(points: Ints) -> Ints:
     return np.stack([ACROSS * (q - p), -DOWN * (p + q)], axis=1)
 
 
-def extent(sight: Sight) -> tuple[Floats, Floats]:
-    """Return the upper left and the lower right corner of a picture."""
-    m, n, half = np.nonzero(sight.nearest != NOBODY)
+def extent(sight: Sight, seen: Mask | None = None) -> tuple[Floats, Floats]:
+    """Return the upper left and the lower right corner of a picture, or of some of its pieces."""
+    m, n, half = np.nonzero(sight.nearest != NOBODY if seen is None else seen)
     # a half has the two corners of the diagonal, and one beside it
     beside = np.stack([m + half, n + 1 - half], axis=1)
     corners = at(np.concatenate([np.stack([m, n], axis=1), np.stack([m, n], axis=1) + 1, beside]) + sight.low)

@@ -90,10 +90,13 @@ def scales(panels: Panels, found: Sequence[Panel], paper: Paper) -> dict[int, fl
         Of each submodel the mm on paper for a mm of the model.
     """
     largest = {each.number: np.ones(2) for each in panels.steps.submodels}
+    page = page_cell(paper)
     for panel in found:
         table = panel.shot.submodel
+        # a part that is too large to be read, as what is put on as a whole, is drawn smaller by itself
+        if panel.window is not None and (panel.size * MM * READABLE > largest_picture(paper)).any():
+            continue
         largest[table] = np.maximum(largest[table], panel.size * MM)
-    page = page_cell(paper)
     half = page._replace(width=(page.width - GAP) / 2)
     made = {}
     for table, size in largest.items():
@@ -103,6 +106,12 @@ def scales(panels: Panels, found: Sequence[Panel], paper: Paper) -> dict[int, fl
         )
         made[table] = min(in_half, LARGEST) if in_half >= READABLE else min(in_page, READABLE)
     return made
+
+
+def largest_picture(paper: Paper) -> tuple[float, float]:
+    """Return how many mm a picture may be wide and high on a page."""
+    page = page_cell(paper)
+    return page.width - 2 * _INSET, page.height - 2 * _INSET - _HEAD
 
 
 def _middle(paper: Paper) -> Item:
