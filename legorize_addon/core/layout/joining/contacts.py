@@ -80,6 +80,35 @@ class _Reach:
     on_top: bool = False
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Grid:
+    """What all seams have to do with: component of each brick, which are stacked, and colours of the cells in a row."""
+
+    shape: tuple[int, ...]
+    component: Rows
+    stacked: Mask
+    colour: Plane
+    recoloured: Floats
+
+    def stride(self, axis: int) -> int:
+        """Return how many cells further the next one along an axis is."""
+        return int(np.prod(self.shape[axis + 1 :]))
+
+    def few(self, reach: _Reach) -> Ints:
+        """Return the cells that reach what is not of the largest component, in order."""
+        reached = self.component[reach.brick.reshape(-1)]
+        largest = np.bincount(self.component[:-1], minlength=1).argmax()
+        return np.flatnonzero((reached != largest) & (reached != NOBODY))
+
+    def beside(self, axis: int, first: Ints, second: Ints) -> Ints:
+        """Return the first cells of all pairs along an axis that have a given first or a given second one, in order."""
+        stride, size = self.stride(axis), self.shape[axis]
+        first = first[first // stride % size < size - 1]
+        second = second[second // stride % size > 0]
+        found: Ints = np.union1d(first, second - stride)
+        return found
+
+
 def near_contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool, places: int = _PLACES) -> NearContacts:
     """Find where components could be joined, the cheapest places first.
 
@@ -107,11 +136,16 @@ def near_contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool, 
     if len(np.unique(colour[(owner != NOBODY) & (colour >= 0) & ~stacked[owner]])) <= 1:
         # a sheet of one colour is no picture
         stacked[:NOBODY] = True
+    grid = _Grid(
+        owner.shape, np.append(component, np.int32(NOBODY)), stacked, colour.reshape(-1), recoloured.reshape(-1)
+    )
+    few = [grid.few(reach) for reach in reaches]
+    both = list(zip(reaches, few, strict=True))
     found = [
-        _across(axis, one, other, component, stacked, colour, recoloured)
+        _across(grid, axis, one, other, grid.beside(axis, first, second))
         for axis in (1, 2)
-        for one in reaches
-        for other in reaches
+        for one, first in both
+        for other, second in both
     ]
     every = NearContacts(*(np.concatenate([getattr(each, name) for each in found]) for name in NearContacts.__slots__))
     return _chosen(_seams(every, len(component)), component, places)
@@ -146,29 +180,28 @@ def _open_faces(owner: Rows) -> Ints:
     return 2 * owner.ndim - touched
 
 
-def _across(
-    axis: int, one: _Reach, other: _Reach, component: Rows, stacked: Mask, colour: Plane, recoloured: Floats
-) -> NearContacts:
-    """Return the seams along an axis between what two cells reach, if that is two components."""
-    low, high = (
-        tuple(part if each == axis else slice(None) for each in range(3)) for part in (slice(None, -1), slice(1, None))
-    )
-    label = np.append(component, NOBODY)
-    first, second = one.brick[low], other.brick[high]
-    near = (first != NOBODY) & (second != NOBODY) & (label[first] != label[second])
+def _across(grid: _Grid, axis: int, one: _Reach, other: _Reach, cells: Ints) -> NearContacts:
+    """Return the seams along an axis, of those at some cells, between what two cells reach, if that is two components.
+
+    One of the two is not the largest component: all seams lie beside cells that reach such a one.
+    """
+    beyond = cells + grid.stride(axis)
+    first, second = one.brick.reshape(-1)[cells], other.brick.reshape(-1)[beyond]
+    near = (first != NOBODY) & (second != NOBODY) & (grid.component[first] != grid.component[second])
     if one.on_top or other.on_top:
         # a picture is flat on top
-        near &= stacked[first] | stacked[second]
-    place = np.argwhere(near)
-    differ = ~agree(colour[low][near], colour[high][near]) & (one.added + other.added == 0)
-    change = np.minimum(recoloured[low][near], recoloured[high][near])
+        near &= grid.stacked[first] | grid.stacked[second]
+    cells, beyond, first, second = cells[near], beyond[near], first[near], second[near]
+    differ = ~agree(grid.colour[cells], grid.colour[beyond]) & (one.added + other.added == 0)
+    change = np.minimum(grid.recoloured[cells], grid.recoloured[beyond])
+    price = one.price.reshape(-1)[cells] + other.price.reshape(-1)[beyond]
     return NearContacts(
-        bricks=np.stack([first[near], second[near]], axis=1).astype(np.int64),
-        place=place,
-        axis=np.full(len(place), axis),
-        added=np.full(len(place), one.added + other.added),
-        on_top=np.full(len(place), int(one.on_top) + int(other.on_top)),
-        price=one.price[low][near] + other.price[high][near] + np.where(differ, change, 0.0),
+        bricks=np.stack([first, second], axis=1).astype(np.int64),
+        place=np.stack(np.unravel_index(cells, grid.shape), axis=1).astype(np.int64),
+        axis=np.full(len(cells), axis),
+        added=np.full(len(cells), one.added + other.added),
+        on_top=np.full(len(cells), int(one.on_top) + int(other.on_top)),
+        price=price + np.where(differ, change, 0.0),
     )
 
 

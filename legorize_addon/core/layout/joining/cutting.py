@@ -9,6 +9,7 @@ well.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -101,6 +102,12 @@ class Forms:
         return tiles
 
 
+@lru_cache(maxsize=4)
+def _forms(catalogue: Catalogue) -> Forms:
+    """Return the forms of a catalogue, listed once."""
+    return Forms(catalogue)
+
+
 class Bench:
     """A layout in which bricks are cut.
 
@@ -116,7 +123,7 @@ class Bench:
 
     def __init__(self, bricks: Bricks, owner: Rows, catalogue: Catalogue) -> None:
         """Take over a layout."""
-        self.forms = Forms(catalogue)
+        self.forms = _forms(catalogue)
         self.owner = owner
         columns = (bricks.part, bricks.turn, bricks.corner, bricks.colour, bricks.role)
         self.laid = [
