@@ -196,6 +196,8 @@ class Build(Finished):
         Changes by hand that were made.
     outcomes : tuple of Outcome
         What became of each of them.
+    unedited : Bricks or None
+        The layout before them.
     """
 
     mesh: TriangleMesh
@@ -210,6 +212,7 @@ class Build(Finished):
 
     edits: Edits = NO_EDITS
     outcomes: tuple[Outcome, ...] = ()
+    unedited: Bricks | None = None
 
     @property
     def draft(self) -> Draft:

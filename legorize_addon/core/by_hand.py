@@ -26,10 +26,13 @@ class ByHand:
         In the grid of the model, if they fit it.
     refused : mapping of int to str
         Numbers of those that could not be made, and why.
+    before : Bricks
+        The layout without them.
     """
 
     edits: Edits
     refused: Mapping[int, str]
+    before: Bricks
 
     def outcomes(self, assembly: Assembly) -> tuple[Outcome, ...]:
         """Return what a finished model has of them."""
@@ -62,13 +65,13 @@ def edit_bricks(
     """
     moved = edits.moved_to(scale, shell.origin.tolist())
     if moved is None:
-        return bricks, shell, ByHand(edits, dict.fromkeys(range(len(edits)), OTHER_GRID))
+        return bricks, shell, ByHand(edits, dict.fromkeys(range(len(edits)), OTHER_GRID), bricks)
     shape = (-1, *shell.colour.shape[2:])
     planes = shell.colour.reshape(shape).shape
     made, refused = apply_edits(bricks, run.parts.joining, moved.edits, shape=planes)
     if made is not bricks:
         shell = _as_built(shell, made, run.catalogue)
-    return made, shell, ByHand(moved, refused)
+    return made, shell, ByHand(moved, refused, bricks)
 
 
 def _as_built(shell: UnitGrid, bricks: Bricks, catalogue: Catalogue) -> UnitGrid:

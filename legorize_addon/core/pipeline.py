@@ -109,8 +109,8 @@ def _legorize(edits: Edits, mesh: TriangleMesh, settings: Settings, progress: Pr
     return Build(
         settings=settings, mesh=made.mesh, repairs=made.repairs, scale=made.scale, turn=made.turn,
         surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
-        hollow=shell, edits=by_hand.edits, outcomes=outcomes, assembly=plan.final, stability=found, supports=plan,
-        joints=joints, **run.parts.files, proof=proof, notes=notes, timings=run.timings,
+        hollow=shell, edits=by_hand.edits, outcomes=outcomes, unedited=by_hand.before, assembly=plan.final,
+        stability=found, supports=plan, joints=joints, **run.parts.files, proof=proof, notes=notes, timings=run.timings,
     )  # fmt: skip
 
 
@@ -124,7 +124,7 @@ def _put_up(run: Run, shell: UnitGrid, edits: Edits, scale: float) -> tuple[Asse
     with run.stage("strengthening"):
         bricks, shell, sparing = strengthen_joints(run, bricks, shell)
         bricks = recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue)
-    by_hand = ByHand(edits, {})
+    by_hand = ByHand(edits, {}, bricks)
     if edits.edits:
         with run.stage("edits"):
             laid, (bricks, shell, by_hand) = bricks, edit_bricks(run, edits, scale, bricks, shell)

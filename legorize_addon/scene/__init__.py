@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .animated_tree import FIRST, FRAMES, animated_tree
 from .assembly_columns import ASIDE, JOINED, REMOVED, TIER, there_after, way_after
-from .brick_points import MARGIN, NO_MARGIN, box_corners, middles, read_columns
+from .brick_points import MARGIN, NO_MARGIN, box_corners, middles, positions, read_columns
 from .brick_tree import EXPLODE, HEAT_MAP, HEAT_PARTS, PALE, PARTS, STEPS, brick_tree
 from .builds import (
     LAYER_KEY,
@@ -38,6 +38,7 @@ from .instancing import (
     plastic,
     set_input,
 )
+from .kept_edits import bricks_text, read_bricks_text
 from .lettering import title_for
 from .model import Model, Source
 from .part_meshes import PART_KEY, Detail, detail_of, parts_collection, parts_in_use, set_detail
@@ -81,6 +82,7 @@ __all__ = [
     "brick_tree",
     "bricks_modifier",
     "bricks_of",
+    "bricks_text",
     "builds",
     "builds_of",
     "change_tree",
@@ -106,7 +108,9 @@ __all__ = [
     "place_plane",
     "plastic",
     "point_objects",
+    "positions",
     "read_bricks",
+    "read_bricks_text",
     "read_columns",
     "set_detail",
     "set_input",

@@ -109,6 +109,36 @@ class BuildState:
         return float(x), float(y), float(z)
 
     @property
+    def scale(self) -> float:
+        """Model mm per world mm."""
+        return float(self._group["scale"])
+
+    @property
+    def mm_per_unit(self) -> float:
+        """World mm per Blender unit, as it was built."""
+        return float(self._group["mm_per_unit"])
+
+    @property
+    def edits(self) -> tuple[str, str]:
+        """Changes by hand as JSON, and the bricks without them, see :mod:`.kept_edits`; empty without any."""
+        return str(self._group.get("edits", "")), str(self._group.get("unedited", ""))
+
+    @edits.setter
+    def edits(self, texts: tuple[str, str]) -> None:
+        """Keep changes by hand, and the bricks without them."""
+        self._group["edits"], self._group["unedited"] = texts
+
+    @property
+    def picked(self) -> list[int]:
+        """Rows of the bricks that are picked to be changed."""
+        return [int(row) for row in self._group.get("picked", ())]
+
+    @picked.setter
+    def picked(self, rows: Sequence[int]) -> None:
+        """Keep which bricks are picked."""
+        self._group["picked"] = [int(row) for row in rows]
+
+    @property
     def unit_per_mm(self) -> float:
         """Blender units per model mm."""
         return 1.0 / (float(self._group["scale"]) * float(self._group["mm_per_unit"]))
@@ -189,6 +219,10 @@ class BuildState:
     def settings(self) -> dict[str, Any]:
         """Names and values of the settings that the build was made with; empty where they are not known."""
         return self._plain("settings")
+
+    def keep_settings(self, settings: Mapping[str, Any]) -> None:
+        """Keep the settings that the build was made with."""
+        self._group["settings"] = dict(settings)
 
     @property
     def notes(self) -> list[str]:

@@ -172,6 +172,7 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
 
     def _show(self, context: bpy.types.Context, order: BuildRequest, build: Build) -> set[str]:
         # which knows this module
+        from .edits import list_edits
         from .parts import list_parts_of
 
         [scene] = by_uid(bpy.data.scenes, [order.scene]) or [None]
@@ -188,6 +189,7 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
             replaces=by_uid(bpy.data.collections, order.replaces),
         )
         list_parts_of(collection, build)
+        list_edits(collection)
         view.build = collection
         view.show_sources = False
         if scene == context.scene:

@@ -19,6 +19,7 @@ from ..scene import Source, read_bricks, sources_of, state_of
 from ..view import show_result
 from . import job
 from .build import Browsing, OnBuild, Working
+from .edits import list_edits
 from .export import chosen_path
 from .instructions import title_of
 from .kept_texts import with_texts
@@ -112,6 +113,7 @@ class Judging(Working):
             replaces=by_uid(bpy.data.collections, order.replaces),
         )
         list_parts_of(shown, made)
+        list_edits(shown)
         scene.legorize.build = shown
         self.report({"INFO"}, f"Model of {len(made.bricks)} bricks.")
         for note in made.notes:
@@ -193,33 +195,51 @@ class LEGORIZE_OT_again(OnBuild, Judging, bpy.types.Operator):
     _timer = None
 
     def _take_order(self, context: bpy.types.Context) -> ExistingRequest:
-        from ..core.existing import Existing
+        return order_of(context, again=True)
 
-        build = current_build(context.scene)
-        state, settings = state_of(build), settings_of(context.scene.legorize.settings)
-        mm_per_unit = context.scene.unit_settings.scale_length * MM_PER_METRE
-        return ExistingRequest(
-            name=title_of(build),
-            scene=context.scene.session_uid,
-            given=Existing(read_bricks(build)),
-            settings=settings,
-            samples=resolved(settings.learned_from),
-            files=absolute_files(settings),
-            again=True,
-            steps="new",
-            scale=1 / (state.unit_per_mm * mm_per_unit),
-            origin=state.origin,
-            mm_per_unit=mm_per_unit,
-            sources=tuple(source.session_uid for source in sources_of(build)),
-            replaces=(build.session_uid,),
-        )
+
+def order_of(context: bpy.types.Context, *, again: bool) -> ExistingRequest:
+    """Return the request to lay the bricks of the build that the panel shows again, or to plan their steps."""
+    from ..core.existing import Existing
+
+    build = current_build(context.scene)
+    state, settings = state_of(build), settings_of(context.scene.legorize.settings)
+    mm_per_unit = context.scene.unit_settings.scale_length * MM_PER_METRE
+    return ExistingRequest(
+        name=title_of(build),
+        scene=context.scene.session_uid,
+        given=Existing(read_bricks(build)),
+        settings=settings,
+        samples=resolved(settings.learned_from),
+        files=absolute_files(settings),
+        again=again,
+        steps="new",
+        scale=1 / (state.unit_per_mm * mm_per_unit),
+        origin=state.origin,
+        mm_per_unit=mm_per_unit,
+        sources=tuple(source.session_uid for source in sources_of(build)),
+        replaces=(build.session_uid,),
+    )
+
+
+class LEGORIZE_OT_plan_steps(OnBuild, Judging, bpy.types.Operator):
+    """Plan supports and building steps of the bricks as they are."""
+
+    bl_idname = "legorize.plan_steps"
+    bl_label = "Plan Steps"
+    bl_description = "Plan supports and building steps of the bricks as they are now, and test whether they stand"
+    bl_options = {"REGISTER", "UNDO"}
+    _timer = None
+
+    def _take_order(self, context: bpy.types.Context) -> ExistingRequest:
+        return order_of(context, again=False)
 
 
 def _draw_import(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     self.layout.operator(LEGORIZE_OT_open_ldraw.bl_idname, text="LDraw Model (.ldr, .mpd)")
 
 
-classes = (LEGORIZE_OT_open_ldraw, LEGORIZE_OT_again)
+classes = (LEGORIZE_OT_open_ldraw, LEGORIZE_OT_again, LEGORIZE_OT_plan_steps)
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
 
 

@@ -159,7 +159,7 @@ class LEGORIZE_PT_palette(Tab, bpy.types.Panel):
         row.operator(LEGORIZE_OT_palette_all.bl_idname)
         row.operator(LEGORIZE_OT_palette_of_build.bl_idname)
         hard = rare(catalogue)
-        ranked = sorted(catalogue.colours, key=_rainbow)
+        ranked = ranked_colours(catalogue)
         self._draw_swatches([colour for colour in ranked if not hard[colour.code]], used)
         self.layout.label(text="Made of few parts:")
         self._draw_swatches([colour for colour in ranked if hard[colour.code]], used)
@@ -188,6 +188,11 @@ class LEGORIZE_PT_palette(Tab, bpy.types.Panel):
         for code, count in sorted(counts.items(), key=lambda entry: -entry[1]):
             if code in known:
                 column.label(text=f"{count} {known[code].name}", icon_value=swatch(known[code]))
+
+
+def ranked_colours(catalogue: Catalogue) -> list[Colour]:
+    """Return all colours in the order of a rainbow."""
+    return sorted(catalogue.colours, key=_rainbow)
 
 
 def _rainbow(colour: Colour) -> tuple[bool, float, float]:

@@ -15,6 +15,7 @@ from ..view import LEGEND, animation_of, can_highlight, has_margins, n_pieces, n
 from . import job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
 from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
+from .edit_tool import LEGORIZE_PT_edits
 from .everything import LEGORIZE_OT_export_folder
 from .existing import LEGORIZE_OT_again, LEGORIZE_OT_open_ldraw
 from .expectation import expected
@@ -255,6 +256,7 @@ def _building_figures(building: Mapping[str, Any] | None) -> tuple[str, ...]:
 classes = (
     LEGORIZE_PT_main,
     LEGORIZE_PT_palette,
+    LEGORIZE_PT_edits,
     LEGORIZE_PT_result,
     LEGORIZE_PT_stability,
     LEGORIZE_PT_layers,

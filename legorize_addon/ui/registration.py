@@ -6,6 +6,8 @@ from . import (
     animation,
     build,
     build_larger,
+    edit_tool,
+    edits,
     everything,
     existing,
     expectation,
@@ -25,8 +27,8 @@ from . import (
 )
 
 _PARTS = (
-    properties, expectation, build, build_larger, export, instructions, animation, learning, looks, parts, everything,
-    existing, palette, panels, mosaic, method, menus, preferences, weakest,
+    properties, expectation, build, build_larger, export, instructions, animation, learning, looks, parts, edits,
+    everything, existing, palette, edit_tool, panels, mosaic, method, menus, preferences, weakest,
 )  # fmt: skip
 
 

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ..core.edits import NO_EDITS, Edits
 from ..core.progress import Progress
 from ..core.setting import SEPARATOR
 from ..core.settings import Settings
 from ..core.units import MM_PER_METRE
 from ..reading import has_surface
-from ..scene import builds_of, is_own, orphans, sources_of
-from ..view import readable
+from ..scene import builds_of, is_own, orphans, sources_of, state_of
+from ..view import edits_of, readable
 from .kept_texts import with_texts
 from .learned_files import resolved
 from .properties import current_build
@@ -51,6 +52,8 @@ class BuildRequest:
         World mm per Blender unit.
     replaces : tuple of int
         Session identifiers of the builds whose place it takes.
+    edits : Edits
+        Changes by hand of these, to be made again.
     """
 
     name: str
@@ -63,6 +66,7 @@ class BuildRequest:
     files: Mapping[str, Any]
     mm_per_unit: float
     replaces: tuple[int, ...]
+    edits: Edits = NO_EDITS
 
     def check_limits(self) -> None:
         """Raise ``LimitError`` if the model would be larger than the limits of the settings."""
@@ -82,7 +86,9 @@ class BuildRequest:
         """Run the core; no Blender in here."""
         from ..core.pipeline import legorize
 
-        build = legorize(self.mesh, replace(self.settings, learned_from=self.samples, **self.files), progress)
+        build = legorize(
+            self.mesh, replace(self.settings, learned_from=self.samples, **self.files), progress, edits=self.edits
+        )
         # the scene keeps the name that holds on every machine
         build = replace(build, settings=self.settings)
         return with_texts(build, title=self.name, remarks=self.remarks, mm_per_unit=self.mm_per_unit)
@@ -145,6 +151,7 @@ def build_request(context: bpy.types.Context, sources: Sequence[bpy.types.Object
     with readable(context, sources):
         context.view_layer.update()
         mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get())
+    replaced = replaced_by(context, sources)
     return BuildRequest(
         name=" + ".join(source.name for source in sources),
         scene=context.scene.session_uid,
@@ -155,7 +162,8 @@ def build_request(context: bpy.types.Context, sources: Sequence[bpy.types.Object
         samples=resolved(settings.learned_from),
         files=absolute_files(settings),
         mm_per_unit=context.scene.unit_settings.scale_length * MM_PER_METRE,
-        replaces=tuple(model.session_uid for model in replaced_by(context, sources)),
+        replaces=tuple(model.session_uid for model in replaced),
+        edits=next((edits_of(model) for model in replaced if state_of(model).edits[0]), NO_EDITS),
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 import bpy
+from mathutils import Vector
 
 from ..core.units import STUD
 from ..scene import state_of
@@ -35,11 +36,16 @@ class LEGORIZE_OT_show_weakest(OnBuild, bpy.types.Operator):
         build = current_build(context.scene)
         place = show_weakest(context.scene, build)
         size = state_of(build).root.matrix_world.median_scale * STUD
-        for view in _views(context):
-            view.view_location, view.view_distance = place, STUDS_AWAY * size
-            if view.view_perspective == "CAMERA":
-                view.view_perspective = "PERSP"
+        look_at(context, place, size)
         return {"FINISHED"}
+
+
+def look_at(context: bpy.types.Context, place: Vector, stud: float) -> None:
+    """Turn the 3D views of the window to a place in the world, so near that studs of a size can be told apart."""
+    for view in _views(context):
+        view.view_location, view.view_distance = place, STUDS_AWAY * stud
+        if view.view_perspective == "CAMERA":
+            view.view_perspective = "PERSP"
 
 
 def _views(context: bpy.types.Context) -> list[bpy.types.RegionView3D]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .animation import Animation, animate, animation_of
+from .edited import Changed, change, edits_of, outcomes_in, show_changed, touching, without
 from .heat_map import LEGEND, has_margins, heat_map_shown, show_heat_map
 from .highlight import can_highlight, highlight_step, highlighted
 from .lots import show_lot, shown_lot
@@ -16,6 +17,7 @@ from .method import (
     show_trajectories,
     trajectories_shown,
 )
+from .picking import brick_under, edges_of
 from .show_result import show_result
 from .steps import check_steps, explode, exploded, n_pieces, n_steps, steps_done
 from .visibility import (
@@ -37,14 +39,19 @@ __all__ = [
     "STEPS",
     "STEP_KEY",
     "Animation",
+    "Changed",
     "MethodView",
     "Step",
     "animate",
     "animation_of",
+    "brick_under",
     "can_highlight",
+    "change",
     "check_steps",
     "corners_while_building",
     "cut_away",
+    "edges_of",
+    "edits_of",
     "explode",
     "exploded",
     "has_margins",
@@ -54,9 +61,11 @@ __all__ = [
     "highlighted",
     "n_pieces",
     "n_steps",
+    "outcomes_in",
     "readable",
     "roles_shown",
     "section_of",
+    "show_changed",
     "show_heat_map",
     "show_layers",
     "show_lot",
@@ -70,5 +79,7 @@ __all__ = [
     "shown_lot",
     "steps_done",
     "stop_animation",
+    "touching",
     "trajectories_shown",
+    "without",
 ]

@@ -7,9 +7,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
+import numpy as np
 
-from ..core.model import Role
-from ..scene import Detail, Model, Source, builds_of, show_build, state_of
+from ..core.edits import edits_text
+from ..core.model import SUPPORTS, Role, concatenate
+from ..scene import Detail, Model, Source, bricks_text, builds_of, show_build, state_of
 from .kept_view import KeptView
 from .visibility import roles_shown, show_role
 
@@ -60,16 +62,32 @@ def show_result(
     supports = build.supports
     earlier = builds_of(scene, source.objects) if replaces is None else replaces
     kept = KeptView.of(earlier)
+    edits = next((each.edits for each in map(state_of, earlier) if each.edits[0]), ("", ""))
     place = (build.origin, build.scale, mm_per_unit)
     model = Model(supports.assembly, *place, stability=build.stability, steps=supports.steps)
     shown = show_build(scene, model, replace(source, settings=build.settings), detail=detail, replaces=earlier)
     state_of(shown).add_building(by_hand=len(supports.unsteady), **_costs(build))
     state_of(shown).keep_texts(build.texts)
+    state_of(shown).edits = _edits_of(build) or edits
     if Role.SUPPORT_OUTSIDE in roles_shown(shown):
         show_role(shown, Role.SUPPORT_OUTSIDE, visible=False)
     if kept is not None:
         kept.show(scene, shown)
     return shown
+
+
+def _edits_of(build: Finished) -> tuple[str, str] | None:
+    """Return the changes by hand of a model of a mesh, and its bricks without them; None of any other model."""
+    # loaded with the models that it has
+    from ..core.build import Build
+
+    if not isinstance(build, Build):
+        return None
+    if not len(build.edits) or build.unedited is None:
+        return "", ""
+    # pillars that stay are not edited
+    pillars = build.bricks.take(np.isin(build.bricks.role, SUPPORTS))
+    return edits_text(build.edits), bricks_text(concatenate([build.unedited, pillars]))
 
 
 def _costs(build: Finished) -> dict[str, str]:

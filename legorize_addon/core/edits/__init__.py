@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from .apply import apply_edits
+from typing import TYPE_CHECKING
+
+from ..on_demand import on_demand
 from .edit import Edit, check_edit, edit_of
 from .edits_file import NO_EDITS, Edits, edits_text, read_edits
-from .outcomes import Outcome, outcomes_of
 from .rules import rules_of
+
+if TYPE_CHECKING:
+    from .apply import apply_edits
+    from .outcomes import Outcome, outcomes_of
+else:
+    # the layout, and the graphs of scipy
+    __getattr__ = on_demand(__name__, apply=("apply_edits",), outcomes=("Outcome", "outcomes_of"))
 
 __all__ = [
     "NO_EDITS",
