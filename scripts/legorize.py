@@ -71,6 +71,7 @@ try:
     from legorize_addon.core.setting import SEPARATOR, help_text, renamed
     from legorize_addon.core.settings import Settings, choices, setting_type
     from legorize_addon.core.settings_file import read_settings, settings_text
+    from legorize_addon.core.unit_bricks import said_of_feet
     from legorize_addon.core.units import MM_PER_METRE
     from legorize_addon.reading.importers import load
     from legorize_addon.reading.objects import read_rendered
@@ -673,7 +674,8 @@ def write_booklet(build: Finished, folder: Path, wanted: Wanted, title: str, pro
     name = title_for(title)
     if name.lost:
         print(name.lost, file=sys.stderr)
-    made = Booklet(plan.bricks, load_catalogue(), plan.steps, temporary=plan.temporary, title=name, paper=paper)
+    made = Booklet(plan.bricks, load_catalogue(), plan.steps, temporary=plan.temporary, title=name, paper=paper,
+                   remarks=said_of_feet(build.notes))  # fmt: skip
     made.write(folder / "instructions.html", folder / "instructions.pdf", progress)
 
 

@@ -24,6 +24,7 @@ from .builds import (
 )
 from .collections import clear_build, read_bricks, show_build, steps_of
 from .curves import add_lines
+from .hand_changes import hand_remark
 from .hidden_sources import orphans, show_orphans
 from .instancing import (
     GHOST_KEY,
@@ -93,6 +94,7 @@ __all__ = [
     "damage",
     "detail_of",
     "get_input",
+    "hand_remark",
     "has_input",
     "hidden_side",
     "is_own",

@@ -29,6 +29,9 @@ HEIGHT: Final = "height"
 ROW: Final = "row"
 """Attribute with the row of a brick in the table it came from."""
 
+BUILT_AT: Final = "built_at"
+"""Attribute with the place of a brick as it was built, in model mm: its point may be moved."""
+
 MARGIN: Final = "margin"
 """Attribute with what a brick has left before it fails, where that was found out."""
 
@@ -139,7 +142,8 @@ def points_mesh(
     mesh.vertices.add(len(bricks))
     mesh.vertices.foreach_set("co", positions(bricks, catalogue).astype(np.float32).ravel())
     columns = {column: getattr(bricks, column) for column in COLUMNS}
-    columns |= {VARIANT: variant, ROW: row, HEIGHT: heights(bricks, catalogue), **more}
+    columns |= {VARIANT: variant, ROW: row, HEIGHT: heights(bricks, catalogue)}
+    columns |= {BUILT_AT: positions(bricks, catalogue), **more}
     for key, values in columns.items():
         _write(mesh, key, values)
     return mesh
@@ -200,18 +204,19 @@ def read_positions(meshes: Sequence[bpy.types.Mesh]) -> Floats:
 def read_columns(meshes: Sequence[bpy.types.Mesh], names: Sequence[str]) -> dict[str, NDArray[np.generic]]:
     """Return attributes of the points of several meshes, in the first order of the table."""
     order = _order(meshes)
-    return {name: np.concatenate([_read(mesh, name) for mesh in meshes])[order] for name in names}
+    return {name: np.concatenate([read_column(mesh, name) for mesh in meshes])[order] for name in names}
 
 
 def _order(meshes: Sequence[bpy.types.Mesh]) -> NDArray[np.intp]:
-    return np.argsort(np.concatenate([_read(mesh, ROW) for mesh in meshes]), kind="stable")
+    return np.argsort(np.concatenate([read_column(mesh, ROW) for mesh in meshes]), kind="stable")
 
 
 def _half(size: NDArray[np.int32]) -> Floats:
     return np.insert(size / 2, 2, 0.0, axis=1)
 
 
-def _read(mesh: bpy.types.Mesh, name: str) -> NDArray[np.generic]:
+def read_column(mesh: bpy.types.Mesh, name: str) -> NDArray[np.generic]:
+    """Return an attribute of the points of a mesh."""
     attribute = mesh.attributes[name]
     field, dtype, shape = KINDS[attribute.data_type]
     values = np.empty((len(mesh.vertices), *shape), dtype=dtype)

@@ -40,6 +40,7 @@ from .builds import (
 from .builds import builds as builds
 from .builds import show_sources as show_sources
 from .figures import figures, n_layers
+from .hand_changes import hand_remark
 from .hidden_sources import as_before, forget, remember
 from .holders import holders
 from .instancing import add_bricks_modifier, colour_material
@@ -169,6 +170,9 @@ def steps_of(build: bpy.types.Collection) -> Steps:
     """
     found = read_steps(state_of(build).steps, sum(len(points.data.vertices) for points in point_objects(build)))
     if found is None:
+        remark = hand_remark(build)
+        if remark:
+            raise BuildError(remark)
         raise BuildError(f"{build.name!r} does not know how all of its bricks are built: legorize the object again.")
     return found
 

@@ -69,5 +69,10 @@ def read_steps(stored: Mapping[str, Any], n_bricks: int) -> Steps | None:
     return Steps(moves, submodels)
 
 
+def n_stored(stored: Mapping[str, Any]) -> int:
+    """Return for how many bricks :func:`stored_steps` has written steps; 0 where nothing was kept."""
+    return len(stored.get("rows", ()))
+
+
 def _numbers(values: Sequence[int]) -> list[int]:
     return [int(value) for value in values]

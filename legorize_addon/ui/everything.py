@@ -43,6 +43,8 @@ class FolderRequest:
         Name of the model.
     paper : str
         A key of the papers.
+    notes : tuple of str
+        What was said of the model when it was built.
     booklet, maps : bool
         Whether the booklet and the layer maps are written, too.
     folder : pathlib.Path
@@ -54,6 +56,7 @@ class FolderRequest:
     texts: Mapping[str, str]
     title: Title
     paper: str
+    notes: tuple[str, ...]
     booklet: bool
     maps: bool
     folder: Path
@@ -91,7 +94,12 @@ class FolderRequest:
             for name, text in layer_files(pages):
                 (fresh / "layers" / name).write_text(text, encoding="utf-8", newline="")
         if self.booklet:
-            made = Booklet(self.bricks, catalogue, self.steps, temporary=temporary, title=self.title, paper=paper)
+            from ..core.unit_bricks import said_of_feet
+
+            made = Booklet(
+                self.bricks, catalogue, self.steps, temporary=temporary, title=self.title, paper=paper,
+                remarks=said_of_feet(self.notes),
+            )  # fmt: skip
             unfinished().write(made, fresh / "instructions.html", fresh / "instructions.pdf", part(progress, 0.2, 1.0))
 
 
@@ -118,8 +126,8 @@ class LEGORIZE_OT_export_folder(OnPaper, bpy.types.Operator):
         build = current_build(context.scene)
         return FolderRequest(
             bricks=read_bricks(build), steps=steps_of(build), lists=lists_of(build), texts=state_of(build).texts,
-            title=title_for(title_of(build)), paper=self.paper, booklet=self.booklet, maps=self.maps,
-            folder=chosen_path(self),
+            title=title_for(title_of(build)), paper=self.paper, notes=tuple(state_of(build).notes),
+            booklet=self.booklet, maps=self.maps, folder=chosen_path(self),
         )  # fmt: skip
 
     def _show(self, context: bpy.types.Context, order: FolderRequest, paths: tuple[Path, ...]) -> set[str]:

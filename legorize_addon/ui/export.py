@@ -12,7 +12,7 @@ from bpy_extras.io_utils import ExportHelper
 from ..core.errors import BuildError
 from ..core.model import Assembly, Role, load_catalogue
 from ..render import AZIMUTH, render_still
-from ..scene import n_deleted, read_bricks
+from ..scene import hand_remark, n_deleted, read_bricks
 from .build import OnBuild
 from .properties import current_build
 from .settings_properties import label
@@ -21,8 +21,10 @@ VIEWS: Final = [*((view, label(view), "") for view in AZIMUTH), ("section", "Sec
 
 
 def written(path: Path, build: bpy.types.Collection) -> tuple[set[str], str]:
-    """Return what to report of a file with the bricks of a build: a warning if some of them were deleted."""
-    gone = n_deleted(build)
+    """Return what to report of a file with the bricks of a build: a warning if some were deleted or moved."""
+    gone, remark = n_deleted(build), hand_remark(build)
+    if remark:
+        return {"WARNING"}, f"Wrote {path}. {remark}"
     if not gone:
         return {"INFO"}, f"Wrote {path}."
     objects = "1 object that was" if gone == 1 else f"{gone} objects that were"

@@ -12,7 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..core.model import Role, load_catalogue
 from ..core.progress import Progress
-from ..scene import read_bricks, steps_of, title_for
+from ..scene import hand_remark, read_bricks, state_of, steps_of, title_for
 from .build import Browsing, OnBuild
 from .export import chosen_path
 from .properties import current_build
@@ -41,6 +41,8 @@ class BookletRequest:
         A key of the papers.
     path : pathlib.Path
         Of the HTML file; the PDF is written beside it.
+    notes : tuple of str
+        What was said of the model when it was built.
     """
 
     bricks: Bricks
@@ -48,6 +50,7 @@ class BookletRequest:
     title: Title
     paper: str
     path: Path
+    notes: tuple[str, ...] = ()
 
     @property
     def files(self) -> tuple[Path, Path]:
@@ -58,11 +61,15 @@ class BookletRequest:
         """Write both files, or none; no Blender in here."""
         from ..core.files import replacing
         from ..core.instructions import PAPERS, Booklet
+        from ..core.unit_bricks import said_of_feet
 
         html, pdf = self.files
         supports = self.bricks.role == Role.SUPPORT_OUTSIDE
         catalogue, paper = load_catalogue(), PAPERS[self.paper]
-        made = Booklet(self.bricks, catalogue, self.steps, temporary=supports, title=self.title, paper=paper)
+        made = Booklet(
+            self.bricks, catalogue, self.steps, temporary=supports, title=self.title, paper=paper,
+            remarks=said_of_feet(self.notes),
+        )  # fmt: skip
         with replacing(html) as new_html, replacing(pdf) as new_pdf:
             unfinished().write(made, new_html, new_pdf, progress)
         return html, pdf
@@ -132,6 +139,9 @@ class OnPaper(OnBuild, Browsing):
 
     def _show(self, context: bpy.types.Context, order: Any, paths: tuple[Path, ...]) -> set[str]:
         self.report({"INFO"}, f"Wrote {' and '.join(map(str, paths))}.")
+        build = current_build(context.scene)
+        if build and (remark := hand_remark(build)):
+            self.report({"WARNING"}, remark)
         return {"FINISHED"}
 
 
@@ -155,8 +165,8 @@ class LEGORIZE_OT_booklet(OnPaper, bpy.types.Operator):
 
     def _take_order(self, context: bpy.types.Context) -> BookletRequest:
         build = current_build(context.scene)
-        title = title_for(title_of(build))
-        return BookletRequest(read_bricks(build), steps_of(build), title, self.paper, chosen_path(self))
+        title, notes = title_for(title_of(build)), tuple(state_of(build).notes)
+        return BookletRequest(read_bricks(build), steps_of(build), title, self.paper, chosen_path(self), notes)
 
     def _show(self, context: bpy.types.Context, order: BookletRequest, paths: tuple[Path, ...]) -> set[str]:
         if order.title.lost:

@@ -150,7 +150,7 @@ def test_a_standing_mosaic_shows_the_picture_to_the_front():
     assert (mosaic.graph.n_components, mosaic.graph.collisions) == (1, 0)
     assert mosaic.stability.stands
     assert mosaic.supports.walk.buildable
-    assert "feet of 1 stud" in mosaic.notes[0]
+    assert "Feet of 1 stud" in mosaic.notes[0]
 
 
 def test_a_standing_mosaic_stands_around_the_origin():

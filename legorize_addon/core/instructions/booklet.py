@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -44,14 +44,24 @@ class Booklet:
     title : str or Title
         Name of the model; a text is drawn in the fonts of PDF readers.
     paper : Paper
+    remarks : sequence of str
+        What else a builder should know.
     """
 
     def __init__(
-        self, bricks: Bricks, catalogue: Catalogue, steps: Steps, *, temporary: Mask, title: str | Title, paper: Paper
+        self,
+        bricks: Bricks,
+        catalogue: Catalogue,
+        steps: Steps,
+        *,
+        temporary: Mask,
+        title: str | Title,
+        paper: Paper,
+        remarks: Sequence[str] = (),
     ) -> None:
         self._tint = tint_for(rgb_of(bricks.take(~temporary), catalogue))
         self._bricks, self._catalogue, self._steps = bricks, catalogue, steps
-        self._temporary, self._paper = temporary, paper
+        self._temporary, self._paper, self._remarks = temporary, paper, tuple(remarks)
         self._title = Title(title) if isinstance(title, str) else title
         self._wanted, self._done = (False, False), list[_Drawn]()
 
@@ -64,7 +74,9 @@ class Booklet:
         submodels = [(each.number, each.kind, each.parent, each.piece, each.like) for each in self._steps.submodels]
         rows = [each.rows for each in self._steps.submodels]
         arrays = [np.ascontiguousarray(each) for each in (*tables, *rows, self._temporary, *shape)]
-        found = hashlib.sha256(repr((title.text, self._paper, submodels, [each.shape for each in arrays])).encode())
+        found = hashlib.sha256(
+            repr((title.text, self._paper, self._remarks, submodels, [each.shape for each in arrays])).encode()
+        )
         for each in arrays:
             found.update(each.tobytes())
         return found.hexdigest()
@@ -104,7 +116,11 @@ class Booklet:
     def _front(self) -> list[Page]:
         """The pages before the steps, which are few."""
         panels, paper = self._panels, self._paper
-        return [cover(panels, self._title, paper), how_to_read(panels, paper, 2), *parts_pages(panels, paper, 3)]
+        return [
+            cover(panels, self._title, paper),
+            how_to_read(panels, paper, 2, self._remarks),
+            *parts_pages(panels, paper, 3),
+        ]
 
     def write(self, html: Path | None, pdf: Path | None, progress: Progress = silent) -> None:
         """Write the booklet, drawing every page once.

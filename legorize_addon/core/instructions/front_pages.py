@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -89,8 +89,8 @@ def _fitted(picture: Picture, x: float, y: float, wide: float, high: float) -> I
     return placed(picture, x + left, y + top, unit / MM)
 
 
-def how_to_read(panels: Panels, paper: Paper, number: int) -> Page:
-    """Return the page that tells what colours and signs mean, as far as this model has them."""
+def how_to_read(panels: Panels, paper: Paper, number: int, remarks: Sequence[str] = ()) -> Page:
+    """Return the page that tells what colours and signs mean, as far as this model has them, and remarks."""
     items: list[Item] = [Text("How to read the steps", MARGIN, MARGIN + 8, 9, bold=True)]
     y = MARGIN + 22.0
     for sign, text in _signs(panels):
@@ -98,6 +98,10 @@ def how_to_read(panels: Panels, paper: Paper, number: int) -> Page:
         for row, line in enumerate(wrapped(text, 5, paper.width - 2 * MARGIN - 32)):
             items.append(Text(line, MARGIN + 30, y + 6 + 6.5 * row, 5))
         y += 19
+    for remark in remarks:
+        lines = wrapped(remark, 5, paper.width - 2 * MARGIN)
+        items += [Text(line, MARGIN, y + 6 + 6.5 * row, 5) for row, line in enumerate(lines)]
+        y += 6.5 * len(lines) + 4
     return Page(paper.width, paper.height, (*items, *foot(number, paper)), "How to read the steps")
 
 

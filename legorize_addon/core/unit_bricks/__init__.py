@@ -5,7 +5,7 @@ from __future__ import annotations
 from .backing import add_backing
 from .dithering import dithering_of, remarks_on_dithering
 from .facing import facing_of
-from .feet import add_feet
+from .feet import add_feet, said_of_feet
 from .generation import Raster, Rules, unit_bricks
 from .offset_bricks import add_offset_bricks
 from .offset_rings import Offsets, OverhangKind, overhang_kinds
@@ -24,5 +24,6 @@ __all__ = [
     "facing_of",
     "overhang_kinds",
     "remarks_on_dithering",
+    "said_of_feet",
     "unit_bricks",
 ]

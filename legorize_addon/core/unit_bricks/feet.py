@@ -8,6 +8,7 @@ is long. They are cells of the model like all others: bricks are laid across wal
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
 
@@ -66,10 +67,19 @@ class Feet:
         where = ("studs " if len(self.places) > 1 else "stud ") + ", ".join(map(str, self.places))
         studs = f"{self.studs} studs" if self.studs > 1 else "1 stud"
         return (
-            f"The model would fall over if it were tilted by {self.before:.1f} degrees: feet of {studs} at the {first} "
-            f"and the {last}, which begin at {where} along it, let it stand up to {self.after:.1f} degrees and stay; "
-            "turn feet off to leave them out."
+            f"{_BEGIN}{studs} at the {first} and the {last}, which begin at {where} along the model, are part of it: "
+            f"they are put on with its first {_LAYERS} layers and stay. Tilted by {self.before:.1f} degrees it would "
+            f"fall over without them, with them by {self.after:.1f} degrees.{_CURE}"
         )
+
+
+_BEGIN: Final = "Feet of "
+_CURE: Final = " Turn feet off to leave them out."
+
+
+def said_of_feet(notes: Iterable[str]) -> tuple[str, ...]:
+    """Return what a builder should know of feet, from the sentences of a run."""
+    return tuple(note.removesuffix(_CURE) for note in notes if note.startswith(_BEGIN) and note.endswith(_CURE))
 
 
 def add_feet(grid: UnitGrid) -> tuple[UnitGrid, tuple[Feet, ...]]:

@@ -9,6 +9,7 @@ import pytest
 
 from legorize_addon.core.instructions import front_pages
 from legorize_addon.core.instructions.canvas import Group, Text
+from legorize_addon.core.instructions.fonts import width
 from legorize_addon.core.instructions.front_pages import (
     DISCLAIMER,
     SUPPORT_PARTS,
@@ -81,6 +82,19 @@ def test_only_signs_that_occur_are_explained():
     without = " ".join(texts(how_to_read(panels_of(plan), A4, 2).items))
     assert "Supports" not in without
     assert "by itself" in without
+
+
+def test_remarks_stand_below_the_signs():
+    """Each in as many lines as it needs, none over another or over the rim."""
+    remarks = ["Feet of 2 studs are part of the model. " * 6, "Something else."]
+    page = how_to_read(panels_of(arm()), A4, 2, remarks)
+    shown = " ".join(texts(page.items))
+    assert all(each.strip() in shown for each in remarks)
+    lines = [item for item in page.items if isinstance(item, Text) and item.size == 5]
+    heights = [line.y for line in lines]
+    assert heights == sorted(heights)
+    assert min(np.diff(heights)) >= 6
+    assert all(width(line.text, 5) <= A4.width - 20 for line in lines)
 
 
 def test_the_last_page_has_the_line_about_the_trademark():

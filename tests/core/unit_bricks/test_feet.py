@@ -10,7 +10,7 @@ import pytest
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.unit_bricks.feet import APART, STANDS, THIN, WIDE, add_feet
+from legorize_addon.core.unit_bricks.feet import APART, STANDS, THIN, WIDE, add_feet, said_of_feet
 from tests.core.unit_bricks.test_backing import photograph, slab
 
 RED, BLUE = 4, 1
@@ -147,3 +147,22 @@ def test_an_upright_picture_stands_on_its_feet():
     assert not [note for note in without.notes if "feet" in note]
     deep = [np.ptp(np.nonzero(each.grid.solid)[2]) + 1 for each in (with_feet, without)]
     assert deep[0] > deep[1]
+
+
+def test_a_builder_is_told_what_feet_are():
+    """Where they are, when they are put on, what they are for; how they are left out is for the user alone."""
+    _, [feet] = add_feet(wall(12, 1, 20))
+    sentence = feet.sentence()
+    assert sentence.startswith("Feet of ")
+    assert "are put on with its first 2 layers and stay." in sentence
+    assert f"with them by {feet.after:.1f} degrees." in sentence
+    [said] = said_of_feet(["Something else.", sentence])
+    assert sentence == f"{said} Turn feet off to leave them out."
+
+
+def test_the_feet_are_in_the_first_layers():
+    """What the sentence says: nothing above them belongs to a foot."""
+    grid, _ = add_feet(wall(12, 1, 20))
+    rows = (grid.cover != Fill.EMPTY).any(axis=(1, 3)).sum(axis=1)
+    assert (rows[:2] > 1).all()
+    assert (rows[2:] == 1).all()
