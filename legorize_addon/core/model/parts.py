@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 MISSING_CELL: Final = ((1, 1), (0, 1), (0, 0), (1, 0))
 """Cell (x, y) of the 2 x 2 bounding box that a corner part leaves free, by quarter turn."""
 
-Profile = Literal["box", "corner", "tile", "baseplate", "slope", "cheese", "inverted"]
+Profile = Literal["box", "corner", "tile", "baseplate", "slope", "cheese", "inverted", "curved", "bow"]
 """What a part looks like: a box with studs on top; the same as a 2 x 2 corner, which lacks one cell of its bounding
 box; smooth on top; flat below and half as thick as a plate, in the upper half of its cells; or falling along its
-length: from a row of studs, from a sharp edge, or upside down under a top full of studs (see ``profiles``)."""
+length: from a row of studs, from a sharp edge, upside down under a top full of studs, or as a curve, elliptical or
+circular, over an underside in steps (see ``profiles``)."""
 
-SLOPED: Final = ("slope", "cheese", "inverted")
+SLOPED: Final = ("slope", "cheese", "inverted", "curved", "bow")
 """Profiles that fall along the length: their high or deep end is at low x at turn 0."""
 
 Use = Literal["model", "tiles", "plates", "base", "surface"]
@@ -38,7 +39,7 @@ class Part:
         Studs along x and y at turn 0; the length is the longer side, and that of a slope the one along which it falls.
     height : int
         Plates: 1 a plate, 3 a brick, 9 a tall brick.
-    profile : {"box", "corner", "tile", "baseplate", "slope", "cheese", "inverted"}
+    profile : {"box", "corner", "tile", "baseplate", "slope", "cheese", "inverted", "curved", "bow"}
         See ``Profile``.
     use : {"model", "tiles", "plates", "base", "surface"}
         See ``Use``.
@@ -69,7 +70,7 @@ class Part:
     @property
     def studs(self) -> bool:
         """Whether it has any studs on top, for other parts to clutch."""
-        return self.profile not in ("tile", "cheese")
+        return self.profile not in ("tile", "cheese", "curved", "bow")
 
     @property
     def sockets(self) -> bool:

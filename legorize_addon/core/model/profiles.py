@@ -23,11 +23,21 @@ Line = tuple[tuple[float, float], ...]
 LIP: Final = 4 / PLATE_LDU
 """Height in plates of the edge in which a slope ends; that of an inverted slope is as thick."""
 
+THIN_LIP: Final = 3 / PLATE_LDU
+"""The same of inverted slopes that are three studs long."""
+
+FACETS: Final = 7
+"""Straight pieces of a curve."""
+
 CHEESE_TOP: Final = 15.6 / PLATE_LDU
 CHEESE_EDGE: Final = 0.67 / STUD_LDU
 
 _FINE: Final = 32
 """Samples of a cell along each axis for the volume of a part: its centre is off by less than a thousandth of a stud."""
+
+
+_EDGE: Final = 1e-9
+"""How far from its edge in studs a column is looked at, which tells what is its own of a step there."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,17 +69,37 @@ class Columns:
 def lines(part: Part) -> tuple[Line, Line]:
     """Return the lines of a part's top and bottom along its length: studs from its start, plates from its bottom."""
     length, height = float(part.length), float(part.height)
-    top: Line = ((0.0, height), (length, height))
     bottom: Line = ((0.0, 0.0), (length, 0.0))
     if part.profile == "slope":
-        top = ((0.0, height), (1.0, height), (length, LIP))
-    elif part.profile == "cheese":
-        top = ((0.0, CHEESE_TOP), (CHEESE_EDGE, CHEESE_TOP), (length, LIP))
-    elif part.profile == "inverted":
-        bottom = ((0.0, 0.0), (1.0, 0.0), (length, height - LIP))
+        return ((0.0, height), (1.0, height), (length, LIP)), bottom
+    if part.profile == "cheese":
+        return ((0.0, CHEESE_TOP), (CHEESE_EDGE, CHEESE_TOP), (length, LIP)), bottom
+    if part.profile in ("curved", "bow"):
+        return _curve(part), _steps(part)
+    top: Line = ((0.0, height), (length, height))
+    if part.profile == "inverted":
+        bottom = ((0.0, 0.0), (1.0, 0.0), (length, height - (LIP if part.length == 2 else THIN_LIP)))
     elif part.profile == "baseplate":
         bottom = ((0.0, height / 2), (length, height / 2))
     return top, bottom
+
+
+def _curve(part: Part) -> Line:
+    """Return the top of a part that is level at its start and falls ever more, to the lip."""
+    drop = part.height - LIP
+    # an ellipse up to half of its quarter, or the circle that is level at the start
+    flat = drop * PLATE_LDU / (part.length * STUD_LDU)
+    angle = np.linspace(0, np.pi / 4 if part.profile == "curved" else 2 * np.arctan(flat), FACETS + 1)
+    along = part.length * np.sin(angle) / np.sin(angle[-1])
+    down = drop * (1 - np.cos(angle)) / (1 - np.cos(angle[-1]))
+    return tuple(zip(along.tolist(), (part.height - down).tolist(), strict=True))
+
+
+def _steps(part: Part) -> Line:
+    """Return the underside of a part with a curved top: the lower end stands two studs long, each stud up a plate."""
+    low = max(part.length - 2, 1)
+    level = [float(max(low - row, 0)) for row in range(part.length)]
+    return tuple((float(row + end), z) for row, z in enumerate(level) for end in (0, 1))
 
 
 def columns(part: Part, turn: int) -> Columns:
@@ -88,22 +118,25 @@ def columns(part: Part, turn: int) -> Columns:
         In the order of :func:`footprint`.
     """
     xy = footprint(part, turn)
-    along = _unturned(part, turn, _middles(xy))[:, 0]
-    low, high = np.zeros(len(xy), np.int32), np.full(len(xy), part.height, np.int32)
-    first = along < 1
-    stud, socket = np.full(len(xy), part.studs), np.full(len(xy), part.sockets)
-    foot = np.ones(len(xy), bool)
-    if part.sloped:
-        top, bottom = lines(part)
-        # both lines are flat or fall away from the start: their extremes in a column are at its ends
-        high = np.ceil(_level(top, along - 0.5)).astype(np.int32)
-        low = np.floor(_level(bottom, along - 0.5)).astype(np.int32)
-    if part.profile == "slope":
-        stud &= first
-    if part.profile == "inverted":
-        socket &= first
-        foot &= first
-    return Columns(xy, low, high, stud, socket, foot)
+    start = np.floor(_unturned(part, turn, _middles(xy))[:, 0])
+    top, bottom = (_extremes(line, start) for line in lines(part))
+    # baseplates fill the upper half of their plate
+    low = np.floor(bottom[0]).astype(np.int32)
+    high = np.ceil(top[1]).astype(np.int32)
+    foot = (bottom[0] == bottom[1]) | (not part.sloped)
+    stud = (top[0] == top[1]) & part.studs
+    return Columns(xy, low, high, stud, foot & part.sockets, foot)
+
+
+def _extremes(line: Line, start: Floats) -> tuple[Floats, Floats]:
+    """Return the lowest and the highest level of a line in each stud from `start`, steps at its ends left out."""
+    found: list[Floats] = []
+    for first in start.tolist():
+        inside = [z for x, z in line if first < x < first + 1]
+        ends = _level(line, first + np.array([_EDGE, 1 - _EDGE]))
+        found.append(np.round([min([*inside, *ends]), max([*inside, *ends])], 6))
+    low, high = np.array(found).T
+    return low, high
 
 
 def solid(part: Part, turn: int, across: int, up: int) -> Mask:
