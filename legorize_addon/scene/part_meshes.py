@@ -5,25 +5,25 @@ whatever their colour. It is in mm; its origin is the middle of the bounding
 box's lower face, so that a quarter turn about z keeps the box on the grid.
 
 Every shape here is a loft: rings of points above one another, joined by
-quadrilaterals, with an n-gon as the lid.
+quadrilaterals, with an n-gon as the lid. Bodies that fall along their length
+are in :mod:`.slope_bodies`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Final
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.model import Catalogue, Part, footprint
+from ..core.model import Catalogue, Part, columns
 from ..core.units import PLATE, STUD
+from .lofts import BEVEL, GAP, ROOF, WALL, Detail, Floats, Loft
+from .slope_bodies import level, slope_body
 
-Detail = Literal["low", "high"]
-Floats = NDArray[np.float64]
 Ring = tuple[float, float]
 """An inset (bodies) or radius (studs, tubes) and a height, in mm."""
 
@@ -32,39 +32,10 @@ STUD_HEIGHT: Final = 1.7
 TUBE_RADIUS: Final = 3.25
 TUBE_HOLE: Final = 2.4
 PIN_RADIUS: Final = 1.6
-WALL: Final = 1.5
-ROOF: Final = 1.2
-GAP: Final = 0.1
-"""Play on every side of a body, which also tells neighbours apart in pictures."""
-
-BEVEL: Final = 0.18
 GROOVE: Final = 0.4
 SIDES: Final[dict[Detail, int]] = {"low": 8, "high": 16}
 MESH_KEY: Final = "legorize_mesh"
 PART_KEY: Final = "legorize_part"
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Loft:
-    """Faces between rings of points; as a whole part also several lofts together.
-
-    Attributes
-    ----------
-    vertices : (n_v, 3) float64 array
-        Points in mm.
-    corners : (n_c,) int32 array
-        Rows in ``vertices`` of all face corners, face after face,
-        counter-clockwise as seen from outside.
-    starts : (n_f,) int32 array
-        Row in ``corners`` where each face begins.
-    smooth : (n_f,) bool array
-        Whether the face is shaded as a part of a round surface.
-    """
-
-    vertices: Floats
-    corners: NDArray[np.int32]
-    starts: NDArray[np.int32]
-    smooth: NDArray[np.bool_]
 
 
 def part_loft(part: Part, detail: Detail) -> Loft:
@@ -90,7 +61,7 @@ def part_loft(part: Part, detail: Detail) -> Loft:
     lofts = [_body(part, height, detail)]
     lofts += [_round(rings, centre, detail, lid=True) for centre in _stud_centres(part)]
     if detail == "high" and part.sockets:
-        lofts += [_tube(part, height, centre) for centre in _tube_centres(part)]
+        lofts += [_tube(part, _roof(part, height, centre), centre) for centre in _tube_centres(part)]
     whole = _join(lofts)
     return Loft(whole.vertices - middle, whole.corners, whole.starts, whole.smooth)
 
@@ -212,6 +183,8 @@ def _to_mesh(loft: Loft, name: str) -> bpy.types.Mesh:
 
 
 def _body(part: Part, height: float, detail: Detail) -> Loft:
+    if part.sloped:
+        return slope_body(part, detail)
     outline = _outline(part)
     if detail == "low" or not part.sockets:
         low = 0.0 if part.sockets else height / 2
@@ -242,26 +215,40 @@ def _stud_rings(height: float, detail: Detail) -> list[Ring]:
     return [(STUD_RADIUS, height - GAP), (STUD_RADIUS, top - BEVEL), (STUD_RADIUS - BEVEL, top)]
 
 
-def _tube(part: Part, height: float, centre: Floats) -> Loft:
-    """Return the tube between four studs of a wide part, or the pin between two of a narrow one."""
-    roof = height - ROOF
+def _tube(part: Part, roof: float, centre: Floats) -> Loft:
+    """Return the tube between four studs of a wide part, or the pin between two of a narrow one, up to the roof."""
     if part.width == 1:
         return _round([(PIN_RADIUS, 0.0), (PIN_RADIUS, roof)], centre, "high", floor=True)
     rings = [(TUBE_HOLE, roof), (TUBE_HOLE, 0.0), (TUBE_RADIUS, 0.0), (TUBE_RADIUS, roof)]
     return _round(rings, centre, "high")
 
 
+def _roof(part: Part, height: float, centre: Floats) -> float:
+    """Return how high the hollow of a part is at a tube."""
+    radius = PIN_RADIUS if part.width == 1 else TUBE_RADIUS
+    return (level(part, centre[0] + radius) if part.sloped else height) - ROOF
+
+
 def _stud_centres(part: Part) -> Floats:
     """Return the middles of the studs in mm from the box's corner, shape (n, 2); none for a tile."""
-    return (footprint(part, 0)[: None if part.studs else 0] + 0.5) * STUD
+    found = columns(part, 0)
+    return (found.xy[found.stud] + 0.5) * STUD
 
 
 def _tube_centres(part: Part) -> Floats:
     """Return the middles of the tubes (wide parts) or pins (narrow ones) in mm, shape (n, 2)."""
     across = np.arange(1, part.width) if part.width > 1 else np.array([0.5])
     y, x = (each.ravel() for each in np.meshgrid(across, np.arange(1, part.length), indexing="ij"))
+    centres = np.stack([x, y], axis=1)
+    if part.sloped:
+        # only between squares that stand on the same level, and clutch
+        found = columns(part, 0)
+        level_of = np.full((part.length, part.width), -1)
+        level_of[tuple(found.xy[found.socket & (found.low == 0)].T)] = 0
+        row = np.maximum(x - 1, 0).astype(int), np.maximum(np.ceil(y) - 1, 0).astype(int)
+        centres = centres[(level_of[row] == 0) & (level_of[row[0] + 1, row[1]] == 0)]
     # the tube of a corner part would stand in its missing cell
-    return np.stack([x, y], axis=1)[: 0 if part.corner else None] * STUD
+    return centres[: 0 if part.corner else None] * STUD
 
 
 def _outline(part: Part) -> Floats:

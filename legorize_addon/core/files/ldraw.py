@@ -29,6 +29,9 @@ MATRICES: Final = ("1 0 0 0 1 0 0 0 1", "0 0 -1 0 1 0 1 0 0", "-1 0 0 0 1 0 0 0 
 MAIN_COLOUR: Final = 16
 """LDraw's code for the colour that a sub-model is given by the line that uses it."""
 
+_ORIGIN_BELOW: Final = ("cheese", "curved")
+"""Profiles of parts whose origin LDraw's library has at their lower face."""
+
 LINE_END: Final = "\r\n"
 
 
@@ -157,10 +160,11 @@ def matrix_of(part: Part, turn: int) -> int:
 
 def part_origin(part: Part, turn: int) -> tuple[int, int, int]:
     """Return a part's origin in LDU, from the lowest corner of its bounding box."""
-    high = 0 if part.profile == "cheese" else -part.height * PLATE_LDU
+    high = 0 if part.profile in _ORIGIN_BELOW else -part.height * PLATE_LDU
     if part.sloped:
-        # under the middle of the high row
-        x, y = np.rint(turned(part, turn, np.array([0.5, part.width / 2])) * STUD_LDU).astype(int).tolist()
+        # under the middle of the high row, that of curves in the middle of the part
+        along = part.length / 2 if part.profile in ("curved", "bow") else 0.5
+        x, y = np.rint(turned(part, turn, np.array([along, part.width / 2])) * STUD_LDU).astype(int).tolist()
         return x, high, y
     sides = (part.width, part.length) if turn % 2 else (part.length, part.width)
     if part.corner:

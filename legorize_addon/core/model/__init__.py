@@ -9,7 +9,7 @@ from .brick_columns import Touching, agree, brick_columns, every_plate
 from .bricks import NOBODY, SUPPORTS, Bricks, Role, concatenate
 from .catalogue import ASSETS, Catalogue, Colour, load_catalogue
 from .parts import MISSING_CELL, Part, Use, footprint
-from .profiles import columns, solid, turned
+from .profiles import columns, lines, solid, turned
 from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
 from .verdict import UNSUPPORTED, Verdict
 
@@ -80,6 +80,7 @@ __all__ = [
     "every_plate",
     "footprint",
     "ground_of",
+    "lines",
     "load_catalogue",
     "middles",
     "solid",

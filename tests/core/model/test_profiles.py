@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.model import columns, footprint, load_catalogue, solid
+from legorize_addon.core.model import columns, footprint, lines, load_catalogue, solid
 from legorize_addon.core.model.profiles import centre
 
 PARTS = load_catalogue().parts
@@ -38,7 +38,8 @@ def test_centre_is_that_of_the_samples(part, turn):
 def test_studs_sockets_and_feet_are_where_the_parts_have_them():
     """A slope has one row of studs, an inverted one a row of sockets; a cheese slope has no stud."""
     for number, studs, sockets, feet in (
-        ("3039", 2, 4, 4), ("4286", 1, 3, 3), ("54200", 0, 1, 1), ("3665", 2, 1, 1), ("3660", 4, 2, 2),
+        ("3039", 2, 4, 4), ("4286", 1, 3, 3), ("54200", 0, 1, 1), ("3665", 2, 1, 1), ("3660", 4, 2, 2), ("3037", 4, 8, 8),
+        ("4287", 3, 1, 1), ("11477", 0, 2, 2), ("93606", 0, 8, 8),
     ):  # fmt: skip
         for turn in range(4):
             found = columns(NUMBER[number], turn)
@@ -48,3 +49,17 @@ def test_studs_sockets_and_feet_are_where_the_parts_have_them():
     assert [columns(NUMBER["3040b"], turn).xy[columns(NUMBER["3040b"], turn).stud].tolist() for turn in (1, 2, 3)] == [
         [[0, 0]], [[1, 0]], [[0, 1]],
     ]  # fmt: skip
+
+
+def test_curves_stand_on_two_studs_and_step_up_to_their_high_end():
+    """The underside of a curve is a plate higher with each stud from the second on; its top falls ever more."""
+    for number, low, high in (
+        ("11477", [1, 0], [2, 2]),
+        ("50950", [1, 0, 0], [3, 3, 2]),
+        ("61678", [2, 1, 0, 0], [3, 3, 3, 2]),
+    ):
+        found = columns(NUMBER[number], 0)
+        assert (found.low.tolist(), found.high.tolist()) == (low, high)
+        slope = np.diff([z for _, z in lines(NUMBER[number])[0]]) / np.diff([x for x, _ in lines(NUMBER[number])[0]])
+        assert (np.diff(slope) < 0).all()
+        assert slope[0] > -0.3
