@@ -11,7 +11,7 @@ import numpy as np
 
 from .layout import as_good, cells_of, lay_again
 from .ldraw import LdrawModel
-from .model import Assembly, Bricks, Catalogue, Role, contact_graph, stud_columns
+from .model import Assembly, Bricks, Catalogue, Role, column_facts, contact_graph, stud_columns
 from .stages import Run, lay_freely
 from .strength import strengthen_joints
 from .supports import AssemblyPlan, plan_as_given, plan_assembly
@@ -84,10 +84,11 @@ def without_overlaps(bricks: Bricks, catalogue: Catalogue) -> tuple[Bricks, tupl
 def _cells(bricks: Bricks, catalogue: Catalogue) -> Sequence[list[tuple[int, int, int]]]:
     """Return the cells of each brick."""
     brick, columns = stud_columns(bricks, catalogue)
-    height = catalogue.height[bricks.part]
+    facts = column_facts(bricks, catalogue)
+    height = (facts.high - facts.low).tolist()
     found: list[list[tuple[int, int, int]]] = [[] for _ in range(len(bricks))]
-    for row, (x, y, z) in zip(brick.tolist(), columns.tolist(), strict=True):
-        found[row] += [(x, y, z + level) for level in range(int(height[row]))]
+    for row, (x, y, z), high in zip(brick.tolist(), columns.tolist(), height, strict=True):
+        found[row] += [(x, y, z + level) for level in range(high)]
     return found
 
 

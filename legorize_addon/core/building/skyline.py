@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from ..model import Bricks, Catalogue, stud_columns
+from ..model import Bricks, Catalogue, column_facts, stud_columns
 
 _NOTHING: Final = np.iinfo(np.int32).min
 
@@ -31,10 +31,11 @@ class Skyline:
         wide = int(high[0] - low[0]) + 1
         self._n = wide * (int(high[1] - low[1]) + 1)
         flat = (squares[:, 0] - low[0]) + wide * (squares[:, 1] - low[1])
-        self._squares = np.split(flat.astype(np.int64), np.searchsorted(brick, np.arange(1, len(bricks))))
-        self._bottom = bricks.corner[:, 2].tolist()
-        height = catalogue.height[bricks.part]
-        self._top = (bricks.corner[:, 2] + height).tolist()
+        facts = column_facts(bricks, catalogue)
+        ends = np.searchsorted(brick, np.arange(1, len(bricks)))
+        self._squares = np.split(flat.astype(np.int64), ends)
+        self._bottom = np.split(columns[:, 2], ends)
+        self._top = np.split(columns[:, 2] + facts.high - facts.low, ends)
         self._tops: list[np.ndarray | None] = [None] * n_tables
 
     def covers(self, brick: int, table: int) -> bool:

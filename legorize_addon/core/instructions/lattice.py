@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Ints, Mask
-from ..model import NOBODY, Bricks, Catalogue, stud_columns
+from ..model import NOBODY, Bricks, Catalogue, column_facts, stud_columns
 
 SIDES: Final = 3
 """Faces of a cell that are seen: its top, its side towards +x, its side towards +y."""
@@ -87,7 +87,8 @@ class Cells:
     def of(cls, bricks: Bricks, catalogue: Catalogue, view: View) -> Cells:
         """Return the cells of all bricks as they are seen from a place."""
         brick, columns = stud_columns(bricks, catalogue)
-        height = catalogue.height[bricks.part[brick]]
+        facts = column_facts(bricks, catalogue)
+        height = (facts.high - facts.low).astype(np.int64)
         place = np.repeat(columns.astype(np.int64), height, axis=0)
         place[:, 2] += np.arange(len(place)) - np.repeat(np.cumsum(height) - height, height)
         return cls(turned(place, view), np.repeat(brick.astype(np.int64), height))

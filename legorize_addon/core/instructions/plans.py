@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..model import Bricks, Catalogue, stud_columns
+from ..model import Bricks, Catalogue, column_facts, stud_columns
 from .canvas import Group, Item, Paint, Path, Rgb, lines
 
 STUD: Final = 0.6
@@ -54,7 +54,7 @@ def plan_outlines(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
 
 def plan_studs(bricks: Bricks, catalogue: Catalogue, *paints: Paint) -> Path:
     """Return the studs of bricks as dots; the paints' lines are as wide as the dots."""
-    middle = stud_columns(bricks.take(catalogue.studs[bricks.part]), catalogue)[1][:, :2] + 0.5
+    middle = stud_columns(bricks, catalogue)[1][column_facts(bricks, catalogue).stud, :2] + 0.5
     dots = np.stack([middle, middle], axis=1)
     # a line without any length is not drawn everywhere
     dots[:, 1, 0] += 0.001

@@ -23,9 +23,11 @@
   const placed = decoded(data.placed, Uint16Array);
   const removed = decoded(data.removed, Uint16Array);
   const owner = decoded(data.owner, Uint16Array);
-  const brickOf = decoded(data.brick, Uint32Array); // of each box, then of each stud
-  const BOX = 6, STUD = 3;
-  const nBoxes = boxes.length / BOX, nStuds = studs.length / STUD, nBricks = placed.length;
+  const ramps = decoded(data.ramps, Float32Array); // as boxes, levels of bottom and top at both ends, axis
+  const brickOf = decoded(data.brick, Uint32Array); // of each box, then of each stud, then of each ramp
+  const BOX = 6, STUD = 3, RAMP = 11;
+  const nBoxes = boxes.length / BOX, nStuds = studs.length / STUD, nRamps = ramps.length / RAMP;
+  const nBricks = placed.length;
 
   // what is on the table of a step: 0 nothing, 1 there before, 2 new
   const END = data.table.length; // a place of the slider more: the finished model
@@ -46,13 +48,19 @@
   }
 
   const vertex = `#version 300 es
-    in vec3 corner; in vec3 normal; in vec3 place; in vec3 size; in vec4 tone;
+    in vec3 corner; in vec3 normal; in vec3 place; in vec3 size; in vec4 tone; in vec4 lean; in float axis;
     uniform mat4 camera;
     out vec3 local; out vec3 extent; out vec3 way; out vec4 paint;
     void main() {
-      extent = size; way = normal; paint = tone;
-      local = corner * size;
-      gl_Position = camera * vec4(place + local, 1.0);
+      float t = axis > 0.5 ? corner.y : corner.x, run = axis > 0.5 ? size.y : size.x;
+      float low = mix(lean.x, lean.y, t) * size.z, high = mix(lean.z, lean.w, t) * size.z;
+      float rise = (normal.z > 0.5 ? lean.w - lean.z : lean.y - lean.x) * size.z / run;
+      vec3 tipped = normal.z * vec3(axis > 0.5 ? 0.0 : -rise, axis > 0.5 ? -rise : 0.0, 1.0);
+      way = abs(normal.z) > 0.5 && abs(rise) > 0.0 ? tipped : normal;
+      paint = tone;
+      extent = vec3(size.xy, high - low);
+      local = vec3(corner.xy * size.xy, corner.z * (high - low));
+      gl_Position = camera * vec4(place + local + vec3(0.0, 0.0, low), 1.0);
     }`;
   const fragment = `#version 300 es
     precision highp float;
@@ -63,7 +71,7 @@
       float light = 0.62 + 0.30 * max(dot(n, normalize(vec3(-0.4, -0.7, 0.9))), 0.0) + 0.10 * max(n.z, 0.0);
       vec3 base = paint.rgb * light;
       if (lined > 0.5) {
-        vec3 gap = min(local, extent - local) + abs(n) * 1000.0;
+        vec3 gap = min(local, extent - local) + step(0.5, abs(way)) * 1000.0;
         float near = min(gap.x, min(gap.y, gap.z));
         float wide = max(fwidth(near), 0.02);
         float edge = 1.0 - smoothstep(0.12, 0.12 + 1.2 * wide, near);
@@ -111,7 +119,8 @@
     }
     return new Float32Array(out);
   }
-  function model(vertices) {
+  function model(vertices, leaning) {
+    const stride = leaning ? 60 : 40;
     const array = gl.createVertexArray();
     gl.bindVertexArray(array);
     gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
@@ -122,14 +131,19 @@
     }
     const buffer = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    for (const [name, count, offset] of [["place", 3, 0], ["size", 3, 12], ["tone", 4, 24]]) {
+    const each = [["place", 3, 0], ["size", 3, 12], ["tone", 4, 24]];
+    if (leaning) each.push(["lean", 4, 40], ["axis", 1, 56]);
+    for (const [name, count, offset] of each) {
       gl.enableVertexAttribArray(attribute(name));
-      gl.vertexAttribPointer(attribute(name), count, gl.FLOAT, false, 40, offset);
+      gl.vertexAttribPointer(attribute(name), count, gl.FLOAT, false, stride, offset);
       gl.vertexAttribDivisor(attribute(name), 1);
     }
-    return { array, buffer, corners: vertices.length / 6, count: 0 };
+    return { array, buffer, corners: vertices.length / 6, count: 0, size: stride / 4 };
   }
-  const cubes = model(cube()), knobs = model(cylinder(16));
+  const cubes = model(cube(), false), knobs = model(cylinder(16), false), slopes = model(cube(), true);
+  // what does not lean
+  gl.vertexAttrib4f(attribute("lean"), 0, 0, 1, 1);
+  gl.vertexAttrib1f(attribute("axis"), 0);
 
   function tone(brick, state, out, at) {
     const white = state === 1 && pale.checked ? 0.6 : 0;
@@ -157,9 +171,21 @@
       second.set([8 * s[0] + 4, 8 * s[1] + 4, 3.2 * s[2], 2.4, 2.4, 1.7], at);
       tone(brick, state[brick], second, at + 6);
     }
-    for (const [kind, array, count] of [[cubes, first, n], [knobs, second, m]]) {
+    const third = new Float32Array(nRamps * 15);
+    let k = 0;
+    for (let row = 0; row < nRamps; row++) {
+      const brick = brickOf[nBoxes + nStuds + row];
+      if (!state[brick]) continue;
+      const r = ramps.subarray(RAMP * row, RAMP * row + RAMP), at = 15 * k++, y = r[10] > 0.5;
+      // gaps at the sides alone: the pieces of a slope touch each other
+      const gx = y ? GAP : 0, gy = y ? 0 : GAP;
+      third.set([8 * r[0] + gx, 8 * r[1] + gy, 3.2 * r[2], 8 * r[3] - 2 * gx, 8 * r[4] - 2 * gy, 3.2 * r[5] - 0.02], at);
+      tone(brick, state[brick], third, at + 6);
+      third.set(r.subarray(6, 11), at + 10);
+    }
+    for (const [kind, array, count] of [[cubes, first, n], [knobs, second, m], [slopes, third, k]]) {
       gl.bindBuffer(gl.ARRAY_BUFFER, kind.buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, array.subarray(0, 10 * count), gl.DYNAMIC_DRAW);
+      gl.bufferData(gl.ARRAY_BUFFER, array.subarray(0, kind.size * count), gl.DYNAMIC_DRAW);
       kind.count = count;
     }
     measure(step === END ? 0 : data.table[step]);
@@ -173,16 +199,19 @@
   function measure(table) {
     if (!extents[table]) {
       const least = [1e9, 1e9, 1e9], most = [-1e9, -1e9, -1e9];
-      for (let row = 0; row < nBoxes; row++) {
-        let at = owner[brickOf[row]];
+      const reach = (brick, b) => {
+        let at = owner[brick];
         while (at !== table && at !== 0) at = data.parent[at];
-        if (at !== table) continue;
+        if (at !== table) return;
         for (let k = 0; k < 3; k++) {
           const unit = k < 2 ? 8 : 3.2;
-          least[k] = Math.min(least[k], unit * boxes[BOX * row + k]);
-          most[k] = Math.max(most[k], unit * (boxes[BOX * row + k] + boxes[BOX * row + k + 3]));
+          least[k] = Math.min(least[k], unit * b[k]);
+          most[k] = Math.max(most[k], unit * (b[k] + b[k + 3]));
         }
-      }
+      };
+      for (let row = 0; row < nBoxes; row++) reach(brickOf[row], boxes.subarray(BOX * row, BOX * row + BOX));
+      for (let row = 0; row < nRamps; row++)
+        reach(brickOf[nBoxes + nStuds + row], ramps.subarray(RAMP * row, RAMP * row + RAMP));
       extents[table] = [least, most];
     }
     [low, high] = extents[table];
@@ -219,7 +248,7 @@
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.CULL_FACE);
     gl.uniformMatrix4fv(uniform("camera"), false, camera(wide / Math.max(tall, 1)));
-    for (const [kind, lined] of [[cubes, 1], [knobs, 0]]) {
+    for (const [kind, lined] of [[cubes, 1], [slopes, 1], [knobs, 0]]) {
       gl.uniform1f(uniform("lined"), lined);
       gl.bindVertexArray(kind.array);
       gl.drawArraysInstanced(gl.TRIANGLES, 0, kind.corners, kind.count);

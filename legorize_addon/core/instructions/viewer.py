@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 from base64 import b64encode
 from collections.abc import Mapping
+from functools import cache
+from itertools import pairwise
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Ints, Mask
+from ..arrays import Floats, Ints, Mask
 from ..building import Action, Steps
-from ..model import NOBODY, Bricks, Catalogue, stud_columns
+from ..model import NOBODY, Bricks, Catalogue, Part, column_facts, lines, stud_columns, turned
 from .lots import shown_rgb
 
 NEVER: Final = 0xFFFF
@@ -59,6 +61,7 @@ def viewer_data(
         Tables of numbers in base 64, little end first.
     """
     boxes, box_brick = _boxes(bricks, catalogue)
+    ramps, ramp_brick = _ramps(bricks, catalogue)
     studs, stud_brick = _studs(bricks, catalogue)
     colour = shown_rgb(bricks, catalogue, temporary, tint)
     moves, count = steps.moves, len(steps.submodels)
@@ -71,7 +74,8 @@ def viewer_data(
     content: dict[str, Any] = {
         "boxes": _packed(boxes, "<i2"),
         "studs": _packed(studs, "<i2"),
-        "brick": _packed(np.concatenate([box_brick, stud_brick]), "<u4"),
+        "ramps": _packed(ramps, "<f4"),
+        "brick": _packed(np.concatenate([box_brick, stud_brick, ramp_brick]), "<u4"),
         "colour": _packed(colour, "u1"),
         "placed": _packed(_known(moves.step_of(len(bricks))), "<u2"),
         "removed": _packed(removed, "<u2"),
@@ -89,17 +93,17 @@ def _known(rows: NDArray[np.int32]) -> Ints:
     return np.where(rows == NOBODY, NEVER, rows).astype(np.int64)
 
 
-def _packed(numbers: NDArray[np.integer], kind: str) -> str:
+def _packed(numbers: Ints | Floats, kind: str) -> str:
     return b64encode(np.ascontiguousarray(numbers).astype(kind).tobytes()).decode()
 
 
 def _studs(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:
     """Return where the studs begin, (n, 3) cells; and the brick of each."""
-    owner, columns = stud_columns(bricks, catalogue)
-    studded = catalogue.studs[bricks.part[owner]]
-    brick, studs = owner[studded].astype(np.int64), columns[studded].astype(np.int64)
-    studs[:, 2] += catalogue.height[bricks.part[brick]]
-    return studs, brick
+    brick, columns = stud_columns(bricks, catalogue)
+    facts = column_facts(bricks, catalogue)
+    tops = columns.astype(np.int64)
+    tops[:, 2] += facts.high - facts.low
+    return tops[facts.stud], brick[facts.stud].astype(np.int64)
 
 
 def _boxes(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:
@@ -108,8 +112,44 @@ def _boxes(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:
     rows = zip(bricks.part.tolist(), (bricks.turn % 4).tolist(), bricks.corner.tolist(), strict=True)
     for row, (number, turn, (x, y, z)) in enumerate(rows):
         part = catalogue.parts[number]
+        if part.sloped:
+            continue
         across, deep = (part.width, part.length) if turn % 2 else (part.length, part.width)
         for u, v, wide, long in _CORNER_BOXES[turn] if part.corner else ((0, 0, across, deep),):
             boxes.append((x + u, y + v, z, wide, long, part.height))
             owner.append(row)
     return np.array(boxes, dtype=np.int64).reshape(-1, 6), np.array(owner, dtype=np.int64)
+
+
+def _ramps(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
+    """Return the straight pieces of bricks that fall along their length, (n, 11), and the brick of each.
+
+    Of each piece its lowest corner and size in cells, how high of its size the bottom is at the start and at the end
+    of an axis, how high the top, and the axis: 0 for x, 1 for y.
+    """
+    found, owner = [], []
+    sloped = np.flatnonzero(np.array([part.sloped for part in catalogue.parts])[bricks.part])
+    for row in sloped.tolist():
+        pieces = _pieces(catalogue.parts[bricks.part[row]], int(bricks.turn[row]) % 4)
+        found += [(*(piece[:3] + bricks.corner[row]), *piece[3:]) for piece in pieces]
+        owner += [row] * len(pieces)
+    return np.array(found, dtype=np.float64).reshape(-1, 11), np.array(owner, dtype=np.int64)
+
+
+@cache
+def _pieces(part: Part, turn: int) -> tuple[Floats, ...]:
+    """Return the straight pieces of a part that falls along its length, from its corner."""
+    top, bottom = (np.array(line) for line in lines(part))
+    places = np.unique(np.concatenate([top[:, 0], bottom[:, 0]]))
+    found = []
+    for start, end in pairwise(places.tolist()):
+        # a little inside, where undersides have steps
+        inner = np.array([start, end]) + np.array([1e-9, -1e-9])
+        low, high = (np.interp(inner, *line.T) for line in (bottom, top))
+        corners = turned(part, turn, np.array([(start, 0.0), (end, float(part.width))]))
+        size = np.array([*np.ptp(corners, axis=0), high.max() - low.min()])
+        level = (np.concatenate([low, high]) - low.min()) / size[2]
+        if turn > 1:
+            level = level[[1, 0, 3, 2]]
+        found.append(np.array([*corners.min(axis=0), low.min(), *size, *level, turn % 2]))
+    return tuple(found)

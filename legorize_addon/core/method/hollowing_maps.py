@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Mask
 from ..instructions import Item, Page, Paint
-from ..model import COLOUR_ANY, Assembly, Catalogue, Fill, Role, UnitGrid, stud_columns
+from ..model import COLOUR_ANY, Assembly, Catalogue, Fill, Role, UnitGrid, column_facts, stud_columns
 from ..units import PLATES_PER_BRICK
 from .sheet import Line, Rgb, Sheet, squares
 
@@ -108,9 +108,9 @@ def support_cells(supports: Assembly, grid: UnitGrid) -> Mask:
     bricks, catalogue = supports.bricks, supports.catalogue
     if not len(bricks):
         return found
-    rows, columns = stud_columns(bricks, catalogue)
-    low = bricks.corner[rows, 2]
-    high = low + catalogue.height[bricks.part[rows]]
+    _, columns = stud_columns(bricks, catalogue)
+    facts, low = column_facts(bricks, catalogue), columns[:, 2]
+    high = low + facts.high - facts.low
     for up in range(int((high - low).max())):
         plane = low + up
         here = (plane < high) & (plane >= 0) & (plane < PLATES_PER_BRICK * len(found))

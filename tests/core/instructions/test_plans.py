@@ -8,6 +8,7 @@ import numpy as np
 
 from legorize_addon.core.instructions.canvas import Paint
 from legorize_addon.core.instructions.plans import by_colour, hatched, plan_outlines, plan_studs
+from legorize_addon.core.model import columns
 from legorize_addon.core.model.catalogue import footprint
 from tests.core.any_bricks import CATALOGUE, everything
 
@@ -31,10 +32,17 @@ def test_outlines_hold_the_cells_of_the_parts():
     for row, (low, high) in enumerate(zip(ends - count, ends, strict=True)):
         cells = {tuple(cell) for cell in footprint(CATALOGUE.parts[bricks.part[row]], int(bricks.turn[row])).tolist()}
         x, y, _ = bricks.corner[row].tolist()
-        longest = CATALOGUE.parts[bricks.part[row]].length
+        part = CATALOGUE.parts[bricks.part[row]]
+        longest = max(part.length, part.width)
         box = product(range(longest + 1), repeat=2)
         shown = {(i, j) for i, j in box if inside(points[low:high], x + i + 0.5, y + j + 0.5)}
         assert shown == cells
+
+
+def studded(part, turn):
+    """Return the cells of a part, and which of them have studs."""
+    found = columns(part, turn)
+    return found.xy.tolist(), found.stud.tolist()
 
 
 def test_a_dot_for_each_stud():
@@ -44,8 +52,8 @@ def test_a_dot_for_each_stud():
     expected = [
         (x + i + 0.5, y + j + 0.5)
         for (x, y, _), part, turn in zip(bricks.corner.tolist(), bricks.part, bricks.turn, strict=True)
-        for i, j in footprint(CATALOGUE.parts[part], int(turn)).tolist()
-        if CATALOGUE.parts[part].studs
+        for (i, j), stud in zip(*studded(CATALOGUE.parts[part], int(turn)), strict=True)
+        if stud
     ]
     assert sorted(map(tuple, dots.tolist())) == sorted(expected)
 

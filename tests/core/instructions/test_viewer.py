@@ -11,7 +11,8 @@ import pytest
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.instructions.panels import submodel_names
 from legorize_addon.core.instructions.shots import shots
-from legorize_addon.core.instructions.viewer import NEVER, _boxes, _studs, viewer_data
+from legorize_addon.core.instructions.viewer import NEVER, _boxes, _ramps, _studs, viewer_data
+from legorize_addon.core.model import columns, lines, solid
 from legorize_addon.core.model.catalogue import footprint
 from tests.core.any_bricks import CATALOGUE, everything
 from tests.core.instructions.built import arm, pair
@@ -61,6 +62,9 @@ def test_parts_become_boxes():
     boxes, owner = _boxes(bricks, CATALOGUE)
     for row in range(len(bricks)):
         part = CATALOGUE.parts[bricks.part[row]]
+        if part.sloped:
+            assert row not in owner
+            continue
         cells = {
             (x + i - bricks.corner[row, 0], y + j - bricks.corner[row, 1])
             for x, y, _, wide, long, _ in boxes[owner == row].tolist()
@@ -75,8 +79,32 @@ def test_studs_of_the_page_are_those_of_the_parts():
     """Each square of a part with studs has one; tiles have none."""
     bricks = everything()
     plan = [(int(part), int(turn)) for part, turn in zip(bricks.part, bricks.turn, strict=True)]
-    expected = sum(len(footprint(CATALOGUE.parts[part], turn)) for part, turn in plan if CATALOGUE.parts[part].studs)
+    expected = sum(np.count_nonzero(columns(CATALOGUE.parts[part], turn).stud) for part, turn in plan)
     assert len(_studs(bricks, CATALOGUE)[0]) == expected
+
+
+def test_slopes_become_ramps_of_their_volume():
+    """The pieces of a slope fill its bounding box from side to side, have its volume, and are highest where it is."""
+    bricks = everything()
+    ramps, owner = _ramps(bricks, CATALOGUE)
+    for row in range(len(bricks)):
+        part, mine = CATALOGUE.parts[bricks.part[row]], ramps[owner == row]
+        assert part.sloped == bool(len(mine))
+        if not part.sloped:
+            continue
+        turn = int(bricks.turn[row])
+        low, high = mine[:, :2].min(axis=0), (mine[:, :2] + mine[:, 3:5]).max(axis=0)
+        assert low.tolist() == bricks.corner[row, :2].tolist()
+        assert (high - low).tolist() == [*((part.width, part.length) if turn % 2 else (part.length, part.width))]
+        volume = mine[:, 3:6].prod(axis=1) * (mine[:, 8] + mine[:, 9] - mine[:, 6] - mine[:, 7]) / 2
+        assert volume.sum() == pytest.approx(
+            solid(part, turn, 32, 32).mean() * part.length * part.width * part.height, rel=0.02
+        )
+        # where the high end is
+        first = mine[np.argmin(mine[:, turn % 2]) if turn < 2 else np.argmax(mine[:, turn % 2])]
+        assert first[2] + first[5] * first[9 if turn > 1 else 8] == pytest.approx(
+            bricks.corner[row, 2] + lines(part)[0][0][1]
+        )
 
 
 def test_tables_fit_together():

@@ -56,7 +56,7 @@ def test_what_parts_are_laid_for():
 
 
 def test_tiles_are_smooth_and_baseplates_flat_below():
-    """No studs are on tiles, cheese slopes and curves; a baseplate does not clutch what is below; everything else does both."""
+    """No studs are on tiles, cheese slopes and curves; a baseplate clutches nothing below; all else does both."""
     number = np.array([part.number for part in CATALOGUE.parts])
     assert number[~CATALOGUE.studs].tolist() == [*TILES, "54200", "85984", *FREE_SLOPES[-6:]]
     assert number[~CATALOGUE.sockets].tolist() == ["3867", "3811", "4186"]

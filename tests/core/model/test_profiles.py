@@ -38,8 +38,8 @@ def test_centre_is_that_of_the_samples(part, turn):
 def test_studs_sockets_and_feet_are_where_the_parts_have_them():
     """A slope has one row of studs, an inverted one a row of sockets; a cheese slope has no stud."""
     for number, studs, sockets, feet in (
-        ("3039", 2, 4, 4), ("4286", 1, 3, 3), ("54200", 0, 1, 1), ("3665", 2, 1, 1), ("3660", 4, 2, 2), ("3037", 4, 8, 8),
-        ("4287", 3, 1, 1), ("11477", 0, 2, 2), ("93606", 0, 8, 8),
+        ("3039", 2, 4, 4), ("4286", 1, 3, 3), ("54200", 0, 1, 1), ("3665", 2, 1, 1), ("3660", 4, 2, 2),
+        ("3037", 4, 8, 8), ("4287", 3, 1, 1), ("11477", 0, 2, 2), ("93606", 0, 8, 8),
     ):  # fmt: skip
         for turn in range(4):
             found = columns(NUMBER[number], turn)
