@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..geometry import beyond, corners, hull
-from ..model import Assembly, Bricks, Catalogue, Rows, middles, stud_columns
+from ..model import Assembly, Bricks, Catalogue, Rows, column_facts, middles, stud_columns
 from ..progress import Progress, silent
 from .moves import Action
 from .steps import MAIN, Steps
@@ -160,7 +160,7 @@ class _Towers:
         mass = catalogue.mass[bricks.part]
         self.mass = mass.tolist()
         self.moment = (middles(bricks, catalogue) * mass[:, None]).tolist()
-        standing = columns[:, 2] == floor
+        standing = column_facts(bricks, catalogue).foot & (columns[:, 2] == floor)
         self.feet: list[list[tuple[int, int]]] = [[] for _ in range(n)]
         for row, x, y in zip(brick[standing].tolist(), *columns[standing, :2].T.tolist(), strict=True):
             self.feet[row].append((x, y))

@@ -24,6 +24,7 @@ from ..model import (
     Fill,
     Role,
     UnitGrid,
+    column_facts,
     concatenate,
     contact_graph,
     ground_of,
@@ -110,8 +111,9 @@ class Workpiece:
     def lie_in(self, rows: Ints, cells: Sequence[Cell]) -> Mask:
         """Return which bricks, (k,), have no cell but these."""
         inside = np.bincount(self.owner[_at(cells)], minlength=len(self.bricks))
-        squares = np.bincount(stud_columns(self.bricks, self.catalogue)[0], minlength=len(self.bricks))
-        whole: Mask = (inside == squares * self.catalogue.height[self.bricks.part])[rows]
+        facts = column_facts(self.bricks, self.catalogue)
+        brick = stud_columns(self.bricks, self.catalogue)[0]
+        whole: Mask = (inside == np.bincount(brick, facts.high - facts.low, len(self.bricks)))[rows]
         return whole
 
     def settle(self, cells: Sequence[Cell], colour: int | Plane) -> Plane:

@@ -22,6 +22,7 @@ from ..model import (
     Assembly,
     Bricks,
     ContactGraph,
+    column_facts,
     components,
     stud_columns,
 )
@@ -205,7 +206,9 @@ def _steadying(assembly: Assembly, body: int, under: Places) -> Iterator[int]:
     """Yield places at which pillars to the ground keep a piece that tips over upright, one after the other."""
     mine = assembly.graph.component == body
     brick, columns = stud_columns(assembly.bricks, assembly.catalogue)
-    feet = columns[mine[brick] & (columns[:, 2] == assembly.bricks.corner[:, 2].min()), :2] - assembly.graph.low[:2]
+    foot = column_facts(assembly.bricks, assembly.catalogue).foot
+    standing = mine[brick] & foot & (columns[:, 2] == assembly.bricks.corner[:, 2].min())
+    feet = columns[standing, :2] - assembly.graph.low[:2]
     squares = [(int(x), int(y)) for x, y in feet]
     below = list(zip(under.x.tolist(), under.y.tolist(), strict=True))
     middle = assembly.take(mine).centre_of_mass - assembly.graph.low[:2]

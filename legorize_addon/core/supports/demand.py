@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints
-from ..model import Assembly, Rows, middles, stud_columns
+from ..model import Assembly, Rows, column_facts, middles, stud_columns
 from ..statics import GRAVITY
 from .boxes import TALL
 from .clearance import Clearance, clearance_around
@@ -156,7 +156,8 @@ def _undersides(assembly: Assembly, room: Clearance) -> tuple[Ints, Rows, Ints]:
     """List the cells over open room, with the rows of their bricks, and the bricks that look into closed hollows."""
     brick, columns = stud_columns(assembly.bricks, assembly.catalogue)
     cells = columns - room.low
-    raised = cells[:, 2] > 0
+    # a support holds nothing where there is no socket, as under an inverted slope
+    raised = (cells[:, 2] > 0) & column_facts(assembly.bricks, assembly.catalogue).socket
     brick, cells = brick[raised].astype(np.int64), cells[raised]
     below = cells[:, 2] - 1, cells[:, 1], cells[:, 0]
     enclosed = np.setdiff1d(brick[~room.filled[below] & ~room.free[below]], brick[room.free[below]])

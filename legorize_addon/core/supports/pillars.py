@@ -20,6 +20,8 @@ from ..model import (
     Assembly,
     Bricks,
     Role,
+    clutches,
+    column_facts,
     stud_columns,
 )
 from ..units import PLATES_PER_BRICK
@@ -137,7 +139,7 @@ def _under(assembly: Assembly, mine: Mask) -> tuple[Boxes, int]:
 
 
 def places_below(assembly: Assembly, mine: Mask) -> Places:
-    """List where pillars can stand under some bricks, but not on them.
+    """List where pillars can stand under some bricks, but not on them; sockets hold them, and studs bear them.
 
     Parameters
     ----------
@@ -151,7 +153,7 @@ def places_below(assembly: Assembly, mine: Mask) -> Places:
         By brick.
     """
     brick, columns = stud_columns(assembly.bricks, assembly.catalogue)
-    own = mine[brick]
+    own = mine[brick] & column_facts(assembly.bricks, assembly.catalogue).socket
     brick, cells = brick[own], columns[own] - assembly.graph.low
     owner, ground = assembly.graph.owner, int(assembly.bricks.corner[:, 2].min()) - assembly.graph.low[2]
     found = []
@@ -161,7 +163,16 @@ def places_below(assembly: Assembly, mine: Mask) -> Places:
         if foot < z and not (len(below) and mine[owner[foot - 1, y, x]]):
             found.append((row, x, y, z, z - foot, len(below) > 0))
     row, x, y, top, length, on_brick = np.array(found, dtype=np.int64).reshape(-1, 6).T
-    return Places(row, x, y, top, length, on_brick.astype(bool))
+    places = Places(row, x, y, top, length, on_brick.astype(bool))
+    return places.take(np.flatnonzero(~places.on_brick | _bearing(assembly, places)))
+
+
+def _bearing(assembly: Assembly, places: Places) -> Mask:
+    """Return over which places that have a brick below it bears a pillar: slopes and tiles have no studs there."""
+    graph = assembly.graph
+    squares = np.stack([places.x, places.y], axis=1) + graph.low[:2]
+    lower = graph.owner[places.top - places.length - 1, places.y, places.x]
+    return clutches(assembly.bricks, assembly.catalogue, lower, places.brick.astype(np.int32), squares.astype(np.int32))
 
 
 def kept_pillars(assembly: Assembly, places: Places) -> list[Bricks]:

@@ -52,3 +52,16 @@ def test_covered_is_what_has_a_cell_over_it(seed):
             low = min(z for *_, z in cells[one])
             filled = {(x, y) for row in there[table] for x, y, z in cells[row] if z >= low}
             assert sky.covers(one, table) == bool(filled & {(x, y) for x, y, _ in cells[one]})
+
+
+def test_columns_of_a_slope_have_heights_of_their_own():
+    """Over the low end of a slope there is room; under the high end of a curve only what came before it."""
+    bricks = table(("4286", 0, 0, 0), ("3024", 2, 0, 2), ("50950", 0, 1, 0), ("3024", 0, 1, 0), ("3024", 1, 0, 2))
+    sky = Skyline(bricks, CATALOGUE, 1)
+    sky.add(0, 0)
+    assert not sky.covers(1, 0)
+    assert sky.covers(4, 0)
+    sky.add(3, 0)
+    assert not sky.covers(2, 0)
+    sky.renew(0, [2])
+    assert sky.covers(3, 0)

@@ -177,3 +177,12 @@ def test_what_comes_to_a_table_when():
     assert list(_arrivals(steps, 0)) == [(5, [0]), (6, [2, 4]), (7, [1])]
     assert list(_arrivals(steps, 1)) == [(0, [2]), (2, [4]), (3, [3])]
     assert list(_arrivals(steps, 2)) == [(1, [4])]
+
+
+def test_a_tower_stands_on_the_foot_of_an_inverted_slope_alone():
+    """What stands over the fall of an inverted slope pulls it over; a brick of the same size bears it."""
+    tower = [("3005", 1, 0, 3 + 3 * level) for level in range(3)]
+    for number, falls in (("3665", True), ("3004", False)):
+        bricks = table((number, 0, 0, 0), *tower)
+        assert stability(Assembly(bricks, CATALOGUE)).stands != falls
+        assert bool(falling(bricks)) == falls

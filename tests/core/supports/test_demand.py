@@ -97,3 +97,9 @@ def test_deeper_hanging_never_needs_more(deepest):
     fewer, more = need(*TEE, deepest=deepest + 3), need(*TEE, deepest=deepest)
     assert len(fewer.contacts) <= len(more.contacts)
     assert np.isin(fewer.bricks, more.bricks).all()
+
+
+def test_falls_of_inverted_slopes_are_no_undersides():
+    """Where a part has no socket below, a support would hold nothing."""
+    found = need(("3003", 5, 0, 0), ("3665", 0, 0, 9))
+    assert (found.undersides + found.room.low).tolist() == [[0, 0, 9]]

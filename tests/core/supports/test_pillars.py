@@ -71,3 +71,13 @@ def test_pillar_inside_is_red():
     assert after.bricks.role[5:].tolist() == [Role.SUPPORT_INSIDE]
     assert after.bricks.colour[5:].tolist() == [INSIDE_COLOUR]
     assert {(0, 5), (5, 4)} <= set(map(tuple, after.graph.pairs.tolist()))
+
+
+def test_pillars_stand_on_no_slope_and_hold_no_fall():
+    """The way down onto the fall of a slope is shorter, but ends at no stud; an inverted slope is held at its foot."""
+    bricks, graph, n = carried(("3039", 0, 0, 0), ("3003", 1, 0, 6))
+    assert graph.n_floating == graph.collisions == 0
+    assert set(bricks.corner[n:, 0].tolist()) == {2}
+    bricks, graph, n = carried(("3665", 0, 0, 6), ("3003", 5, 0, 0))
+    assert graph.n_floating == graph.collisions == 0
+    assert set(map(tuple, bricks.corner[n:, :2].tolist())) == {(0, 0)}
