@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.errors import BuildError
+from legorize_addon.core.model import columns
 from legorize_addon.core.model.bricks import Role
-from legorize_addon.core.model.catalogue import footprint, load_catalogue
+from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.model.unit_grid import CELL_SIZE
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.units import BRICK, PLATE, STUD
@@ -79,7 +80,8 @@ def test_studs_stand_over_the_cells(row: int) -> None:
         points = np.array([vertex.co for vertex in mesh.vertices]) @ matrix[:3, :3].T + matrix[:3, 3]
         top = points[np.isclose(points[:, 2], (4 + part.height) * PLATE + STUD_HEIGHT, atol=1e-3)]
         cells = np.unique(np.floor(top[:, :2] / STUD).astype(int), axis=0)
-        np.testing.assert_array_equal(cells - np.array([5, 7]), footprint(part, turn)[: None if part.studs else 0])
+        found = columns(part, turn)
+        np.testing.assert_array_equal(cells - np.array([5, 7]), found.xy[found.stud])
         for cell in cells:
             inside = top[(np.floor(top[:, :2] / STUD) == cell).all(axis=1)]
             np.testing.assert_allclose(inside[:, :2].mean(axis=0), (cell + 0.5) * STUD, atol=1e-3)
