@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from bpy.app.translations import pgettext_iface as iface
+from bpy.app.translations import pgettext_n as n
 
 from ..core.arrays import Ints
 from ..core.model import Assembly, Bricks, Role, Verdict, load_catalogue
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
     from ..core.statics import Stability
 
 ICONS: Final = {"stable": "CHECKMARK", "wedged": "ERROR", "collapses": "CANCEL", "undecided": "QUESTION"}
-UNCHECKED: Final = "Not checked: legorize the object again to check whether the model stands."
+UNCHECKED: Final = n("Not checked: legorize the object again to check whether the model stands.")
 
 
 def judged_rows(stability: Stability, bricks: Bricks) -> Ints:
@@ -75,36 +77,37 @@ def check_lines(check: Mapping[str, Any] | None) -> list[tuple[str, str]]:
         return [(UNCHECKED, "QUESTION")]
     lines = [(check["sentence"], ICONS[check["verdict"]])]
     if check["floating"]:
-        lines.append((f"Bricks that hang in the air: {check['floating']}", "ERROR"))
+        lines.append((iface("Bricks that hang in the air: {}").format(check["floating"]), "ERROR"))
     # builds of earlier versions know the number alone
-    name = check.get("name", f"brick {check['weakest']}")
-    weakest = f"Weakest: {name} in layer {check['layer']}, {_left(check['left'])}"
+    name = check.get("name", iface("brick {}").format(check["weakest"]))
+    weakest = iface("Weakest: {} in layer {}, {}").format(name, check["layer"], _left(check["left"]))
     return [*lines, (weakest, "BLANK1")]
 
 
 def _sentence(stability: Stability, bricks: Bricks, left: float) -> str:
     if stability.standing is Verdict.UNDECIDED:
-        return "Not decided: there is no proof that it stands, and none that it collapses"
+        return iface("Not decided: there is no proof that it stands, and none that it collapses")
     if stability.standing is Verdict.COLLAPSES:
-        return f"Collapses: proven, {_how(stability, bricks)}"
-    proof = f"proven, no brick needs more than {100 - 100 * left:.0f} % of its friction"
+        return iface("Collapses: proven, {}").format(_how(stability, bricks))
+    proof = iface("proven, no brick needs more than {:.0f} % of its friction").format(100 - 100 * left)
     if len(stability.unsupported):
-        return f"Collapses: bricks hang in the air; the others stand: {proof}"
+        return iface("Collapses: bricks hang in the air; the others stand: {}").format(proof)
     if stability.standing is Verdict.WEDGED:
-        return f"Stands only while neighbours press on each other: {proof}"
-    return f"Stands by its studs alone: {proof}"
+        return iface("Stands only while neighbours press on each other: {}").format(proof)
+    return iface("Stands by its studs alone: {}").format(proof)
 
 
 def _how(stability: Stability, bricks: Bricks) -> str:
     if not len(stability.torn):
-        return "it tips over"
+        return iface("it tips over")
     from ..core.report import brick_name, layer_of
 
     first = int(stability.torn[0].max())
-    return f"first at the {brick_name(Assembly(bricks, load_catalogue()), first)} in layer {layer_of(bricks, first)}"
+    name = brick_name(Assembly(bricks, load_catalogue()), first)
+    return iface("first at the {} in layer {}").format(name, layer_of(bricks, first))
 
 
 def _left(margin: float) -> str:
     if margin < 0:
-        return f"short of {-margin * 100:.0f} % of its friction"
-    return f"at least {margin * 100:.0f} % of its friction left"
+        return iface("short of {:.0f} % of its friction").format(-margin * 100)
+    return iface("at least {:.0f} % of its friction left").format(margin * 100)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt
 from bpy.props import BoolProperty, IntProperty
 
 from ..core.errors import BuildError
@@ -36,7 +37,8 @@ class LEGORIZE_OT_animate(OnBuild, bpy.types.Operator):
         made = animate(scene, current_build(scene), first=scene.frame_start, frames=self.frames)
         scene.frame_end = made.last + HOLD
         scene.frame_set(made.first)
-        self.report({"INFO"}, f"{made.steps} steps in frames {made.first} to {made.last}. Press Space to play.")
+        told = rpt("{} steps in frames {} to {}. Press Space to play.").format(made.steps, made.first, made.last)
+        self.report({"INFO"}, told)
         return {"FINISHED"}
 
 
@@ -95,7 +97,8 @@ class LEGORIZE_OT_film(OnBuild, bpy.types.Operator):
         film = make_film(context.scene, current_build(context.scene), cut, samples=self.samples)
         if context.window:
             context.window.scene = film
-        self.report({"INFO"}, f"{film.frame_end} frames in the scene {film.name!r}: Ctrl-F12 renders them.")
+        told = rpt("{} frames in the scene {!r}: Ctrl-F12 renders them.").format(film.frame_end, film.name)
+        self.report({"INFO"}, told)
         return {"FINISHED"}
 
 

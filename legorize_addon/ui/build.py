@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import bpy
 from bpy.app.handlers import persistent
+from bpy.app.translations import pgettext_iface as iface
+from bpy.app.translations import pgettext_rpt as rpt
 
 from ..core.errors import BuildError, Cancelled, LegorizeError, LimitError, enough_memory
 from ..scene import Source, builds, clear_build, damage, orphans, show_orphans, show_sources, state_of, sweep
@@ -46,10 +48,10 @@ class Reporting:
         except LegorizeError as error:
             self.report({"ERROR"}, str(error))
         except Cancelled:
-            self.report({"INFO"}, STOPPED)
+            self.report({"INFO"}, rpt(STOPPED))
             bpy.context.window_manager.legorize_said = STOPPED
             if not bpy.app.background:
-                _say_in_status_bar(bpy.context, STOPPED)
+                _say_in_status_bar(bpy.context, rpt(STOPPED))
         return {"CANCELLED"}
 
 
@@ -122,7 +124,9 @@ class Working(Reporting):
 
     def _show_progress(self, context: bpy.types.Context) -> None:
         text = progress_text(*self._job.progress, self._job.seconds_left, stopping=self._job.stopping)
-        context.workspace.status_text_set(f"Legorize: {text}" + ("" if self._job.stopping else " (Esc stops)"))
+        context.workspace.status_text_set(
+            f"Legorize: {text}" + ("" if self._job.stopping else f" ({iface('Esc stops')})")
+        )
         redraw(context)
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
@@ -194,7 +198,7 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         view.show_sources = False
         if scene == context.scene:
             _select_only(context, state_of(collection).root)
-        self.report({"INFO"}, f"Model built: {len(build.bricks)} bricks.")
+        self.report({"INFO"}, rpt("Model built: {} bricks.").format(len(build.bricks)))
         for note in notes:
             self.report({"WARNING"}, note)
         return {"FINISHED"}
@@ -291,7 +295,7 @@ class LEGORIZE_OT_show_originals(bpy.types.Operator):
         sources = show_orphans(context.scene)
         sweep()
         _select_only(context, *sources)
-        self.report({"INFO"}, f"Shown again: {', '.join(source.name for source in sources)}.")
+        self.report({"INFO"}, rpt("Shown again: {}.").format(", ".join(source.name for source in sources)))
         return {"FINISHED"}
 
 

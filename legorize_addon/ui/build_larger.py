@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import textwrap
 from typing import Final
 
 import bpy
 
-from .tab import PIXELS_PER_LETTER
+from .tab import PIXELS_PER_LETTER, wrapped
 
 WIDTH: Final = 400
 """Width of the question in pixels."""
@@ -39,7 +38,7 @@ class LEGORIZE_OT_build_larger(bpy.types.Operator):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the sentence."""
         lines = self.layout.column(align=True)
-        for row, line in enumerate(textwrap.wrap(self.reason, int(WIDTH / PIXELS_PER_LETTER))):
+        for row, line in enumerate(wrapped(self.reason, int(WIDTH / PIXELS_PER_LETTER))):
             lines.label(text=line, icon="BLANK1" if row else "QUESTION")
 
     def execute(self, context: bpy.types.Context) -> set[str]:

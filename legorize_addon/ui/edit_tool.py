@@ -7,6 +7,7 @@ from typing import Any, Final
 
 import bpy
 import gpu
+from bpy.app.translations import pgettext_iface as iface
 from gpu_extras.batch import batch_for_shader
 
 from ..core.model import load_catalogue
@@ -70,7 +71,7 @@ class LEGORIZE_WT_edit(bpy.types.WorkSpaceTool):
         """Draw how many bricks are picked, and what can be done, in the tool's header."""
         build = current_build(context.scene)
         count = len(state_of(build).picked) if build else 0
-        layout.label(text="1 brick picked" if count == 1 else f"{count} bricks picked")
+        layout.label(text=iface("1 brick picked") if count == 1 else iface("{} bricks picked").format(count))
         if count:
             _draw_changes(layout.row(align=True))
 
@@ -142,7 +143,7 @@ class LEGORIZE_PT_edits(Tab, bpy.types.Panel):
         build = current_build(context.scene)
         self.layout.operator("wm.tool_set_by_id", text="Edit Bricks", icon="RESTRICT_SELECT_OFF").name = TOOL
         count = len(state_of(build).picked)
-        self.layout.label(text="1 brick picked" if count == 1 else f"{count} bricks picked")
+        self.layout.label(text=iface("1 brick picked") if count == 1 else iface("{} bricks picked").format(count))
         if count:
             _draw_changes(self.layout.grid_flow(columns=2, even_columns=True, align=True))
         if len(build.legorize_edits):
@@ -150,10 +151,10 @@ class LEGORIZE_PT_edits(Tab, bpy.types.Panel):
             if 0 <= build.legorize_edit < len(build.legorize_edits):
                 reason = build.legorize_edits[build.legorize_edit].reason
                 if reason:
-                    draw_wrapped(context, self.layout, f"No longer fits, because {reason}.", "ERROR")
+                    draw_wrapped(context, self.layout, iface("No longer fits, because {}.").format(reason), "ERROR")
             self.layout.operator(LEGORIZE_OT_edit_remove.bl_idname, text="Take All Back", icon="TRASH").number = -1
         if not state_of(build).steps:
-            draw_wrapped(context, self.layout, "Supports and building steps are not planned yet.", "INFO")
+            draw_wrapped(context, self.layout, iface("Supports and building steps are not planned yet."), "INFO")
             self.layout.operator("legorize.plan_steps", icon="PRESET")
 
 

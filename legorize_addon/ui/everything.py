@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..core.model import Assembly, Role, load_catalogue
@@ -132,7 +133,8 @@ class LEGORIZE_OT_export_folder(OnPaper, bpy.types.Operator):
 
     def _show(self, context: bpy.types.Context, order: FolderRequest, paths: tuple[Path, ...]) -> set[str]:
         if "report.json" not in order.texts:
-            self.report({"WARNING"}, "Built by an earlier version: its report is not known, build it again for that.")
+            told = rpt("Built by an earlier version: its report is not known, build it again for that.")
+            self.report({"WARNING"}, told)
         if order.booklet and order.title.lost:
             self.report({"WARNING"}, order.title.lost)
         return super()._show(context, order, paths)

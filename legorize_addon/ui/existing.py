@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
 from ..core.errors import BuildError
@@ -115,7 +116,7 @@ class Judging(Working):
         list_parts_of(shown, made)
         list_edits(shown)
         scene.legorize.build = shown
-        self.report({"INFO"}, f"Model of {len(made.bricks)} bricks.")
+        self.report({"INFO"}, rpt("Model built: {} bricks.").format(len(made.bricks)))
         for note in made.notes:
             self.report({"WARNING"}, note)
         return {"FINISHED"}

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import bpy
 from bpy.app.handlers import persistent
+from bpy.app.translations import pgettext_iface as iface
 
 from ..core.errors import LegorizeError
 from ..core.progress import duration
@@ -88,9 +89,11 @@ def _lines(mesh: TriangleMesh, settings: Settings) -> tuple[str, ...]:
     found = estimate(mesh, settings)
     wide, deep = (max(1, round(studs)) for studs in found.studs)
     return (
-        f"{wide} x {deep} studs, {found.layers} layers",
+        iface("{} x {} studs, {} layers").format(wide, deep, found.layers),
         "{:.1f} x {:.1f} x {:.1f} cm".format(*found.cm),
-        f"about {_rounded(found.bricks)} bricks, {duration(found.seconds)}, {_rounded(found.megabytes)} MB",
+        iface("about {} bricks, {}, {} MB").format(
+            _rounded(found.bricks), duration(found.seconds), _rounded(found.megabytes)
+        ),
     )
 
 

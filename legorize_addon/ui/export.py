@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Final
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
@@ -26,9 +27,10 @@ def written(path: Path, build: bpy.types.Collection) -> tuple[set[str], str]:
     if remark:
         return {"WARNING"}, f"Wrote {path}. {remark}"
     if not gone:
-        return {"INFO"}, f"Wrote {path}."
-    objects = "1 object that was" if gone == 1 else f"{gone} objects that were"
-    return {"WARNING"}, f"Wrote {path} without the bricks of {objects} deleted: build the model again for all of them."
+        return {"INFO"}, rpt("Wrote {}.").format(path)
+    one = rpt("Wrote {} without the bricks of 1 object that was deleted: build the model again for all of them.")
+    more = rpt("Wrote {} without the bricks of {} objects that were deleted: build the model again for all of them.")
+    return {"WARNING"}, (one if gone == 1 else more).format(path, gone)
 
 
 class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
@@ -115,7 +117,7 @@ class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
         path = chosen_path(self)
         size = self.width, self.height
         render_still(scene, path, samples=self.samples, resolution=size, view=self.view, outlines=self.outlines)
-        self.report({"INFO"}, f"Wrote {path}.")
+        self.report({"INFO"}, rpt("Wrote {}.").format(path))
         return {"FINISHED"}
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..core.model import Role, load_catalogue
@@ -138,7 +139,7 @@ class OnPaper(OnBuild, Browsing):
         self.filepath = str(Path(bpy.data.filepath).with_name(name)) if bpy.data.filepath else name
 
     def _show(self, context: bpy.types.Context, order: Any, paths: tuple[Path, ...]) -> set[str]:
-        self.report({"INFO"}, f"Wrote {' and '.join(map(str, paths))}.")
+        self.report({"INFO"}, rpt("Wrote {}.").format(", ".join(map(str, paths))))
         build = current_build(context.scene)
         if build and (remark := hand_remark(build)):
             self.report({"WARNING"}, remark)

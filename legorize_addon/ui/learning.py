@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_rpt as rpt
 
 from ..core.model import Bricks, UnitGrid, load_catalogue
 from ..core.progress import Progress, part
@@ -121,10 +122,9 @@ class LEGORIZE_OT_learn(Working, bpy.types.Operator):
         write_whole(path, text)
         context.scene.legorize.settings.learned_from = name
         samples, facts = read_graded(text) if order.of_fill else read(text)
-        told = (
-            f"Learned version {order.version} from {len(samples.model)} samples, {len(order.models)} models more than"
-        )
-        self.report({"INFO"}, f"{told} before ({facts['cross-validation']}): {path}.")
+        told = rpt("Learned version {} from {} samples, {} models more than before ({}): {}.")
+        counts = order.version, len(samples.model), len(order.models)
+        self.report({"INFO"}, told.format(*counts, facts["cross-validation"], path))
         return {"FINISHED"}
 
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Final
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_iface as iface
+from bpy.app.translations import pgettext_rpt as rpt
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..core.errors import BuildError
@@ -128,7 +130,10 @@ class LEGORIZE_OT_show_method(Working, bpy.types.Operator):
             scene, draft, request.name, view=MethodView(self.step, self.lines), mm_per_unit=request.mm_per_unit,
             detail=scene.legorize.detail,
         )  # fmt: skip
-        self.report({"INFO"}, f"{STEPS[self.step][0]} of {request.name}: {len(draft.cut.slices.heights)} slices.")
+        self.report(
+            {"INFO"},
+            rpt("{} of {}: {} slices.").format(iface(STEPS[self.step][0]), request.name, len(draft.cut.slices.heights)),
+        )
         return {"FINISHED"}
 
 
@@ -160,7 +165,7 @@ class LEGORIZE_OT_write_method(Browsing, bpy.types.Operator):
         return FilesRequest(drafted, _models(context), self.lines, chosen_path(self))
 
     def _show(self, context: bpy.types.Context, order: FilesRequest, paths: tuple[Path, ...]) -> set[str]:
-        self.report({"INFO"}, f"Wrote {' and '.join(map(str, paths))}.")
+        self.report({"INFO"}, rpt("Wrote {}.").format(", ".join(map(str, paths))))
         return {"FINISHED"}
 
 

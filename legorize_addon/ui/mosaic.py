@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt
 
 from ..core.errors import BuildError, MeshError
 from ..core.progress import Progress
@@ -129,7 +130,8 @@ class LEGORIZE_OT_image(Working, bpy.types.Operator):
         view.build[IMAGE_KEY] = order.name
         list_parts_of(view.build, mosaic)
         across, deep = mosaic.canvas.size
-        self.report({"INFO"}, f"Mosaic built: {len(mosaic.bricks)} bricks on {across} x {deep} studs.")
+        told = rpt("Mosaic built: {} bricks on {} x {} studs.").format(len(mosaic.bricks), across, deep)
+        self.report({"INFO"}, told)
         for note in notes:
             self.report({"WARNING"}, note)
         return {"FINISHED"}

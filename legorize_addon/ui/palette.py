@@ -9,6 +9,9 @@ from typing import Any, Final
 import bpy
 import bpy.utils.previews
 import numpy as np
+from bpy.app.translations import pgettext_iface as iface
+from bpy.app.translations import pgettext_rpt as rpt
+from bpy.app.translations import pgettext_tip as tip
 from bpy.props import IntProperty
 
 from ..core.errors import SettingsError
@@ -82,8 +85,11 @@ class LEGORIZE_OT_palette_colour(bpy.types.Operator):
         """Return the tooltip: the name of the colour, and what a click does."""
         catalogue = load_catalogue()
         colour = catalogue.colours[catalogue.colour_row(properties.code)]
-        hard = " Few parts are made in it, so it takes more and smaller bricks." if rare(catalogue)[colour.code] else ""
-        return f"{colour.name} ({colour.code}).{hard} Click to use it or not; with Shift, to use no other colour"
+        sentences = [f"{colour.name} ({colour.code})."]
+        if rare(catalogue)[colour.code]:
+            sentences.append(tip("Few parts are made in it, so it takes more and smaller bricks."))
+        sentences.append(tip("Click to use it or not; with Shift, to use no other colour"))
+        return " ".join(sentences)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Change the palette; with Shift, to this colour alone."""
@@ -97,7 +103,7 @@ class LEGORIZE_OT_palette_colour(bpy.types.Operator):
         settings, catalogue = context.scene.legorize.settings, load_catalogue()
         left = codes_of(settings.palette, catalogue) ^ {self.code}
         if not left:
-            self.report({"WARNING"}, "A model needs at least one colour: add another one first.")
+            self.report({"WARNING"}, rpt("A model needs at least one colour: add another one first."))
             return {"CANCELLED"}
         settings.palette = palette_text(left, catalogue)
         return {"FINISHED"}
@@ -136,7 +142,7 @@ class LEGORIZE_OT_palette_of_build(OnBuild, bpy.types.Operator):
         used = {row.code for row in current_build(context.scene).legorize_lots}
         used &= set(catalogue.codes.tolist())
         if not used:
-            self.report({"WARNING"}, "The model has no colour of the palette.")
+            self.report({"WARNING"}, rpt("The model has no colour of the palette."))
             return {"CANCELLED"}
         context.scene.legorize.settings.palette = palette_text(used, catalogue)
         return {"FINISHED"}
@@ -154,7 +160,7 @@ class LEGORIZE_PT_palette(Tab, bpy.types.Panel):
         self.layout.enabled = job.running() is None
         catalogue = load_catalogue()
         used = codes_of(context.scene.legorize.settings.palette, catalogue)
-        self.layout.label(text=f"{len(used)} of {len(catalogue.colours)} colours")
+        self.layout.label(text=iface("{} of {} colours").format(len(used), len(catalogue.colours)))
         row = self.layout.row(align=True)
         row.operator(LEGORIZE_OT_palette_all.bl_idname)
         row.operator(LEGORIZE_OT_palette_of_build.bl_idname)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface
 
 from ..core.progress import duration
 from ..core.shopping import SECONDS_A_BRICK
@@ -77,7 +78,12 @@ class LEGORIZE_PT_main(Tab, bpy.types.Panel):
         """Draw what was deleted in Blender's own way, and the button that repairs it."""
         lost = [entry.source.name for entry in orphans(context.scene)]
         if lost:
-            draw_wrapped(context, self.layout, f"Hidden, although the model was deleted: {', '.join(lost)}", "ERROR")
+            draw_wrapped(
+                context,
+                self.layout,
+                iface("Hidden, although the model was deleted: {}").format(", ".join(lost)),
+                "ERROR",
+            )
             self.layout.operator(LEGORIZE_OT_show_originals.bl_idname, icon="HIDE_OFF")
         build = current_build(context.scene)
         sentence = build and damage(build)
@@ -110,7 +116,7 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         build = current_build(context.scene)
-        self.layout.prop(view, "top_layer", text=f"Top of {state_of(build).layers}")
+        self.layout.prop(view, "top_layer", text=iface("Top of {}").format(state_of(build).layers))
         self.layout.prop(view, "single_layer")
         self._draw_building(view, build)
         self.layout.row().prop(view, "section_axis", expand=True)
@@ -126,7 +132,7 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
     def _draw_building(self, view: bpy.types.PropertyGroup, build: bpy.types.Collection) -> None:
         """Draw how far the model is built, and its pieces apart, as far as the build knows of them."""
         if n_steps(build):
-            row = self.layout.row(heading=f"Step of {n_steps(build)}")
+            row = self.layout.row(heading=iface("Step of {}").format(n_steps(build)))
             row.prop(view, "by_steps", text="")
             slider = row.row()
             slider.active = view.by_steps
@@ -213,7 +219,8 @@ def _draw_animation(layout: bpy.types.UILayout, build: bpy.types.Collection) -> 
     """Draw the buttons of the assembly animation and the film."""
     buttons = layout.row(align=True)
     if animation_of(build):
-        word, icon = ("Pause", "PAUSE") if bpy.context.screen.is_animation_playing else ("Play", "PLAY")
+        playing = bpy.context.screen.is_animation_playing
+        word, icon = (iface("Pause"), "PAUSE") if playing else (iface("Play"), "PLAY")
         buttons.operator("screen.animation_play", text=word, icon=icon)
         buttons.operator(LEGORIZE_OT_stop_animation.bl_idname, text="", icon="X")
     else:
@@ -225,9 +232,9 @@ def _figures(summary: Any) -> tuple[str, ...]:
     x, y, layers = summary["studs_x"], summary["studs_y"], summary["layers"]
     size = [length / MM_PER_CM for length in (x * STUD, y * STUD, layers * BRICK)]
     return (
-        f"{summary['bricks']} bricks, {summary['mass']:.0f} g",
-        f"{summary['parts']} kinds of parts, {summary['colours']} colours",
-        f"{x} x {y} studs, {layers} layers",
+        iface("{} bricks, {:.0f} g").format(summary["bricks"], summary["mass"]),
+        iface("{} kinds of parts, {} colours").format(summary["parts"], summary["colours"]),
+        iface("{} x {} studs, {} layers").format(x, y, layers),
         "{:.1f} x {:.1f} x {:.1f} cm".format(*size),
     )
 
@@ -236,19 +243,20 @@ def _building_figures(building: Mapping[str, Any] | None) -> tuple[str, ...]:
     """Return the lines on supports and building; none for a build of an earlier version, which does not know them."""
     if not building:
         return ()
-    lines = [f"Support bricks to take out: {building['removed']}"]
+    lines = [iface("Support bricks to take out: {}").format(building["removed"])]
     if building["removed"]:
         lines[0] += f", {building['removed_mass']:.0f} g"
-    lines.append(f"Support bricks that stay: {building['kept']}")
+    lines.append(iface("Support bricks that stay: {}").format(building["kept"]))
     if building.get("cost"):
-        lines.append(f"Price: {building['cost']}")
+        lines.append(iface("Price: {}").format(building["cost"]))
         if building["removed"]:
-            lines.append(f"Price of the supports to take out: {building['support_cost']}")
-    lines.append(f"Pieces: {building['pieces']}, building steps: {building['steps']}")
+            lines.append(iface("Price of the supports to take out: {}").format(building["support_cost"]))
+    lines.append(iface("Pieces: {}, building steps: {}").format(building["pieces"], building["steps"]))
     if building.get("moves"):
-        lines.append(f"Building time of practised hands: {duration(SECONDS_A_BRICK * building['moves'])}")
+        time = duration(SECONDS_A_BRICK * building["moves"])
+        lines.append(iface("Building time of practised hands: {}").format(time))
     if building.get("by_hand"):
-        lines.append(f"Towers to hold by hand: {building['by_hand']}")
+        lines.append(iface("Towers to hold by hand: {}").format(building["by_hand"]))
     return tuple(lines)
 
 

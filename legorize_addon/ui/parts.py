@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt
 from bpy.props import (
     BoolProperty,
     CollectionProperty,
@@ -222,7 +223,8 @@ class LEGORIZE_OT_export_list(OnBuild, bpy.types.Operator, ExportHelper):
         self.report(*written(path, build))
         left = sum(lot.count for lot in self._format.left_out(wanted))
         if left:
-            self.report({"WARNING"}, f"Bricks whose element number is not known are not in the list: {left}.")
+            told = rpt("Bricks whose element number is not known are not in the list: {}.").format(left)
+            self.report({"WARNING"}, told)
         return {"FINISHED"}
 
 

@@ -7,6 +7,8 @@ from typing import Any, Final
 
 import bpy
 from bpy.app.handlers import persistent
+from bpy.app.translations import pgettext_n as n
+from bpy.app.translations import pgettext_rpt as rpt
 from bpy.props import StringProperty
 
 from ..core.settings import Settings
@@ -20,9 +22,12 @@ KEPT: Final = ("palette", "prices", "owned")
 _TEXTS: Final = {entry.name: entry.metadata for entry in fields(Settings)}
 
 
+UNKNOWN: Final = n("Install Legorize as an extension first: Blender keeps preferences only of those.")
+
+
 def _preference(name: str) -> Any:
     """Return the property of a kept setting."""
-    text = f"{_TEXTS[name]['text'].removesuffix('.')}. New files begin with it"
+    text = _TEXTS[name]["text"].removesuffix(".")
     subtype = {"subtype": "FILE_PATH"} if _TEXTS[name]["files"] == 1 else {}
     return StringProperty(name=_TEXTS[name]["name"], description=text, **subtype)
 
@@ -69,7 +74,7 @@ class LEGORIZE_OT_keep_preferences(bpy.types.Operator):
         """Copy them."""
         kept = preferences()
         if kept is None:
-            self.report({"ERROR"}, "Install Legorize as an extension first: Blender keeps preferences only of those.")
+            self.report({"ERROR"}, rpt(UNKNOWN))
             return {"CANCELLED"}
         for name in KEPT:
             setattr(kept, name, getattr(context.scene.legorize.settings, name))
@@ -89,7 +94,7 @@ class LEGORIZE_OT_take_preferences(bpy.types.Operator):
         """Copy them."""
         kept, group = preferences(), context.scene.legorize.settings
         if kept is None:
-            self.report({"ERROR"}, "Install Legorize as an extension first: Blender keeps preferences only of those.")
+            self.report({"ERROR"}, rpt(UNKNOWN))
             return {"CANCELLED"}
         for name in KEPT:
             group.property_unset(name)

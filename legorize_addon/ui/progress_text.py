@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from bpy.app.translations import pgettext_iface as iface
+from bpy.app.translations import pgettext_n as n
+
 from ..core.progress import duration
 
-STOPPED = "Stopped: nothing was changed."
+STOPPED = n("Stopped: nothing was changed.")
 
 
 def progress_text(stage: str, share: float, seconds_left: float | None, *, stopping: bool) -> str:
@@ -27,6 +30,6 @@ def progress_text(stage: str, share: float, seconds_left: float | None, *, stopp
         As "Layout: 40 %, 2 min left".
     """
     if stopping:
-        return "Stopping"
-    left = "" if seconds_left is None else f", {duration(seconds_left)} left"
-    return f"{stage.capitalize()}: {share * 100:.0f} %{left}"
+        return iface("Stopping")
+    left = "" if seconds_left is None else iface(", {} left").format(duration(seconds_left))
+    return f"{iface(stage.capitalize())}: {share * 100:.0f} %{left}"

@@ -23,12 +23,14 @@ from . import (
     parts,
     preferences,
     properties,
+    translations,
     weakest,
 )
 
 _PARTS = (
     properties, expectation, build, build_larger, export, instructions, animation, learning, looks, parts, edits,
     everything, existing, palette, edit_tool, panels, mosaic, method, menus, preferences, weakest,
+    translations,
 )  # fmt: skip
 
 

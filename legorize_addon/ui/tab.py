@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import textwrap
 from typing import Final
+from unicodedata import east_asian_width
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface
 
 PIXELS_PER_LETTER: Final = 8.0
 """Width of a letter in the sidebar, with room for the icon: Blender does not wrap texts."""
@@ -23,8 +25,14 @@ def draw_wrapped(context: bpy.types.Context, layout: bpy.types.UILayout, text: s
     """Draw a text in as many lines as it takes, the first one with an icon."""
     width = int(context.region.width / (PIXELS_PER_LETTER * context.preferences.system.ui_scale))
     lines = layout.column(align=True)
-    for row, line in enumerate(textwrap.wrap(text, max(width, 20))):
+    for row, line in enumerate(wrapped(iface(text), max(width, 20))):
         lines.label(text=line, icon="BLANK1" if row else icon)
+
+
+def wrapped(text: str, width: int) -> list[str]:
+    """Return a text in lines of so many letters; half as many where they are as wide as Chinese and Japanese ones."""
+    wide = sum(east_asian_width(letter) in "WF" for letter in text)
+    return textwrap.wrap(text, width // 2 if wide > len(text) / 2 else width)
 
 
 def redraw(context: bpy.types.Context) -> None:

@@ -13,6 +13,7 @@ from typing import Final
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_n as n
 from numpy.typing import NDArray
 
 from ..core.arrays import Floats
@@ -39,7 +40,7 @@ from ..scene import (
 HEAT: Final = "heat"
 """Attribute that chooses the instanced object while the map is on."""
 
-LEGEND: Final = (
+LEGEND: Final = n(
     "Friction left: green much, yellow half, red none, or held by its neighbours alone. Black: loaded beyond its "
     "friction. Magenta: hangs in the air. Grey: a support, not checked"
 )
