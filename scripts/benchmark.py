@@ -104,6 +104,7 @@ MESHES: Final = (
 )
 TRIANGLES: Final = "about how many triangles to subdivide to, 0 for none"
 RUNS: Final = number("--repeats", 3, "runs")
+MINUTES: Final = number("--minutes", 0.0, "after which no build is begun; the next run goes on; 0 for no limit")
 SEED: Final = number("--seed", 0, "of everything random")
 
 
@@ -195,7 +196,8 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
             folder("--judge", "folder with judge.py, which else is not asked"), needs_out=True,
         ),
         "published": of_models(
-            "models as in the paper beside the default", published.measure, numbers("--widths", [32, 48], "studs")
+            "models as in the paper beside the default", published.measure, numbers("--widths", [32, 48], "studs"),
+            MINUTES, needs_out=True,
         ),
         "hollowing": of_models("what hollowing leaves", hollowing.measure, number("--width", 64, "studs")),
         "stability": of_models(
@@ -221,7 +223,7 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
         "steps": of_models(
             "whether hands can follow the building steps", steps.measure, numbers("--widths", [32, 48], "studs"),
             number("--split", 8, "most pieces"),
-            number("--minutes", 0.0, "after which no build is begun; the next run goes on; 0 for no limit"),
+            MINUTES,
             needs_out=True,
         ),
         "judge": of_models(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
+from functools import partial
+from itertools import product
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final
@@ -20,6 +22,7 @@ from legorize_addon.core.presets import preset_values
 from legorize_addon.core.report.checks import failed_checks
 from legorize_addon.core.report.report import report
 from legorize_addon.core.settings import Settings
+from scripts.benchmarks.kept import Kept
 from scripts.benchmarks.meshes import read_mesh
 from scripts.benchmarks.surface import SeenSurface, likeness, seen_surface
 from scripts.benchmarks.tables import Row, Table
@@ -30,10 +33,14 @@ WAYS: Final[Mapping[str, Mapping[str, Any]]] = MappingProxyType(
 """What is set; the first is what the other is compared with."""
 
 Facts = dict[str, Any]
+FACTS: Final = (
+    "bricks", "grams", "surface_mean", "surface_lost", "colour_error", "supports", "components", "in_the_air", "stands",
+    "cpu_s", "failed", "met",
+)  # fmt: skip
 PRICES: Final = ("bricks", "grams", "surface_mean", "colour_error", "supports", "cpu_s")
 
 
-def measure(paths: Sequence[Path], *, widths: Sequence[int]) -> list[Table]:
+def measure(paths: Sequence[Path], *, widths: Sequence[int], minutes: float, out: Path) -> list[Table]:
     """Build every model both ways.
 
     Parameters
@@ -42,37 +49,56 @@ def measure(paths: Sequence[Path], *, widths: Sequence[int]) -> list[Table]:
         Model files.
     widths : sequence of int
         Studs along the longer horizontal side.
+    minutes : float
+        After which no build is begun; 0 for no limit.
+    out : Path
+        For rows, which the next run of the same program takes over.
 
     Returns
     -------
     list of Table
-        Every build, and what the paper's way costs of the default's.
+        Every build, and what the paper's way costs of the default's; none if there was no time for any.
     """
-    rows: list[Row] = []
-    ratios: list[Row] = []
-    for path in paths:
-        mesh = read_mesh(path)
-        for width in widths:
-            print(f"{path.stem}, {width} studs", file=sys.stderr, flush=True)
-            builds = {way: legorize(mesh, Settings(width=width, **values)) for way, values in WAYS.items()}
-            surface = seen_surface(builds["default"])
-            found = [facts_of(build, surface) for build in builds.values()]
-            # a run takes long, and what is known is shown
-            print(
-                *(f"{way}: {facts}" for way, facts in zip(builds, found, strict=True)),
-                sep="\n",
-                file=sys.stderr,
-                flush=True,
-            )
-            start: Row = {"model": path.stem, "studs": width}
-            rows += [{**start, "way": way, **facts} for way, facts in zip(builds, found, strict=True)]
-            ratios.append({**start, **{name: ratio(*(facts[name] for facts in found)) for name in PRICES}})
-    medians: Row = {"model": "median", "studs": 0}
-    medians |= {name: float(np.median([float(row[name] or np.nan) for row in ratios])) for name in PRICES}
-    return [
-        Table("published", "As in the paper: met is no check failed, nothing in the air, and read back", tuple(rows)),
-        Table("published_price", "What the published way takes, of what the default takes", (*ratios, medians)),
-    ]
+    kept, rows, ratios = Kept(out / "published", minutes), list[Row](), list[Row]()
+    for width, path in product(widths, paths):
+        start: Row = {"model": path.stem, "studs": width}
+        for both in kept.row(f"{path.stem}-{width}", partial(_both, path, width)):
+            found = [{name: both[f"{way}: {name}"] for name in FACTS} for way in WAYS]
+            rows += [{**start, "way": way, **facts} for way, facts in zip(WAYS, found, strict=True)]
+            ratios.append(start | {name: ratio(*(float(str(facts[name])) for facts in found)) for name in PRICES})
+    kept.tell_left()
+    return (
+        [
+            Table(
+                "published", "As in the paper: met is no check failed, nothing in the air, and read back", tuple(rows)
+            ),
+            Table(
+                "published_price", "What the published way takes, of what the default takes", (*ratios, medians(ratios))
+            ),
+        ]
+        if rows
+        else []
+    )
+
+
+def medians(ratios: Sequence[Row]) -> Row:
+    """Return the medians over all builds."""
+    row: Row = {"model": "median", "studs": None}
+    for name in PRICES:
+        values = [float(str(each[name])) for each in ratios if each[name] is not None]
+        row[name] = float(np.median(values)) if values else None
+    return row
+
+
+def _both(path: Path, width: int) -> Row:
+    """Build a model both ways."""
+    print(f"{path.stem}, {width} studs", file=sys.stderr, flush=True)
+    mesh = read_mesh(path)
+    builds = {way: legorize(mesh, Settings(**{"width": width, **values})) for way, values in WAYS.items()}
+    surface = seen_surface(builds[next(iter(WAYS))])
+    return {
+        f"{way}: {name}": value for way, build in builds.items() for name, value in facts_of(build, surface).items()
+    }
 
 
 def facts_of(build: Build, surface: SeenSurface) -> Facts:
