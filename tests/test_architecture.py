@@ -62,6 +62,7 @@ ORDER: Final = (
     "core.strength",
     "core.by_hand",
     "core.drafting",
+    "core.beyond",
     "core.mosaic_estimate",
     "core.mosaic_stages",
     "core.fitting",

@@ -198,6 +198,8 @@ class Build(Finished):
         What became of each of them.
     unedited : Bricks or None
         The layout before them.
+    beyond : mapping of str to int
+        Of a model made as in the paper: the repairs that the paper does not have, counted.
     """
 
     mesh: TriangleMesh
@@ -213,6 +215,7 @@ class Build(Finished):
     edits: Edits = NO_EDITS
     outcomes: tuple[Outcome, ...] = ()
     unedited: Bricks | None = None
+    beyond: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def draft(self) -> Draft:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import partial
 
 import numpy as np
 
-from .build import Build, Judged, Mosaic
+from .beyond import Beyond, beyond_paper
+from .build import Build, Draft, Judged, Mosaic
 from .building import Proof, prove_steps
 from .by_hand import ByHand, edit_bricks
 from .drafting import drafted, stand_up
@@ -35,6 +36,7 @@ from .mosaic_estimate import estimate_mosaic
 from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic, wall_cells
 from .native import watched
 from .part_choice import PartChoice
+from .presets import follows
 from .progress import Overall, Progress, silent
 from .report import (
     remarks,
@@ -47,7 +49,7 @@ from .report import (
 )
 from .settings import Settings
 from .shortage import with_enough_parts
-from .stages import Run, lay_bricks, make_plan
+from .stages import Run, hollow_by, lay_bricks, make_plan
 from .statics import Stability, stability
 from .stock import Owned
 from .strength import brace, carry, check_stability, check_strong, strengthen_joints, take_fewer_lots
@@ -100,10 +102,12 @@ def _legorize(edits: Edits, mesh: TriangleMesh, settings: Settings, progress: Pr
         with run.stage("stability again"):
             found = stability(plan.final, clutch=settings.clutch, progress=run.progress)
     proof = _prove(run, plan)
+    beyond = _beyond_paper(run, made, plan)
     run.progress.finish()
     notes = (
         *made.repairs.sentences(), *told, *remarks_on_dithering(made.mesh, settings.dithering), *run.learning,
-        *exchanged, *remarks_on_edits(outcomes := by_hand.outcomes(plan.final), run.catalogue),
+        *((beyond.sentence(),) if beyond else ()), *exchanged,
+        *remarks_on_edits(outcomes := by_hand.outcomes(plan.final), run.catalogue),
         *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
     )  # fmt: skip
     return Build(
@@ -111,7 +115,17 @@ def _legorize(edits: Edits, mesh: TriangleMesh, settings: Settings, progress: Pr
         surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
         hollow=shell, edits=by_hand.edits, outcomes=outcomes, unedited=by_hand.before, assembly=plan.final,
         stability=found, supports=plan, joints=joints, **run.parts.files, proof=proof, notes=notes, timings=run.timings,
+        beyond=asdict(beyond) if beyond else {},
     )  # fmt: skip
+
+
+def _beyond_paper(run: Run, made: Draft, plan: AssemblyPlan) -> Beyond | None:
+    """Count the repairs that the paper does not have, if the model is made as in the paper."""
+    settings = run.settings
+    if not follows(asdict(settings), "paper"):
+        return None
+    hollowed, plates = hollow_by(settings, made.grid), settings.plates != "none"
+    return beyond_paper(made, hollowed, plan.final.bricks, plates=plates, ties=sum(run.ties))
 
 
 def _put_up(run: Run, shell: UnitGrid, edits: Edits, scale: float) -> tuple[Assembly, UnitGrid, Stability, ByHand]:
@@ -120,7 +134,9 @@ def _put_up(run: Run, shell: UnitGrid, edits: Edits, scale: float) -> tuple[Asse
     with run.stage("layout"):
         bricks, shell = lay_bricks(run, shell)
     with run.stage("ties"):
+        before = len(bricks)
         bricks, shell = add_ties(bricks, shell, run.parts.joining, plates=plates)
+        run.ties.append(len(bricks) - before)
     with run.stage("strengthening"):
         bricks, shell, sparing = strengthen_joints(run, bricks, shell)
         bricks = recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue)

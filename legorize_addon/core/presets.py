@@ -71,6 +71,11 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
 """Every preset by the word that chooses it on the command line."""
 
 
+def follows(settings: Mapping[str, Any], word: str) -> bool:
+    """Tell whether settings are those of a preset, whatever they say beside it."""
+    return all(settings[name] == value for name, value in preset_values(word).items())
+
+
 def preset_values(word: str) -> dict[str, Any]:
     """Return the settings of a preset, by name.
 

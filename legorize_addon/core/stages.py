@@ -21,7 +21,7 @@ from .layout.learning import NO_EXCHANGES, FillLog, grades_text, learned_table, 
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
 from .model import COLOUR_ANY, Assembly, Bricks, Catalogue, Fill, UnitGrid, load_catalogue
 from .part_choice import PartChoice
-from .progress import Overall
+from .progress import Overall, Progress, silent
 from .settings import Settings
 from .shell import hollow
 from .slicing import (
@@ -81,6 +81,8 @@ class Run:
         CPU seconds of the stages that are done.
     learning : list of str
         What was done in each step of the learned fill.
+    ties : list of int
+        How many more parts there are since parts were tied.
     """
 
     settings: Settings
@@ -92,6 +94,7 @@ class Run:
     progress: Overall
     timings: dict[str, float]
     learning: list[str]
+    ties: list[int]
 
     @classmethod
     def of(cls, settings: Settings, progress: Overall) -> Self:
@@ -99,7 +102,7 @@ class Run:
         catalogue = load_catalogue()
         palette = chosen_palette(settings.palette, catalogue)
         parts, rng = PartChoice.of(settings, catalogue), np.random.default_rng(settings.seed)
-        return cls(settings, catalogue, parts, palette, _exchanges(settings), rng, progress, {}, [])
+        return cls(settings, catalogue, parts, palette, _exchanges(settings), rng, progress, {}, [], [])
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
@@ -246,7 +249,11 @@ def close_overhangs(run: Run, grid: UnitGrid) -> tuple[UnitGrid, Offsets]:
 
 def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
     """Return the required and the optional cells."""
-    settings = run.settings
+    return hollow_by(run.settings, grid, run.progress)
+
+
+def hollow_by(settings: Settings, grid: UnitGrid, progress: Progress = silent) -> UnitGrid:
+    """Return the required and the optional cells, as settings ask for them."""
     # behind a picture, the first row or layer of its backing has to stay
     shell = settings.shell + bool(settings.backing)
     return hollow(
@@ -256,7 +263,7 @@ def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
         ceilings=settings.ceilings,
         open_bottom=settings.open_bottom,
         pillar_colour=INSIDE_COLOUR if settings.support_parts == "paper" else COLOUR_ANY,
-        progress=run.progress,
+        progress=progress,
     )
 
 

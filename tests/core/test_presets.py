@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+
 import pytest
 
 from legorize_addon.core.errors import SettingsError
-from legorize_addon.core.presets import PRESETS, preset_values
+from legorize_addon.core.presets import PRESETS, follows, preset_values
 from legorize_addon.core.settings import Settings
 
 
@@ -28,3 +30,10 @@ def test_an_unknown_preset_is_refused():
     """One sentence lists those that there are."""
     with pytest.raises(SettingsError, match=r"^There is no preset 'best': choose one of desk, .*\.$"):
         preset_values("best")
+
+
+def test_what_follows_a_preset():
+    """Other settings may differ, its own may not."""
+    assert follows(asdict(Settings(**preset_values("paper") | {"width": 20})), "paper")
+    assert not follows(asdict(Settings(**preset_values("paper") | {"layout": "fast"})), "paper")
+    assert not follows(asdict(Settings()), "paper")

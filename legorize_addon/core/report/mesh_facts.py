@@ -33,6 +33,7 @@ def facts_of_mesh(build: Build, mm_per_unit: float) -> dict[str, Any]:
         "hollowing": _hollowing(build, levels),
         "hollow_ratio": round(hollow_ratio(build), 4),
         "bodies": free_bodies(build.hollow),
+        "beyond_paper": dict(build.beyond),
     }
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from .cohesion import make_cohesive
+from .cohesion import count_additions, make_cohesive
 from .hollowing import hollow
 from .near_bodies import free_bodies
 from .regions import tally_cases
 
 __all__ = [
+    "count_additions",
     "free_bodies",
     "hollow",
     "make_cohesive",

@@ -6,7 +6,7 @@ from .backing import add_backing
 from .dithering import dithering_of, remarks_on_dithering
 from .facing import facing_of
 from .feet import add_feet, said_of_feet
-from .generation import Raster, Rules, unit_bricks
+from .generation import Raster, Rules, half_covered, unit_bricks
 from .offset_bricks import add_offset_bricks
 from .offset_rings import Offsets, OverhangKind, overhang_kinds
 from .plates import Detail
@@ -22,6 +22,7 @@ __all__ = [
     "add_offset_bricks",
     "dithering_of",
     "facing_of",
+    "half_covered",
     "overhang_kinds",
     "remarks_on_dithering",
     "said_of_feet",

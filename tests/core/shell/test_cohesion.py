@@ -11,7 +11,8 @@ from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, UnitGrid
-from legorize_addon.core.shell.cohesion import make_cohesive
+from legorize_addon.core.shell.cohesion import count_additions, make_cohesive
+from tests.core.shell.test_near_bodies import two
 from tests.core.shell.test_plate_seams import grid_of
 
 RED, BLUE = 4, 1
@@ -47,3 +48,14 @@ def test_bricks_alone_add_no_plates():
     assert added.any()
     assert (added.any(axis=1) == added.all(axis=1)).all()
     assert not (after.role[before.solid.all(axis=1)[:, None].repeat(3, axis=1)] == Role.PLATE).any()
+
+
+def test_additions_are_counted():
+    """A roof of one layer has columns below it, and the wall is laid in plates where the shelf enters."""
+    found, after = count_additions(house(), plates=True), make_cohesive(house(), plates=True)
+    more = (after.solid & ~house().solid).any(axis=1)
+    assert found.between + found.under_roofs == more.sum() > 0
+    assert found.in_plates > 0
+    assert count_additions(house(), plates=False).in_plates == 0
+    bodies = two(aside=1)
+    assert count_additions(bodies, plates=True).between == 1
