@@ -21,6 +21,7 @@ READERS = (
         "existing",
         "stages",
         "strength",
+        "slope_stages",
         "mosaic_stages",
         "mosaic_estimate",
         "build",

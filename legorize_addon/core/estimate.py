@@ -240,6 +240,7 @@ _SECONDS: Final[Mapping[str, _Features]] = MappingProxyType({
     "unit bricks": _Features(constant=0.092, faces=4.2e-5, cells=1.3e-7),
     "overhangs": _Features(constant=0.002, faces=1.3e-7, cells=4.7e-8),
     "hollowing": _Features(constant=0.005, faces=2.6e-6, cells=2.7e-7),
+    "surface": _Features(constant=0.05, faces=5e-5, cells=4e-7),
     "layout": _Features(constant=0.03, bricks=4.1e-4, crowd=3.4e-6),
     "ties": _Features(constant=0.0, bricks=2e-5),
     "strengthening": _Features(constant=0.032, crowd=3.8e-6),
@@ -277,6 +278,8 @@ def _stages(build: _Features, settings: Settings) -> dict[str, float]:
     """Return the expected CPU seconds of the stages."""
     seconds = {name: cost.of(build) for name, cost in _SECONDS.items()}
     seconds["layout"] *= TIERS[settings.layout]
+    if settings.surface != "slopes":
+        del seconds["surface"]
     if settings.prove_steps:
         seconds["proof"] = PROOF * sum(seconds.values())
     return seconds

@@ -30,7 +30,7 @@ from .layout import recolour_visible
 from .layout.joining import add_ties
 from .limits import check_limits, check_size
 from .mesh import TriangleMesh
-from .model import Assembly, Role, UnitGrid, contact_graph
+from .model import Assembly, Bricks, Role, UnitGrid, contact_graph
 from .mosaic import Covered, Picture
 from .mosaic_estimate import estimate_mosaic
 from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic, wall_cells
@@ -49,7 +49,8 @@ from .report import (
 )
 from .settings import Settings
 from .shortage import with_enough_parts
-from .stages import Run, hollow_by, lay_bricks, make_plan
+from .slope_stages import find_slopes, lay_with_slopes
+from .stages import Run, hollow_by, make_plan
 from .statics import Stability, stability
 from .stock import Owned
 from .strength import brace, carry, check_stability, check_strong, strengthen_joints, take_fewer_lots
@@ -92,7 +93,11 @@ def _legorize(edits: Edits, mesh: TriangleMesh, settings: Settings, progress: Pr
     check_limits(expected := estimate(mesh, settings), settings)
     run = Run.of(settings, Overall(expected.stages, progress))
     made, told = drafted(run, mesh)
-    assembly, shell, found, by_hand = _put_up(run, made.hollow, edits, made.scale)
+    slopes = None
+    if settings.surface == "slopes":
+        with run.stage("surface"):
+            slopes = find_slopes(run, made)
+    assembly, shell, found, by_hand = _put_up(run, made.hollow, edits, made.scale, slopes)
     with run.stage("pieces"):
         assembly, found, exchanged = take_fewer_lots(run, assembly, found)
         assembly, joints = segment(assembly, most=settings.split, deepest=settings.hanging)
@@ -128,11 +133,13 @@ def _beyond_paper(run: Run, made: Draft, plan: AssemblyPlan) -> Beyond | None:
     return beyond_paper(made, hollowed, plan.final.bricks, plates=plates, ties=sum(run.ties))
 
 
-def _put_up(run: Run, shell: UnitGrid, edits: Edits, scale: float) -> tuple[Assembly, UnitGrid, Stability, ByHand]:
-    """Lay the bricks of cells, edit them, and let them hold and stand; return the cells that they cover as well."""
+def _put_up(
+    run: Run, shell: UnitGrid, edits: Edits, scale: float, slopes: Bricks | None = None
+) -> tuple[Assembly, UnitGrid, Stability, ByHand]:
+    """Lay the bricks of cells around slopes, edit them, and let them hold and stand; return their cells as well."""
     plates = run.settings.plates != "none"
     with run.stage("layout"):
-        bricks, shell = lay_bricks(run, shell)
+        bricks, shell = lay_with_slopes(run, shell, slopes)
     with run.stage("ties"):
         before = len(bricks)
         bricks, shell = add_ties(bricks, shell, run.parts.joining, plates=plates)

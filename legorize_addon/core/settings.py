@@ -80,6 +80,12 @@ class Settings:
     plates: Literal["none", "pays", "all"] = setting(
         "pays", "Plates", "Where to use plates instead of bricks.", group="Shape", words={
             "none": "nowhere", "pays": "where they pay", "all": "wherever the surface cuts through a brick"})
+    surface: Literal["studs", "slopes"] = setting(
+        "studs", "Surface", "What the surface is made of.", group="Shape", words={
+            "studs": "bricks and plates alone", "slopes": "slopes as well, where they come closer to the shape"})
+    slope_price: float = setting(
+        1.0, "Price of slopes", "Volume that slopes must save for each part that they add, in studs a plate high.",
+        group="Shape", limits=(0.0, 10.0), needs=("surface", "slopes"))
     plate_gain: float = setting(
         0.2, "Gain of plates", "Error that plates must save to pay, as a share of a brick's volume or of a clear "
         "colour difference on its faces.", group="Shape", limits=(0.0, 1.0), needs=("plates", "pays"))
@@ -252,6 +258,10 @@ class Settings:
             other = "one_to_one is on" if self.one_to_one else "cell_colour is 'longest'"
             raise SettingsError(
                 f"dithering is {self.dithering!r} but {other}: they exclude each other; change one of them."
+            )
+        if self.surface == "slopes" and self.layout == "learned":
+            raise SettingsError(
+                "surface is 'slopes' but layout is 'learned', which lays nothing around slopes: choose another layout."
             )
         if self.hollow_rule == "upper" and not self.hollow:
             raise SettingsError("hollow_rule is 'upper' but hollow is off: turn hollow on, or set the rule to 'both'.")

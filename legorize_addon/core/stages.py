@@ -275,7 +275,7 @@ def lay_freely(run: Run, shell: UnitGrid) -> Bricks:
         way = partial(lay_learned, learned_from=settings.learned_from, log=log)
     else:
         way = partial(lay, tier=settings.layout, exchanges=run.exchanges)
-    filler = _filler(run.palette, run.catalogue)
+    filler = filler_of(run.palette, run.catalogue)
     bricks = run.parts.laid(partial(way, shell, rng=run.rng, filler=filler, progress=run.progress))
     if settings.layout == "learned":
         run.learning[:] = log.sentences(shell, sum(run.timings.values()), len(bricks))
@@ -293,7 +293,7 @@ def lay_bricks(run: Run, shell: UnitGrid) -> tuple[Bricks, UnitGrid]:
     if not run.settings.symmetric or run.parts.minds_lots:
         return bricks, shell
     manner, burden = Manner(run.settings.layout, run.exchanges), partial(_parts_of_supports, run)
-    filler = _filler(run.palette, run.catalogue)
+    filler = filler_of(run.palette, run.catalogue)
     return Alike(shell, run.parts.catalogue, rng=run.rng, manner=manner, filler=filler, burden=burden).lay(
         bricks, run.progress
     )
@@ -330,7 +330,7 @@ def _exchanges(settings: Settings) -> Mask | None:
     return None if settings.learned else NO_EXCHANGES
 
 
-def _filler(palette: NDArray[np.int16], catalogue: Catalogue) -> int:
+def filler_of(palette: NDArray[np.int16], catalogue: Catalogue) -> int:
     """Return the colour of hidden bricks: the usual one, or the colour of the palette in which most parts exist."""
     if FILLER in palette:
         return FILLER

@@ -5,9 +5,10 @@ from __future__ import annotations
 from .again import as_good, cells_of, lay_again
 from .alike import Alike
 from .around import lay_around
-from .lay import FILLER, Manner, lay
+from .lay import FILLER, Manner, lay, lay_fixed
 from .lay_learned import lay_learned
 from .recolour import recolour_visible
+from .slopes import lay_around_slopes
 
 __all__ = [
     "FILLER",
@@ -18,6 +19,8 @@ __all__ = [
     "lay",
     "lay_again",
     "lay_around",
+    "lay_around_slopes",
+    "lay_fixed",
     "lay_learned",
     "recolour_visible",
 ]

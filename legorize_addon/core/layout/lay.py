@@ -20,6 +20,7 @@ from ..errors import BuildError
 from ..model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Fill, UnitGrid, ground_of
 from ..progress import Progress, silent
 from ..units import PLATES_PER_BRICK
+from .fixed import owners_of
 from .joining import connect_loose, join_by_windows
 from .learning import improved, shipped
 from .problem import (
@@ -141,6 +142,23 @@ def lay(
     """
     work = sheets_and_shapes(grid, catalogue, filler)
     bricks = cover(grid, work, rng, Manner(tier, exchanges), progress)
+    return join_loose(bricks, grid, catalogue, work, rng, progress)
+
+
+def lay_fixed(
+    grid: UnitGrid,
+    catalogue: Catalogue,
+    fixed: Bricks,
+    manner: Manner,
+    *,
+    rng: np.random.Generator,
+    filler: int = FILLER,
+    progress: Progress = silent,
+) -> Bricks:
+    """Cover a model by bricks as :func:`lay` does, around those that lie in its fixed cells; return both."""
+    work = sheets_and_shapes(grid, catalogue, filler)
+    beside = owners_of(fixed, grid, catalogue)
+    bricks = gather([fixed, cover(grid, work, rng, replace(manner, beside=beside), progress)])
     return join_loose(bricks, grid, catalogue, work, rng, progress)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..arrays import Ints, Mask
 from ..units import PLATES_PER_BRICK
 from .bricks import Role
-from .unit_grid import COLOUR_ANY, UnitGrid
+from .unit_grid import COLOUR_ANY, Fill, UnitGrid
 
 
 def brick_columns(grid: UnitGrid) -> tuple[Mask, NDArray[np.int16]]:
@@ -25,14 +25,15 @@ def brick_columns(grid: UnitGrid) -> tuple[Mask, NDArray[np.int16]]:
     -------
     brick : (n_layers, n_y, n_x) bool array
         Columns of three solid plates of one colour (cells of any colour agree
-        with every other), except those that have the role of plates.
+        with every other), except those that have the role of plates or hold a fixed cell.
     colour : (n_layers, n_y, n_x) int16 array
         Their colour, or ``COLOUR_ANY``.
     """
     top = grid.colour.max(axis=1)
     lowest = np.where(grid.colour == COLOUR_ANY, np.iinfo(np.int16).max, grid.colour).min(axis=1)
     # free colours are -1 at the top and the greatest at the bottom: they never disagree
-    brick: Mask = grid.solid.all(axis=1) & (lowest >= top) & (grid.role != Role.PLATE).all(axis=1)
+    free = (grid.role != Role.PLATE) & (grid.cover != Fill.FIXED)
+    brick: Mask = grid.solid.all(axis=1) & (lowest >= top) & free.all(axis=1)
     return brick, top
 
 

@@ -20,11 +20,15 @@ COLOUR_EMPTY: Final = -2
 
 
 class Fill(IntEnum):
-    """Whether a cell must be filled (visible or carrying), may be filled, or must stay empty."""
+    """Whether a cell must be filled (visible or carrying), may be filled, must stay empty, or belongs to a given brick.
+
+    Nothing is laid in a fixed cell: the brick that fills it was there before.
+    """
 
     EMPTY = 0
     OPTIONAL = 1
     REQUIRED = 2
+    FIXED = 3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,7 +54,7 @@ class UnitGrid:
 
     @property
     def solid(self) -> Mask:
-        """Required and optional cells, shape (n_layers, 3, n_y, n_x)."""
+        """Required, optional and fixed cells, shape (n_layers, 3, n_y, n_x)."""
         solid: Mask = self.cover != Fill.EMPTY
         return solid
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .coverage import Pieces, covered_area_shares, cut_at_grid
+from .fine_cut import ACROSS, UP, fine_shares
 from .grid_search import LEEWAY, best_grid
 from .lattice import ALPHA, Grid, fit_grid
 from .layer_differences import Marks, differing_layers
@@ -11,8 +12,10 @@ from .slices import Slices, adaptive_heights, slice_mesh
 from .trajectories import Trajectories, link_loops
 
 __all__ = [
+    "ACROSS",
     "ALPHA",
     "LEEWAY",
+    "UP",
     "Grid",
     "Levels",
     "Marks",
@@ -24,6 +27,7 @@ __all__ = [
     "covered_area_shares",
     "cut_at_grid",
     "differing_layers",
+    "fine_shares",
     "fit_grid",
     "levels_of",
     "link_loops",

@@ -57,7 +57,7 @@ def tie_across(
     links = contact_graph(bricks, catalogue)
     colour = with_margins(grid.colour, COLOUR_EMPTY)
     bench = Bench(bricks, owners(links, colour.shape), catalogue)
-    found = near_contacts(bench.owner, part.astype(np.int32), colour, plates=plates, places=_PLACES)
+    found = near_contacts(bench.owner, part.astype(np.int32), colour, plates=plates, places=_PLACES, fixed=bench.fixed)
     pair = np.sort(part[found.bricks], axis=1) @ (len(bricks), 1)
     # the margin below the grid is a plane of its own
     better = np.lexsort((-worth(found.bricks, found.place - (1, 0, 0)), np.digitize(found.price, _STEPS), pair))

@@ -7,7 +7,7 @@ cell, where it holds to the brick above or below.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -109,7 +109,15 @@ class _Grid:
         return found
 
 
-def near_contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool, places: int = _PLACES) -> NearContacts:
+def near_contacts(
+    owner: Rows,
+    component: Rows,
+    colour: Plane,
+    *,
+    plates: bool,
+    places: int = _PLACES,
+    fixed: Collection[int] = (),
+) -> NearContacts:
     """Find where components could be joined, the cheapest places first.
 
     Parameters
@@ -124,6 +132,8 @@ def near_contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool, 
         Whether plates may be added; else only what touches is found.
     places : int
         Most places for each two components.
+    fixed : collection of int
+        Bricks that nothing is joined to.
 
     Returns
     -------
@@ -131,6 +141,9 @@ def near_contacts(owner: Rows, component: Rows, colour: Plane, *, plates: bool, 
         Some for each two components that come near to each other.
     """
     reaches = list(_reaches(owner)) if plates else [_Reach(owner, np.zeros(owner.shape), 0)]
+    if fixed:
+        out = np.append(np.isin(np.arange(owner.max() + 1), list(fixed)), False)
+        reaches = [replace(each, brick=np.where(out[each.brick], NOBODY, each.brick)) for each in reaches]
     recoloured: Floats = RECOLOURED + _OPEN_FACE * _open_faces(owner).astype(np.float64)
     stacked = _stacked(owner)
     if len(np.unique(colour[(owner != NOBODY) & (colour >= 0) & ~stacked[owner]])) <= 1:

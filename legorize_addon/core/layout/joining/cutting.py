@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...model import NOBODY, Bricks, Catalogue, footprint
+from ...model import NOBODY, Bricks, Catalogue, columns, footprint
 from ...units import PLATES_PER_BRICK
 from ..problem import Rows
 
@@ -119,6 +119,8 @@ class Bench:
         empty plane below and one above.
     laid : list of Laid
         Bricks by number; those that were cut stay here, but own nothing.
+    fixed : set of int
+        Bricks that are not cut, and that nothing is joined to: slopes.
     """
 
     def __init__(self, bricks: Bricks, owner: Rows, catalogue: Catalogue) -> None:
@@ -131,14 +133,26 @@ class Bench:
             for part, turn, (x, y, z), colour, role in zip(*(each.tolist() for each in columns), strict=True)
         ]
         self._cut: set[int] = set()
+        self.fixed = {number for number, brick in enumerate(self.laid) if catalogue.parts[brick.form.part].sloped}
+        self._held = {
+            (number, step): _squares_held(brick, catalogue, step)
+            for number, brick in enumerate(self.laid)
+            if number in self.fixed
+            for step in (-1, 1)
+        }
 
     def at(self, level: int, square: Square) -> int:
         """Return the number of the brick in a cell."""
         return int(self.owner[level + 1, square[1], square[0]])
 
+    def holding(self, level: int, square: Square, step: int) -> int:
+        """Return the number of the brick that holds what lies in a cell from below, -1, or from above, 1."""
+        number = self.at(level + step, square)
+        return number if square in self._held.get((number, step), (square,)) else NOBODY
+
     def over_and_under(self, seam: Seam) -> list[int]:
         """Return the numbers of the bricks right above and right below a seam."""
-        around = (self.at(seam.level + step, end) for step in (1, -1) for end in seam.ends)
+        around = (self.holding(seam.level, end, step) for step in (1, -1) for end in seam.ends)
         return sorted({number for number in around if number != NOBODY})
 
     def open_faces(self, level: int, square: Square) -> int:
@@ -154,7 +168,7 @@ class Bench:
         pieces = []
         for number in numbers:
             brick, height = self.laid[number], tie.form.height
-            if brick.form.height not in (height, height * PLATES_PER_BRICK):
+            if number in self.fixed or brick.form.height not in (height, height * PLATES_PER_BRICK):
                 return None
             for level in range(brick.level, brick.level + brick.form.height, height):
                 squares = brick.squares - tie.squares if level == tie.level else brick.squares
@@ -166,8 +180,13 @@ class Bench:
 
     def reaches(self, tie: Laid, seam: Seam) -> bool:
         """Return whether a tie meets something at both ends of a seam: a brick that it cuts, or one below or above."""
-        levels = (seam.level, tie.level - 1, tie.level + tie.form.height)
-        return all(any(self.at(level, end) != NOBODY for level in levels) for end in seam.ends)
+        top = tie.level + tie.form.height - 1
+        return all(
+            NOBODY != self.at(seam.level, end) not in self.fixed
+            or self.holding(tie.level, end, -1) != NOBODY
+            or self.holding(top, end, 1) != NOBODY
+            for end in seam.ends
+        )
 
     def holds(self, pieces: list[Laid]) -> bool:
         """Return whether the pieces that replace bricks are joined to each other and to all their neighbours."""
@@ -178,10 +197,10 @@ class Bench:
         around: dict[int, set[int]] = {}
         for row, piece in enumerate(pieces):
             for square in piece.squares:
-                for base, level in ((piece.level - height, piece.level - 1), (piece.level + height,) * 2):
+                for base, step in ((piece.level - height, -1), (piece.level + height, 1)):
                     if (base, square) in place:
                         beside[row].add(place[base, square])
-                    elif (number := self.at(level, square)) != NOBODY:
+                    elif (number := self.holding(piece.level + (height - 1) * (step > 0), square, step)) != NOBODY:
                         around.setdefault(number, set()).add(row)
         return _whole(beside + list(around.values()))
 
@@ -207,6 +226,13 @@ class Bench:
             piece=np.zeros(len(laid), dtype=np.int16),
             step=corner[:, 2] // np.int32(PLATES_PER_BRICK),
         ).take(order)
+
+
+def _squares_held(brick: Laid, catalogue: Catalogue, step: int) -> set[Square]:
+    """Return the squares in which a brick holds what lies above it, -1, or below it, 1."""
+    facts = columns(catalogue.parts[brick.form.part], brick.form.turn)
+    there = facts.stud if step < 0 else facts.socket
+    return {(brick.corner[0] + x, brick.corner[1] + y) for x, y in facts.xy[there].tolist()}
 
 
 def _whole(beside: list[set[int]]) -> bool:

@@ -96,10 +96,12 @@ def connect_loose(
     links = contact_graph(bricks, catalogue)
     if links.n_components <= 1:
         return bricks
-    required = with_margins(grid.cover == Fill.REQUIRED, False)
+    required = with_margins(grid.cover >= Fill.REQUIRED, False)
     islands = Islands.of(with_margins(grid.colour, COLOUR_EMPTY), owners(links, required.shape), links.component)
     loose = loose_bricks(bricks, links, islands, catalogue)
     cells, way = _Cells.of(bricks, links, required, loose, catalogue), 0
+    # what is no part of a sheet stays as it is
+    fixed = bricks.take(~np.isin(bricks.part, np.concatenate([among.part for _, among in work])))
     offers: list[_Offer] = []
     for number in range(_ROUNDS):
         if not cells.n_loose or way == len(_WAYS):
@@ -111,7 +113,7 @@ def connect_loose(
         if all(new is offer.bricks for new, offer in zip(relaid, offers, strict=True)):
             way += 1
             continue
-        tried = gather(relaid)
+        tried = gather([*relaid, fixed])
         tried_links = contact_graph(tried, catalogue)
         loose = loose_bricks(tried, tried_links, islands, catalogue)
         before, after = cells.n_loose, int(np.count_nonzero(loose))

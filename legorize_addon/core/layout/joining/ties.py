@@ -117,7 +117,7 @@ def as_laid(grid: UnitGrid, bricks: Bricks, links: ContactGraph) -> UnitGrid:
 
 def _joined(bench: Bench, component: Rows, colour: Plane, *, plates: bool) -> int:
     """Lay ties between components, more of them where they carry more; return how many were laid."""
-    found = near_contacts(bench.owner, component, colour, plates=plates)
+    found = near_contacts(bench.owner, component, colour, plates=plates, fixed=bench.fixed)
     height = 1 if plates else PLATES_PER_BRICK
     pairs = component[found.bricks]
     seams = seams_of(found)
@@ -200,7 +200,7 @@ def tie_seam(bench: Bench, seam: Seam, colour: Plane, height: int, most_wrong: i
     ends = [bench.at(seam.level, end) for end in seam.ends]
     cut = sorted({number for number in ends if number != NOBODY})
     # a tie laid before may reach across this seam already
-    if NOBODY not in ends and len(cut) == 1:
+    if (NOBODY not in ends and len(cut) == 1) or not bench.fixed.isdisjoint(cut):
         return False
     for tie in _ties(bench, seam, cut, colour, height, most_wrong)[:_TRIED]:
         pieces = bench.cut(cut, tie)

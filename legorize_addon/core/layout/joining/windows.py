@@ -87,7 +87,7 @@ def join_by_windows(
     links = contact_graph(bricks, catalogue)
     if links.n_components <= 1:
         return bricks
-    required, beside = with_margins(grid.cover == Fill.REQUIRED, False), _beside(grid)
+    required, beside = with_margins(grid.cover >= Fill.REQUIRED, False), _beside(grid)
     model = _Model.of(bricks, links, required)
     places, tried = _contacts(model, beside), set[tuple[int, ...]]()
     tries = min(_TRIES[0], _TRIES[1] // len(bricks))

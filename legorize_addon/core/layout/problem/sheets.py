@@ -67,7 +67,7 @@ class Sheets:
 def split(grid: UnitGrid) -> list[Sheets]:
     """Split a grid into sheets of bricks and of plates.
 
-    Bricks are laid in :func:`~..joints.brick_columns`; all other cells are plates.
+    Bricks are laid in :func:`~..joints.brick_columns`; all other cells are plates. Fixed cells are in no sheet.
 
     Parameters
     ----------
@@ -82,6 +82,7 @@ def split(grid: UnitGrid) -> list[Sheets]:
     """
     brick, top = brick_columns(grid)
     required = grid.cover == Fill.REQUIRED
+    no_plates = brick[:, None] | (grid.cover == Fill.FIXED)
     level = np.arange(len(brick) * PLATES_PER_BRICK, dtype=np.int32)
     bricks = Sheets(
         height=PLATES_PER_BRICK,
@@ -94,7 +95,7 @@ def split(grid: UnitGrid) -> list[Sheets]:
     plates = Sheets(
         height=1,
         level=level,
-        colour=np.where(brick[:, None], np.int16(COLOUR_EMPTY), grid.colour).reshape(plane),
+        colour=np.where(no_plates, np.int16(COLOUR_EMPTY), grid.colour).reshape(plane),
         required=(required & ~brick[:, None]).reshape(plane),
         role=grid.role.reshape(plane),
     )

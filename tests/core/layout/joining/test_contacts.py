@@ -175,3 +175,13 @@ def test_places_are_those_found_by_looking_at_each_two_cells(seed):
     assert found.price.tolist() == pytest.approx([each[0] for each in told])
     columns = zip(found.place.tolist(), found.axis, found.added, found.on_top, found.bricks.tolist(), strict=True)
     assert list(columns) == [each[2:] for each in told]
+
+
+def test_nothing_is_joined_to_fixed_bricks():
+    """A brick that stays as it is is no end of a seam, whatever lies beside it."""
+    owner = np.pad(np.tile([[0, 1, 2]], (3, 1, 1)), ((1, 1), (0, 0), (0, 0)), constant_values=NOBODY).astype(np.int32)
+    colour = np.where(owner == NOBODY, COLOUR_EMPTY, RED).astype(np.int16)
+    component = np.arange(3, dtype=np.int32)
+    found = near_contacts(owner, component, colour, plates=True, fixed={1})
+    assert not (found.bricks == 1).any()
+    assert (near_contacts(owner, component, colour, plates=True).bricks == 1).any()

@@ -13,6 +13,7 @@ from legorize_addon.core.layout.problem.problem import owners
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY
+from tests.core.any_bricks import table
 from tests.core.layout.cells import CATALOGUE, RED, WHITE, grid_of
 
 GLOW_IN_DARK = 21
@@ -186,3 +187,37 @@ def held(pieces, bench):
     while more := {node for link in links if set(link) & joined for node in link} - joined:
         joined |= more
     return joined == nodes
+
+
+def slope_on_plates() -> Bench:
+    """Lay a slope of two studs on two plates side by side, and a plate on its studs."""
+    row = CATALOGUE.part_row
+    bricks = table(
+        [
+            (row("3022"), 0, 0, 0, 0, RED, 0, 0, 0),
+            (row("3022"), 2, 0, 0, 0, RED, 0, 0, 0),
+            (row("3039"), 0, 0, 1, 0, RED, 0, 0, 0),
+            (row("3023"), 0, 0, 4, 1, RED, 0, 0, 1),
+        ]
+    )
+    return Bench(bricks, owners(contact_graph(bricks, CATALOGUE), (8, 2, 4)), CATALOGUE)
+
+
+def test_slopes_are_not_cut():
+    """Nothing makes room in a slope, not even where it would be tiled by plates."""
+    bench = slope_on_plates()
+    assert bench.fixed == {2}
+    assert bench.cut([2], plate(bench, {(0, 0)}, 1)) is None
+    assert bench.cut([0], plate(bench, {(0, 0)}, 0)) is not None
+
+
+def test_a_slope_holds_by_its_studs_and_sockets():
+    """Over its fall there is no stud; under it there are sockets."""
+    bench = slope_on_plates()
+    assert bench.holding(4, (0, 0), -1) == 2
+    assert bench.holding(4, (1, 0), -1) == NOBODY
+    assert bench.holding(0, (1, 1), 1) == 2
+    assert bench.holding(0, (2, 1), 1) == NOBODY
+    assert bench.at(3, (1, 0)) == 2
+    # an end that nothing but a fall touches is reached by nothing
+    assert not bench.reaches(plate(bench, {(0, 0), (1, 0)}, 4), Seam(4, ((1, 0), (2, 0))))

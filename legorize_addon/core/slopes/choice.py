@@ -1,0 +1,94 @@
+"""Which slopes are laid: the best first, none over another one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import Ints, Mask
+from ..mesh import TriangleMesh
+from ..model import Bricks, Catalogue, Role, UnitGrid
+from ..units import PLATES_PER_BRICK
+from .candidates import Candidates, candidates, rows
+from .forms import Form, slopes_of
+from .site import Site
+
+
+def choose_slopes(
+    mesh: TriangleMesh, grid: UnitGrid, shell: UnitGrid, catalogue: Catalogue, *, price: float, plates: bool
+) -> Bricks:
+    """Choose the slopes of a model before its bricks are laid.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        In mm.
+    grid, shell : UnitGrid
+        The model before and after it was hollowed.
+    catalogue : Catalogue
+    price : float
+        Volume that a part more has to save, in cells a plate high.
+    plates : bool
+        Whether plates may be laid around slopes.
+
+    Returns
+    -------
+    Bricks
+        By ascending plate, then y, then x; they claim cells of the shell and open air.
+    """
+    among = slopes_of(catalogue, plates=plates)
+    site = Site.of(mesh, grid, shell)
+    found = candidates(site, among, catalogue, price=price)
+    return _table(site, among, found.take(best(site, among, found)))
+
+
+def best(site: Site, among: tuple[Form, ...], found: Candidates) -> Ints:
+    """Choose candidates greedily: by score, none that claims what a better one claims or keeps free.
+
+    Returns
+    -------
+    (k,) int64 array
+        Rows, ascending.
+    """
+    rank = np.empty(len(found.form), np.int64)
+    rank[np.lexsort((found.place, found.form, -np.round(found.score, 6)))] = np.arange(len(rank))[::-1]
+    left = [[which, claimed, kept] for which, claimed, kept in rows(site, among, found)]
+    taken, closed = np.zeros((2, int(np.prod(site.shape))), bool)
+    chosen: list[Ints] = []
+    # whoever is the best in all of his cells would be taken by going from the best to the worst, too
+    while any(len(which) for which, *_ in left):
+        claims, keeps = np.full((2, len(taken)), -1)
+        for which, claimed, kept in left:
+            np.maximum.at(claims, claimed.reshape(-1), np.repeat(rank[which], claimed.shape[1]))
+            np.maximum.at(keeps, kept.reshape(-1), np.repeat(rank[which], kept.shape[1]))
+        for which, claimed, kept in left:
+            mine = rank[which][:, None]
+            wins = (claims[claimed] <= mine).all(axis=1) & (keeps[claimed] <= mine).all(axis=1)
+            wins &= (claims[kept] <= mine).all(axis=1)
+            chosen.append(which[wins])
+            taken[claimed[wins]] = True
+            closed[kept[wins]] = True
+        left = [_free(each, taken, closed) for each in left]
+    return np.sort(np.concatenate(chosen)) if chosen else np.zeros(0, np.int64)
+
+
+def _free(group: list[Ints], taken: Mask, closed: Mask) -> list[Ints]:
+    """Return the candidates of a form that no chosen one stands in the way of."""
+    which, claimed, kept = group
+    free = ~(taken[claimed] | closed[claimed]).any(axis=1) & ~taken[kept].any(axis=1)
+    return [which[free], claimed[free], kept[free]]
+
+
+def _table(site: Site, among: tuple[Form, ...], found: Candidates) -> Bricks:
+    """Return slopes as bricks."""
+    part, turn = (np.array([getattr(form, name) for form in among])[found.form] for name in ("part", "turn"))
+    corner = site.corners(found.place).astype(np.int32)
+    order = np.lexsort(tuple(corner.T))
+    return Bricks(
+        part=part.astype(np.int16),
+        corner=corner,
+        turn=turn.astype(np.uint8),
+        colour=found.colour.astype(np.int16),
+        role=np.full(len(part), Role.SHELL, np.uint8),
+        piece=np.zeros(len(part), np.int16),
+        step=corner[:, 2] // np.int32(PLATES_PER_BRICK),
+    ).take(order)

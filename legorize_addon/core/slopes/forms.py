@@ -1,0 +1,118 @@
+"""The slopes in all their turns: what each of their cells claims, holds and fills."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import Ints, Mask
+from ..model import Catalogue, Part, columns, solid
+from ..slicing import ACROSS, UP
+from ..units import PLATES_PER_BRICK
+
+PARTS: Final = UP * ACROSS * ACROSS
+"""Small parts of a cell."""
+
+SIDES: Final = ((0, 0, -1), (0, 0, 1), (0, -1, 0), (0, 1, 0))
+"""Steps (z, y, x) to the cells beside a cell."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Form:
+    """A slope in one of its turns; cells are steps (z, y, x) from its corner.
+
+    Attributes
+    ----------
+    part : int
+        Row of the part in the catalogue.
+    turn : int
+        Quarter turns.
+    height : int
+        Plates.
+    cells : (n, 3) int64 array
+        What it claims.
+    fill : (n, PARTS) float32 array
+        1 in the parts of these cells that it fills, 0 in the others.
+    above, below : (k, 3) int64 arrays
+        Cells that must stay empty: over columns without a stud, under columns without a socket.
+    held, holding : (k, 3) int64 arrays
+        Cells over its studs, and under its sockets.
+    beside : (k, 3) int64 arrays
+        Cells beside it that are seen past its open sides.
+    columns : (k, 4) int64 array
+        First cell of each column (z, y, x), and how many it claims.
+    """
+
+    part: int
+    turn: int
+    height: int
+    cells: Ints
+    fill: NDArray[np.float32]
+    above: Ints
+    below: Ints
+    held: Ints
+    holding: Ints
+    beside: Ints
+    columns: Ints
+
+
+@lru_cache
+def forms(parts: tuple[Part, ...], *, plates: bool) -> tuple[Form, ...]:
+    """List the slopes of a catalogue in all their turns; without plates those alone that are as high as bricks."""
+    return tuple(
+        _form(part, row, turn)
+        for row, part in enumerate(parts)
+        if part.sloped and (plates or part.height % PLATES_PER_BRICK == 0)
+        for turn in range(part.turns)
+    )
+
+
+def slopes_of(catalogue: Catalogue, *, plates: bool) -> tuple[Form, ...]:
+    """Return the forms of the parts of a catalogue that exist in any colour."""
+    made = catalogue.exists.any(axis=1)
+    return tuple(form for form in forms(catalogue.parts, plates=plates) if made[form.part])
+
+
+def _form(part: Part, row: int, turn: int) -> Form:
+    """Return a part in a turn."""
+    facts = columns(part, turn)
+    filled = solid(part, turn, ACROSS, UP)
+    filled = filled.reshape(len(filled), part.height, UP, ACROSS, ACROSS)
+    low, high = facts.low.astype(np.int64), facts.high.astype(np.int64)
+    column = np.repeat(np.arange(len(low)), high - low)
+    level = np.arange(len(column)) - np.repeat(np.cumsum(high - low) - high, high - low)
+    cells = _at(facts.xy[column], level)
+    fill = filled[column, level]
+    return Form(
+        part=row,
+        turn=turn,
+        height=part.height,
+        cells=cells,
+        fill=fill.reshape(len(fill), -1).astype(np.float32),
+        above=_at(facts.xy, high)[~facts.stud],
+        below=_at(facts.xy, low - 1)[~facts.socket],
+        held=_at(facts.xy, high)[facts.stud],
+        holding=_at(facts.xy, low - 1)[facts.socket],
+        beside=_beside(cells, fill),
+        columns=np.column_stack([_at(facts.xy, low), high - low]),
+    )
+
+
+def _at(xy: NDArray[np.int32], level: Ints) -> Ints:
+    """Return cells as z, y and x."""
+    return np.column_stack([level, xy[:, 1], xy[:, 0]]).astype(np.int64)
+
+
+def _beside(cells: Ints, fill: Mask) -> Ints:
+    """Return the cells beside those of a slope that are not hidden by it all over."""
+    own = set(map(tuple, cells.tolist()))
+    faces = (fill[..., 0], fill[..., -1], fill[..., 0, :], fill[..., -1, :])
+    found = set()
+    for step, face in zip(SIDES, faces, strict=True):
+        closed = face.reshape(len(face), -1).all(axis=1)
+        found |= set(map(tuple, (cells[~closed] + step).tolist())) - own
+    return np.array(sorted(found), dtype=np.int64).reshape(-1, 3)

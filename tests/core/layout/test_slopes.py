@@ -1,0 +1,63 @@
+"""Slopes that keep a model from hanging together make room for bricks."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from legorize_addon.core.layout.lay import Manner, lay_fixed
+from legorize_addon.core.layout.slopes import lay_around_slopes
+from legorize_addon.core.model.bricks import Role
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill
+from tests.core.any_bricks import table
+from tests.core.layout.cells import CATALOGUE, RED, brick_grid
+
+ROW = CATALOGUE.part_row
+
+
+def lay(grid, fixed):
+    """Lay the cells around fixed bricks, without ties."""
+    return lay_fixed(grid, CATALOGUE, fixed, Manner("standard"), rng=np.random.default_rng(0)), grid
+
+
+def tower_with_a_wing():
+    """Return a tower of 2 x 2 cells, and beside its second layer a wing that only bricks across can hold."""
+    colour = np.full((3, 2, 6), COLOUR_EMPTY)
+    colour[:, :, :2] = RED
+    colour[1] = RED
+    return brick_grid(colour)
+
+
+def test_slopes_in_the_way_of_bricks_go():
+    """Slopes between the tower and its wing leave, and the wing is held by a brick across again."""
+    grid = tower_with_a_wing()
+    slopes = table([(ROW("3039"), 0, 0, 3, 0, RED, Role.SHELL, 0, 1)])
+    # a slope below the third layer of the tower has its fall under no stud
+    grid.cover[2, :, :, 1] = Fill.EMPTY
+    grid.colour[2, :, :, 1] = COLOUR_EMPTY
+    bricks, laid = lay_around_slopes(grid, slopes, CATALOGUE, lay)
+    assert contact_graph(bricks, CATALOGUE).n_components == 1
+    assert not (bricks.part == ROW("3039")).any()
+    assert not (laid.cover == Fill.FIXED).any()
+
+
+def test_slopes_that_hold_stay():
+    """A slope on the edge of a block is in no brick's way."""
+    colour = np.full((2, 2, 6), RED)
+    colour[1, :, 5] = COLOUR_EMPTY
+    slopes = table([(ROW("3039"), 4, 0, 3, 0, RED, Role.SHELL, 0, 1)])
+    bricks, laid = lay_around_slopes(brick_grid(colour), slopes, CATALOGUE, lay)
+    assert np.count_nonzero(bricks.part == ROW("3039")) == 1
+    assert np.count_nonzero(laid.cover == Fill.FIXED) == 12
+
+
+def test_what_is_loose_without_slopes_too():
+    """Where no slope is near what is loose, the others stay."""
+    colour = np.full((2, 2, 12), COLOUR_EMPTY)
+    colour[:, :, :6] = RED
+    colour[1, :, 5] = COLOUR_EMPTY
+    colour[:, :, 9:] = RED
+    slopes = table([(ROW("3039"), 4, 0, 3, 0, RED, Role.SHELL, 0, 1)])
+    bricks, _ = lay_around_slopes(brick_grid(colour), slopes, CATALOGUE, lay)
+    assert contact_graph(bricks, CATALOGUE).n_components == 2
+    assert np.count_nonzero(bricks.part == ROW("3039")) == 1

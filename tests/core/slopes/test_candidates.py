@@ -1,0 +1,95 @@
+"""Where slopes pay: on a ramp that they fit, in the colours of its cells, where they hold and open no hole."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.model import COLOUR_ANY, Fill
+from legorize_addon.core.slopes.candidates import candidates
+from legorize_addon.core.slopes.forms import forms, slopes_of
+from legorize_addon.core.slopes.site import Site
+from tests.core.slopes.ramps import CATALOGUE, RED, WHITE, cells_of_ramp, ramp
+
+FORMS = slopes_of(CATALOGUE, plates=True)
+
+
+def listed(grid, shell=None, price=0.3, catalogue=CATALOGUE):
+    """List what pays on a ramp as part, turn, place, colour and score."""
+    site = Site.of(ramp(), grid, grid if shell is None else shell)
+    found = candidates(site, FORMS, catalogue, price=price)
+    parts = [CATALOGUE.parts[FORMS[row].part].number for row in found.form]
+    turns = [FORMS[row].turn for row in found.form]
+    corners = map(tuple, site.corners(found.place).tolist())
+    return dict(zip(zip(parts, turns, corners, strict=True), zip(found.colour, found.score, strict=True), strict=True))
+
+
+def test_the_slopes_that_fit():
+    """Where 2 x 2 slopes fit exactly, they pay, and save what is wrong without them."""
+    found = listed(cells_of_ramp(), price=0.0)
+    code, score = found["3039", 0, (5, 1, 3)]
+    assert code == RED
+    # cells of the fall have shares of .98, .6 and .2; two studs wide; parts that the fall goes through count half
+    assert 0.9 < score < 2 * (0.02 + 0.4 + 0.2)
+    assert ("3039", 2, (5, 1, 3)) not in found
+    assert max(found.values(), key=lambda each: each[1])[1] == pytest.approx(score)
+
+
+def test_parts_cost():
+    """A higher price leaves less, and a slope that saves parts pays at any."""
+    counts = [len(listed(cells_of_ramp(), price=price)) for price in (0.0, 0.3, 1.0, 3.0)]
+    assert counts == sorted(counts, reverse=True)
+    assert counts[0] > counts[-1]
+
+
+def test_colours():
+    """A slope takes the colour of most of its cells; cells of others cost, and what is not made is out."""
+    grid = cells_of_ramp()
+    colour = grid.colour.copy()
+    colour[1, 2, 1, 5] = WHITE
+    mixed = listed(replace(grid, colour=colour))
+    assert mixed["3039", 0, (5, 2, 3)] == listed(grid)["3039", 0, (5, 2, 3)]
+    assert ("3039", 0, (5, 1, 3)) not in mixed or mixed["3039", 0, (5, 1, 3)][1] < mixed["3039", 0, (5, 2, 3)][1] - 0.5
+    exists = CATALOGUE.exists.copy()
+    exists[CATALOGUE.part_row("3039"), CATALOGUE.colour_row(RED)] = False
+    assert not any(part == "3039" for part, *_ in listed(grid, catalogue=replace(CATALOGUE, exists=exists)))
+
+
+def test_no_hole_is_opened():
+    """Past the open side of a slope no hidden cell may be seen."""
+    grid = cells_of_ramp()
+    colour = grid.colour.copy()
+    colour[1, 1, 3, 6] = COLOUR_ANY
+    found = listed(replace(grid, colour=colour))
+    assert ("3039", 0, (5, 1, 3)) not in found
+    assert ("3039", 0, (5, 3, 3)) in found
+
+
+def test_it_holds_to_the_shell():
+    """A slope under whose sockets nothing has to be built is held by nothing."""
+    grid = cells_of_ramp()
+    cover = grid.cover.copy()
+    cover[0, 2, :, 5:] = np.where(cover[0, 2, :, 5:] == Fill.REQUIRED, Fill.OPTIONAL, Fill.EMPTY)
+    assert ("3039", 0, (5, 1, 3)) not in listed(grid, replace(grid, cover=cover))
+
+
+def test_what_is_above_the_fall_stays_free():
+    """Nothing is laid under a cell of the model with its smooth side."""
+    grid = cells_of_ramp()
+    colour, cover = grid.colour.copy(), grid.cover.copy()
+    colour[2, 0, 1:3, 6], cover[2, 0, 1:3, 6] = RED, Fill.REQUIRED
+    found = listed(replace(grid, colour=colour, cover=cover))
+    assert ("3039", 0, (5, 1, 3)) not in found
+    assert ("3039", 0, (5, 3, 3)) in found
+
+
+def test_every_form_is_as_of_itself():
+    """Lists of several forms are those of each, one after the other."""
+    grid = cells_of_ramp()
+    site = Site.of(ramp(), grid, grid)
+    every = forms(CATALOGUE.parts, plates=True)
+    found = candidates(site, every, CATALOGUE, price=0.1)
+    singly = [len(candidates(site, (form,), CATALOGUE, price=0.1).form) for form in every]
+    assert np.bincount(found.form, minlength=len(every)).tolist() == singly

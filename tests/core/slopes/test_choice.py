@@ -1,0 +1,66 @@
+"""Which slopes are chosen: the best ones, as one after the other would choose them, none over another one."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from legorize_addon.core.model import contact_graph
+from legorize_addon.core.slopes.candidates import Candidates, rows
+from legorize_addon.core.slopes.choice import best, choose_slopes
+from legorize_addon.core.slopes.forms import slopes_of
+from legorize_addon.core.slopes.site import Site
+from tests.core.slopes.ramps import CATALOGUE, RED, cells_of_ramp, ramp
+
+FORMS = slopes_of(CATALOGUE, plates=True)
+
+
+def test_a_ramp_gets_its_slopes():
+    """Two 2 x 2 slopes lie side by side on a ramp of four studs."""
+    grid = cells_of_ramp()
+    bricks = choose_slopes(ramp(), grid, grid, CATALOGUE, price=0.5, plates=True)
+    assert [CATALOGUE.parts[row].number for row in bricks.part] == ["3039", "3039"]
+    assert bricks.corner.tolist() == [[5, 1, 3], [5, 3, 3]]
+    assert bricks.turn.tolist() == [0, 0]
+    assert (bricks.colour == RED).all()
+    assert bricks.step.tolist() == [1, 1]
+
+
+def test_nothing_pays():
+    """A single slope that takes a part more is chosen where that costs little, and not where it costs much."""
+    grid = cells_of_ramp(1)
+    bricks = [choose_slopes(ramp(1), grid, grid, CATALOGUE, price=price, plates=True) for price in (0.1, 10.0)]
+    assert [CATALOGUE.parts[row].number for row in bricks[0].part] == ["3040b"]
+    assert not len(bricks[1])
+
+
+@given(st.lists(st.tuples(st.integers(0, len(FORMS) - 1), st.integers(0, 400), st.integers(1, 9)), max_size=60))
+@settings(max_examples=40, deadline=None)
+def test_as_one_after_the_other(places):
+    """In rounds the same slopes are chosen as by going from the best to the worst."""
+    grid = cells_of_ramp()
+    site = Site.of(ramp(), grid, grid)
+    places = sorted(set(places))
+    form, place, score = np.array(places, np.int64).reshape(-1, 3).T
+    place = place + site.shape[1] * site.shape[2] + 40
+    found = Candidates(form, place, score.astype(float), np.full(len(form), RED))
+    claims, keeps = {}, {}
+    for which, claimed, kept in rows(site, FORMS, found):
+        for row, one, other in zip(which.tolist(), claimed.tolist(), kept.tolist(), strict=True):
+            claims[row], keeps[row] = set(one), set(other)
+    chosen, taken, closed = [], set(), set()
+    for row in sorted(range(len(form)), key=lambda row: (-score[row], form[row], place[row])):
+        if not claims[row] & (taken | closed) and not keeps[row] & taken:
+            chosen.append(row)
+            taken |= claims[row]
+            closed |= keeps[row]
+    assert best(site, FORMS, found).tolist() == sorted(chosen)
+
+
+def test_no_two_in_one_cell():
+    """Chosen slopes do not collide."""
+    grid = cells_of_ramp(7)
+    bricks = choose_slopes(ramp(7), grid, grid, CATALOGUE, price=0.0, plates=True)
+    assert len(bricks) >= 4
+    assert contact_graph(bricks, CATALOGUE).collisions == 0
