@@ -65,6 +65,10 @@ class Settings:
         "likeness", "Colour of a brick", "Which colour a brick takes.", group="Colours", words={
             "likeness": "the one closest to all of its surface",
             "longest": "the one with the greatest length of trajectory in it"})
+    keep_specks: bool = setting(
+        False, "Keep specks", "Keep the colour of single bricks that hardly differs from those around, or that their "
+        "surface does not have: mixtures at the borders of patches.", group="Colours",
+        needs=("cell_colour", "likeness"))
     fine_texture: Literal["mean", "texels"] = setting(
         "mean", "Fine textures", "What to do with textures that change within a stud, such as checkers and noise.",
         group="Colours", words={

@@ -219,6 +219,7 @@ def make_unit_grid(
         closed=repairs.watertight,
         detail=_detail(cut.layer, frame, settings),
         facing=facing,
+        specks=settings.keep_specks,
         dithering=dithering_of(settings.dithering, run.palette, mesh, surface, facing),
     )
     raster = Raster(lattice, levels_of(cut.slices.heights, cut.layer, cut.plate, lattice))

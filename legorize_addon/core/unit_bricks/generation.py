@@ -27,11 +27,12 @@ from ..progress import Progress, part, silent
 from ..slicing import Grid, Levels, Pieces, Trajectories, covered_area_shares, cut_at_grid
 from ..units import BRICK, CELL_AREA, PLATE, PLATES_PER_BRICK
 from .bridges import bridging_cells, under_steps
-from .colour_votes import likeliest_colours
+from .colour_votes import Ballot, Codes, likeliest_colours
 from .dithering import Dithering, dither, light_in_the_open
 from .facing import Facing
 from .longest_trajectory import Crossings, longest_colours
 from .plates import Detail, settle_colours, settle_plates
+from .specks import without_specks
 from .surface_samples import SurfaceSamples, horizontal_samples, standing_pieces, surface_area, trajectory_samples
 from .symmetry import mirror_colours, mirror_shapes
 from .thin_features import thin_cells
@@ -80,6 +81,9 @@ class Rules:
     facing : Facing or None
         The way that a flat model is looked at, if from one side alone: what looks
         that way colours the bricks, unless by length.
+    specks : bool
+        Whether lone bricks whose colour is a mixture, or hardly differs from those around, keep it. They do in any case
+        where colours go by length, and in pictures.
     dithering : Dithering or None
         How colours are mixed, after plates are decided; None leaves each cell its closest colour.
     """
@@ -90,6 +94,7 @@ class Rules:
     closed: bool = True
     detail: Detail | None = None
     facing: Facing | None = None
+    specks: bool = False
     dithering: Dithering | None = None
 
 
@@ -152,15 +157,23 @@ def unit_bricks(
     colour = np.full(grid.shape, COLOUR_EMPTY, dtype=np.int16)
     colour[solid] = COLOUR_ANY
     colour[seen] = ballot.winners(seen, grid.height)
-    if rules.detail is not None:
-        colour = settle_colours(colour, seen, ballot, rules.detail)
-    # of a picture, little differences are what it shows
-    if rules.symmetric and rules.facing is None:
-        colour = mirror_colours(colour, seen, ballot, height=round(BRICK / grid.height))
+    colour = _settled(colour, seen, ballot, rules, height=round(BRICK / grid.height))
     if rules.dithering is not None:
         light = light_in_the_open(mesh, samples, grid)
         colour = dither(colour, seen, air, light, rules.dithering, catalogue)
     return _unit_grid(colour, grid)
+
+
+def _settled(colour: Codes, seen: Mask, ballot: Ballot, rules: Rules, *, height: int) -> Codes:
+    """Let columns take other colours than their own best: for fewer parts, like their image, or as they are specks."""
+    if rules.detail is not None:
+        colour = settle_colours(colour, seen, ballot, rules.detail)
+    # of a picture, little differences are what it shows
+    if rules.symmetric and rules.facing is None:
+        colour = mirror_colours(colour, seen, ballot, height=height)
+    if rules.specks or rules.longest or rules.facing is not None:
+        return colour
+    return without_specks(colour, seen, ballot, height=height)
 
 
 def _solid(
