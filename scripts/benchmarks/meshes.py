@@ -59,10 +59,15 @@ def models_in(folder: Path) -> list[Path]:
 
 def prepared(path: Path, settings: Settings) -> Model:
     """Read, repair and scale a mesh and find its colours, as the pipeline does."""
-    mesh, repairs = repair(read_mesh(path))
+    return prepared_mesh(path.stem, read_mesh(path), settings)
+
+
+def prepared_mesh(name: str, mesh: TriangleMesh, settings: Settings) -> Model:
+    """Repair and scale a mesh and find its colours, as the pipeline does."""
+    mesh, repairs = repair(mesh)
     size = {name: getattr(settings, name) for name in ("size_by", "width", "height", "scale", "cm")}
     mesh = scale_mesh(mesh, model_scale(mesh, **size))
-    return Model(path.stem, mesh, textured(mesh, settings), repairs)
+    return Model(name, mesh, textured(mesh, settings), repairs)
 
 
 def textured(mesh: TriangleMesh, settings: Settings) -> SurfaceColours:

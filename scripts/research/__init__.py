@@ -9,6 +9,7 @@
 ``volumes``       the paper's Table 1
 ``paper_tables``  the paper's Tables 1 to 4
 ``claims``        its claims as goals
+``claim_figures``  what they need beside the tables
 ``five_kinds``    models of the five kinds that it shows
 ``peer``          the peer legolization, run as a process
 ``peer_layout``   the program that the peer's Python runs

@@ -9,6 +9,7 @@ bricks).
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -33,10 +34,12 @@ from legorize_addon.core.presets import preset_values
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shell.cohesion import make_cohesive
 from legorize_addon.core.shell.hollowing import hollow
+from scripts.benchmarks.kept import Kept
 from scripts.benchmarks.meshes import read_mesh
 from scripts.benchmarks.supports import BUILT, Supported, kinds_of_bricks, supported
 from scripts.benchmarks.tables import Row, Table
 from scripts.research.baselines import Lay
+from scripts.research.claim_figures import Given, claim_figures
 from scripts.research.claims import claims
 from scripts.research.laying import Laid, timed
 from scripts.research.layout_goals import ANNEALED, GREEDY, SEARCHED, STAGGERED
@@ -57,6 +60,7 @@ TITLES: Final = {
     "tables_3": "Table 3: hollow ratio, bricks and CPU seconds of every method; grams and bricks against our rule",
     "tables_4": "Table 4: weight and number of support bricks by kind; models without supports are left out",
     "tables_4_built": "Supports of the finished build: those that are taken out, and those that stay",
+    "tables_claim_figures": "What the claims need beside the tables",
     "tables_claims": "The paper's claims H1 to H13 as goals",
     "tables_run": "How it was measured",
 }
@@ -71,7 +75,7 @@ class Options:
     repeats: int
 
 
-def measure(paths: Sequence[Path], *, width: int, seed: int, repeats: int) -> list[Table]:
+def measure(paths: Sequence[Path], *, width: int, seed: int, repeats: int, minutes: float, out: Path) -> list[Table]:
     """Make all four tables.
 
     Parameters
@@ -84,20 +88,37 @@ def measure(paths: Sequence[Path], *, width: int, seed: int, repeats: int) -> li
         Of everything random.
     repeats : int
         Runs of each method, of which the fastest counts.
+    minutes : float
+        After which no model is begun; 0 for no limit.
+    out : Path
+        For what is measured of each model, which the next run of the same program takes over.
 
     Returns
     -------
     list of Table
+        None if there was no time for any model.
     """
     options = Options(width, seed, repeats)
     rows: dict[str, list[Row]] = {name: [] for name in TITLES}
+    kept = Kept(out / "tables", minutes)
     for path in paths:
-        print(f"{path.stem}, {width} studs", file=sys.stderr, flush=True)
-        for name, made in case(path.stem, read_mesh(path), options).items():
-            rows[name] += made
+        for [made] in [kept.row(f"{path.stem}-{width}-{seed}-{repeats}", partial(_texts, path, options)) or [{}]]:
+            for name, text in made.items():
+                rows[name] += json.loads(str(text))
+    kept.tell_left()
+    if not rows["tables_3"]:
+        return []
     rows["tables_run"] = [{"legorize": manifest_version(), "width": width, "seed": seed, "repeats": repeats}]
-    rows["tables_claims"] = claims(rows["tables_3"], rows["tables_1"], rows["tables_4"], FIELD)
+    rows["tables_claims"] = claims(
+        rows["tables_3"], rows["tables_1"], rows["tables_4"], rows["tables_claim_figures"], FIELD
+    )
     return [Table(name, TITLES[name], tuple(rows[name])) for name in TITLES if rows[name]]
+
+
+def _texts(path: Path, options: Options) -> Row:
+    """Return the rows of a model as JSON, by table."""
+    print(f"{path.stem}, {options.width} studs", file=sys.stderr, flush=True)
+    return {name: json.dumps(made) for name, made in case(path.stem, read_mesh(path), options).items()}
 
 
 def case(name: str, mesh: TriangleMesh, options: Options) -> dict[str, list[Row]]:
@@ -111,13 +132,26 @@ def case(name: str, mesh: TriangleMesh, options: Options) -> dict[str, list[Row]
         rows |= {"tables_2": [], "tables_2_counts": [], "tables_4": table_4(start, made, catalogue)}
         counts, shares = kinds_of_bricks([replace(made, made={BUILT: made.made[BUILT]})], catalogue)
         rows["tables_2"], rows["tables_2_counts"] = list(shares), list(counts)
+    rows["tables_claim_figures"] = [claim_figures(start, given(mesh, build, options))]
     return rows | {"tables_4_built": built_supports(start, build, catalogue)}
+
+
+def given(mesh: TriangleMesh, build: Build, options: Options) -> Given:
+    """Return what the claims are measured on."""
+    settings = in_bricks(options)
+    shells = shells_of(legorize(mesh, settings).grid, settings)
+    return Given(mesh, build, shells[OWN], shells[NO_OPTIONAL], ours("standard"), METHODS[GREEDY])
+
+
+def in_bricks(options: Options) -> Settings:
+    """Return the settings of the cells that all methods lay."""
+    return Settings(width=options.width, seed=options.seed, plates="none", layout="fast")
 
 
 def table_3(start: Row, mesh: TriangleMesh, build: Build, options: Options) -> list[Row]:
     """Return a row for each method, with what it weighs and how many bricks it has against the standard tier."""
     catalogue = load_catalogue()
-    settings = Settings(width=options.width, seed=options.seed, plates="none", layout="fast")
+    settings = in_bricks(options)
     grid = legorize(mesh, settings).grid
     run = partial(timed, catalogue=catalogue, seed=options.seed, repeats=options.repeats)
     found: list[tuple[Row, Laid]] = []

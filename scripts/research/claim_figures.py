@@ -1,0 +1,140 @@
+"""What the paper's claims need beside its tables: one row a model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from legorize_addon.core.build import Build
+from legorize_addon.core.geometry.neighbourhoods import outer_air, visible
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, UnitGrid
+from legorize_addon.core.pipeline import legorize
+from legorize_addon.core.settings import Settings
+from scripts.benchmarks.dense import dense_likeliest, dense_samples
+from scripts.benchmarks.hollowing import soundness
+from scripts.benchmarks.layout_figures import fewest_singles, single
+from scripts.benchmarks.meshes import prepared_mesh
+from scripts.benchmarks.surface import likeness, seen_surface
+from scripts.benchmarks.tables import Row
+from scripts.benchmarks.units import SAMPLES_A_VOXEL, Cut, cut_for_grid
+from scripts.research.baselines import Lay
+from scripts.research.fill_controls import LEARNED, SHUFFLED, in_way, ways
+
+SAMPLES: Final = Path(__file__).resolve().parents[2] / "assets" / "fill_svm.csv"
+
+CHORD: Final = 0.4
+"""Chord deviation in mm at which points are counted: that of the preset for the paper."""
+
+TRUTH: Final = 256
+"""Points in a surface voxel that stand for all of its surface."""
+
+PIECES: Final = 3
+"""Most pieces of a split model."""
+
+CONTROLS: Final = {
+    "largest": "largest first",
+    "random": "random placements",
+    "chance": "search, chance",
+    "rule": "search, rule: least J",
+    "logistic": "search, logistic regression",
+}
+"""With what the machine is compared, beside shuffled labels."""
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """What has been made of a model for the tables.
+
+    Attributes
+    ----------
+    mesh : TriangleMesh
+    build : Build
+        By default.
+    own, required : UnitGrid
+        Its cells in bricks, hollowed by our rule, with and without optional cells.
+    standard, largest : Lay
+        Our layout, and largest first.
+    """
+
+    mesh: TriangleMesh
+    build: Build
+    own: UnitGrid
+    required: UnitGrid
+    standard: Lay
+    largest: Lay
+
+
+def claim_figures(start: Row, given: Given) -> Row:
+    """Measure a model for the claims that the tables do not decide; the names begin with the claim."""
+    settings = given.build.settings
+    plain = Settings(width=settings.width, seed=settings.seed)
+    row = start | _accuracy(given.mesh, plain) | _points(given.mesh, plain) | _singles(given)
+    row |= _supports(given, plain)
+    sound = soundness(given.build.grid, given.build.hollow)
+    return row | {f"h10_{name}": value for name, value in sound.items()} | _learning(given.own)
+
+
+def _accuracy(mesh: TriangleMesh, settings: Settings) -> Row:
+    """Return which share of the mean distance of bricks plates take away."""
+    builds = [legorize(mesh, replace(settings, plates=plates, supports="none")) for plates in ("none", "all")]
+    surface = seen_surface(builds[0])
+    bricks, plates = (likeness(surface, build, load_catalogue()).mean for build in builds)
+    return {"h1_distance_saved": 1 - plates / bricks if bricks else 0.0}
+
+
+def _points(mesh: TriangleMesh, settings: Settings) -> Row:
+    """Return the points on trajectories against a voxelization's samples, and how often each gives a wrong colour."""
+    cut = cut_for_grid(prepared_mesh("model", mesh, settings), replace(settings, chord_deviation=CHORD))
+    colour = cut.bricks()
+    solid = colour != COLOUR_EMPTY
+    seen = visible(solid, outer_air(solid))
+    voxels = int(seen.sum())
+    truth, sampled = (_dense(cut, solid, seen, each * voxels) for each in (TRUTH, SAMPLES_A_VOXEL))
+    return {
+        "h2_points_share": len(cut.trajectories.points) / (SAMPLES_A_VOXEL * voxels),
+        "h2_wrong": float((colour[seen] != truth).mean()),
+        "h2_wrong_by_samples": float((sampled != truth).mean()),
+    }
+
+
+def _dense(cut: Cut, solid: np.ndarray, seen: np.ndarray, points: int) -> np.ndarray:
+    """Return the colours of visible cells by points spread over the surface."""
+    samples = dense_samples(cut.model.mesh, cut.model.surface, cut.frame, points)
+    return dense_likeliest(samples, solid, seen, cut.model.surface)
+
+
+def _singles(given: Given) -> Row:
+    """Return the 1 x 1 bricks of our layout and of largest first on the same cells, and those that nothing forces."""
+    catalogue = load_catalogue()
+    ours, largest, own = (
+        lay(cells, catalogue, np.random.default_rng(given.build.settings.seed))
+        for lay, cells in (
+            (given.standard, given.required), (given.largest, given.required), (given.standard, given.own),
+        )
+    )  # fmt: skip
+    count = [int(single(bricks, catalogue).sum()) for bricks in (ours, largest, own)]
+    free = max(0, count[2] - fewest_singles(own, given.own, catalogue))
+    return {"h6_singles": count[0], "h6_singles_largest_first": count[1], "h6_free_share": free / len(own)}
+
+
+def _supports(given: Given, settings: Settings) -> Row:
+    """Return how many supports stay stuck, and what splitting saves of them where it splits."""
+    split = legorize(given.mesh, replace(settings, split=PIECES)).supports
+    whole = given.build.supports
+    saved = 1 - len(split.removed) / len(whole.removed) if len(split.pieces) > 1 and len(whole.removed) else None
+    return {"h9_stuck": len(whole.walk.stuck), "h9_pieces": len(split.pieces), "h9_split_saves": saved}
+
+
+def _learning(grid: UnitGrid) -> Row:
+    """Return which share of J the machine saves of each control."""
+    fills = ways(SAMPLES.read_text(encoding="utf-8"))
+    ours = in_way(fills[LEARNED], grid).cost
+    costs: Mapping[str, float] = {name: in_way(fills[way], grid).cost for name, way in CONTROLS.items()}
+    shuffled = float(np.mean([in_way(fill, grid).cost for way, fill in fills.items() if way.startswith(SHUFFLED)]))
+    return {f"h12_saves_of_{name}": 1 - ours / cost for name, cost in {**costs, "shuffled": shuffled}.items()}
