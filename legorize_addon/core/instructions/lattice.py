@@ -68,6 +68,14 @@ FRONT: Final = View(1)
 """From the front right: the front of a model looks towards -y."""
 
 
+class Seen(NamedTuple):
+    """Whose cells some cells are, and from where they are seen."""
+
+    bricks: Bricks
+    catalogue: Catalogue
+    view: View
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Cells:
     """The cells of bricks, turned as they are seen.
@@ -78,10 +86,13 @@ class Cells:
         x, y and z of each cell.
     brick : (n,) int64 array
         Row of its brick.
+    model : Seen, optional
+        The bricks, for those who draw more than cells.
     """
 
     place: Ints
     brick: Ints
+    model: Seen | None = None
 
     @classmethod
     def of(cls, bricks: Bricks, catalogue: Catalogue, view: View) -> Cells:
@@ -91,11 +102,12 @@ class Cells:
         height = (facts.high - facts.low).astype(np.int64)
         place = np.repeat(columns.astype(np.int64), height, axis=0)
         place[:, 2] += np.arange(len(place)) - np.repeat(np.cumsum(height) - height, height)
-        return cls(turned(place, view), np.repeat(brick.astype(np.int64), height))
+        model = Seen(bricks, catalogue, view)
+        return cls(turned(place, view), np.repeat(brick.astype(np.int64), height), model)
 
     def take(self, rows: Mask) -> Cells:
         """Return some of the cells."""
-        return Cells(self.place[rows], self.brick[rows])
+        return Cells(self.place[rows], self.brick[rows], self.model)
 
 
 def turned(place: Ints, view: View) -> Ints:
@@ -145,12 +157,15 @@ class Sight:
         p and q of the lower corner of the first square.
     free : (n_bricks,) int64 array
         Pieces that each brick would cover if it were alone.
+    cells : Cells, optional
+        What was looked at.
     """
 
     faces: Faces
     nearest: Ints
     low: Ints
     free: Ints
+    cells: Cells | None = None
 
     @property
     def per_face(self) -> Ints:
@@ -187,7 +202,7 @@ def look(cells: Cells, n_bricks: int) -> Sight:
     faces, free = _faces(cells, n_bricks)
     base = faces.place[:, 2:] - 3 * faces.place[:, 1::-1] - 3
     if not len(base):
-        return Sight(faces, np.full((2, 2, 2), NOBODY, dtype=np.int64), np.zeros(2, dtype=np.int64), free)
+        return Sight(faces, np.full((2, 2, 2), NOBODY, dtype=np.int64), np.zeros(2, dtype=np.int64), free, cells)
     # a square more on every side, so that every piece that is seen has neighbours
     low = base.min(axis=0) - 1
     nearest = np.full((*(base.max(axis=0) - low + 5).tolist(), 2), NOBODY, dtype=np.int64)
@@ -200,7 +215,7 @@ def look(cells: Cells, n_bricks: int) -> Sight:
     m, n = (base[face] - low + piece[:, :2]).T
     # the last one written stays
     nearest[m, n, piece[:, 2]] = face
-    return Sight(faces, nearest, low, free)
+    return Sight(faces, nearest, low, free, cells)
 
 
 def _faces(cells: Cells, n_bricks: int) -> tuple[Faces, Ints]:

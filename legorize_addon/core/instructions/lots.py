@@ -14,8 +14,9 @@ from ..model import Bricks, Catalogue, Part
 from .canvas import Item, Rgb, Text, moved
 from .fonts import width
 from .lattice import FRONT, Cells, look
-from .picture import MM, Look, Picture, draw
+from .picture import MM, Look, Picture
 from .shades import mixed, tinted
+from .slopes import draw_all
 
 GREY: Final[Rgb] = (96, 98, 104)
 
@@ -100,7 +101,7 @@ def _picture(part: int, rgb: Rgb, catalogue: Catalogue) -> Picture:
         np.zeros(1, np.uint8), np.zeros(1, np.int16), np.zeros(1, np.int32),
     )  # fmt: skip
     colour, new = np.array([rgb], dtype=np.int64), np.ones(1, dtype=bool)
-    return draw(look(Cells.of(one, catalogue, FRONT), 1), Look(colour, new, smooth=~catalogue.studs[one.part]))
+    return draw_all(look(Cells.of(one, catalogue, FRONT), 1), Look(colour, new, smooth=~catalogue.studs[one.part]))
 
 
 def placed(picture: Picture, x: float, y: float, scale: float) -> Item:

@@ -15,11 +15,12 @@ from .canvas import Item, Paint, Path, Rgb
 from .closeup import Window, cut, framed, grown, locator, window_of
 from .lattice import FRONT, Sight, View
 from .lots import rgb_of, shown_rgb
-from .picture import Look, Picture, at, draw, extent
+from .picture import Look, Picture, at, extent
 from .regions import outlines
 from .shades import pale
 from .shots import Shot, shots
 from .sightlines import Scene, Stage, scenes
+from .slopes import draw_all
 
 _GHOST: Final = Paint(stroke=(120, 124, 130), width=2.2, dash=(9.0, 7.0))
 
@@ -156,7 +157,7 @@ class Panels:
         if panel.window is not None:
             window = grown(panel.window, sight, np.array(room))
             sight = cut(sight, window)
-        made = draw(sight, Look(colour, new, studs=not panel.view.below, smooth=self._smooth))
+        made = draw_all(sight, Look(colour, new, studs=not panel.view.below, smooth=self._smooth))
         ghosts = [_outline(self.stage.sight(panel.left_out, panel.view))] if len(panel.left_out) else []
         if window is not None:
             return Picture(framed((*made.items, *ghosts), window), *window)
@@ -179,7 +180,7 @@ class Panels:
         sight = self.stage.sight(rows, view)
         new = np.ones(len(self.bricks), dtype=bool)
         look = Look(rgb_of(self.bricks, self.catalogue), new, studs=not view.below, smooth=self._smooth)
-        return draw(sight, look)
+        return draw_all(sight, look)
 
 
 def _rgb(row: Ints) -> Rgb:

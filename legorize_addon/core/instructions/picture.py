@@ -146,7 +146,7 @@ def _rgb(row: Ints) -> Rgb:
     return red, green, blue
 
 
-_STROKES: Final = (
+STROKES: Final = (
     Paint(stroke=PALE_LINE, width=2.4),
     Paint(stroke=mixed(LINE, (255, 255, 255), 0.25), width=2.6),
     Paint(stroke=LIGHT_LINE, width=2.6),
@@ -165,7 +165,7 @@ def _lines(sight: Sight, look: Look) -> Iterator[Item]:
     kind = _kinds(left, right, faces.brick, faces.side, look)
     found = borders(kind, sight.low)
     ends = np.stack([at(found.start), at(found.end)], axis=1)
-    for number, paint in enumerate(_STROKES):
+    for number, paint in enumerate(STROKES):
         mine = found.of == number
         if mine.any():
             yield lines(ends[mine], paint)
@@ -209,10 +209,19 @@ def _stud_items(sight: Sight, styles: Ints, style: Ints, look: Look) -> Iterator
         yield Group(tuple(_stud_paths(sight, partly[level[partly] == number], styles, style, look.studs)), clip=clip)
 
 
+def stud_paths(tops: Ints, rgb: Rgb, new: bool, studs: bool) -> Iterator[Item]:
+    """Yield the studs, or sockets, of one colour on cells, (n, 3)."""
+    yield Group(tuple(_studs(_feet(tops), rgb, new) if studs else _sockets(_feet(tops), rgb)), _STUD_MATRIX)
+
+
+def _feet(tops: Ints) -> Ints:
+    """Return the middles of the tops of cells, shifted along the diagonal by the height of the level."""
+    x, y, z = tops.T
+    return np.stack([_STUD_UNITS * each + _STUD_UNITS // 2 - 2 * (z + 1) for each in (x, y)], axis=1)
+
+
 def _stud_paths(sight: Sight, tops: Ints, styles: Ints, style: Ints, studs: bool) -> Iterator[Item]:
-    x, y, z = sight.faces.place[tops].T
-    # of the middle of the top, shifted along the diagonal by the height of the level
-    foot = np.stack([_STUD_UNITS * each + _STUD_UNITS // 2 - 2 * (z + 1) for each in (x, y)], axis=1)
+    foot = _feet(sight.faces.place[tops])
     of = style[sight.faces.brick[tops]]
     items: list[Item] = []
     for number in np.unique(of).tolist():
