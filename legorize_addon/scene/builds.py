@@ -22,6 +22,9 @@ OWN_KEY: Final = "legorize_own"
 LINES_KEY: Final = "legorize_lines"
 """Key, on curves, of the trajectories in a layer of a build."""
 
+GHOSTS: Final = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+"""Kinds of originals that have a form to be seen: not what only holds them."""
+
 
 def builds(scene: bpy.types.Scene) -> list[bpy.types.Collection]:
     """Return the builds of a scene."""
@@ -126,6 +129,28 @@ def show_sources(build: bpy.types.Collection, *, visible: bool, linked_only: boo
     for source in hidden_by(build):
         if source.library is not None or not linked_only:
             source.hide_viewport = source.hide_render = not visible
+    for entry in state_of(build).hidden:
+        entry.draw_as_before()
+
+
+def can_show_ghost(build: bpy.types.Collection) -> bool:
+    """Tell whether a build has originals to be shown."""
+    return any(entry.source.type in GHOSTS for entry in state_of(build).hidden)
+
+
+def ghost_shown(build: bpy.types.Collection) -> bool:
+    """Tell whether the originals of a build are shown as ghosts."""
+    found = [entry.source for entry in state_of(build).hidden if entry.source.type in GHOSTS]
+    seen = [source for source in found if source.hide_render and not source.hide_viewport]
+    return any(source.show_in_front and source.display_type == "WIRE" for source in seen)
+
+
+def show_ghost(build: bpy.types.Collection, *, visible: bool) -> None:
+    """Show the originals of a build as wires over its bricks, in the viewport alone, or hide them again."""
+    show_sources(build, visible=False)
+    for entry in state_of(build).hidden if visible else ():
+        if entry.source.type in GHOSTS and entry.source.library is None:
+            entry.show_as_ghost()
 
 
 def bricks_of(build: bpy.types.Collection, found: Sequence[bpy.types.Object]) -> Bricks:

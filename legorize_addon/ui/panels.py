@@ -11,7 +11,7 @@ from bpy.app.translations import pgettext_iface as iface
 from ..core.progress import duration
 from ..core.shopping import SECONDS_A_BRICK
 from ..core.units import BRICK, STUD
-from ..scene import builds, check_lines, damage, orphans, state_of
+from ..scene import builds, can_show_ghost, check_lines, damage, orphans, state_of
 from ..view import LEGEND, animation_of, can_highlight, has_margins, n_pieces, n_steps, roles_shown
 from . import job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
@@ -127,6 +127,9 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
         for role in roles_shown(build):
             shown.prop(view.roles, role.name.lower())
         self.layout.prop(view, "show_sources")
+        if can_show_ghost(build):
+            self.layout.prop(view, "ghost")
+        self.layout.row().prop(view, "numbers", expand=True)
         self.layout.prop(view, "detail")
 
     def _draw_building(self, view: bpy.types.PropertyGroup, build: bpy.types.Collection) -> None:

@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Final
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from ..core.model import Role, load_catalogue
-from ..scene import AXES, Section, builds, damage, own_parts, point_objects, set_detail, show_sources, state_of
+from ..scene import (
+    Section,
+    builds,
+    damage,
+    ghost_shown,
+    own_parts,
+    point_objects,
+    set_detail,
+    show_ghost,
+    show_sources,
+    state_of,
+)
 from ..view import (
     cut_away,
     explode,
@@ -29,22 +40,7 @@ from ..view import (
     trajectories_shown,
 )
 from .settings_properties import LegorizeSettings, label
-
-CUTS: Final = ("none", *AXES)
-CUT_ITEMS: Final = [("none", "Off", ""), *((axis, axis.upper(), "") for axis in AXES)]
-LINE_ITEMS: Final = [
-    ("sides", "Blue and Green", "Exterior trajectories blue, interior ones green"),
-    ("colours", "Brick Colours", "Each part of a trajectory in the colour of its bricks"),
-]
-ROLE_TEXTS: Final = {
-    Role.SHELL: "the bricks that can be seen from outside",
-    Role.INSIDE: "the bricks inside that carry others",
-    Role.PLATE: "the plates of finer layers",
-    Role.OFFSET: "the bricks under overhanging faces",
-    Role.SUPPORT_OUTSIDE: "the supports that are removed in the end",
-    Role.SUPPORT_INSIDE: "the supports that stay inside",
-    Role.SUPPORT_KEPT: "the supports outside that stay, because a part of the model would fall without them",
-}
+from .view_choices import CUT_ITEMS, CUTS, LINE_ITEMS, NUMBER_ITEMS, ROLE_TEXTS
 
 
 def current_build(scene: bpy.types.Scene) -> bpy.types.Collection | None:
@@ -177,6 +173,18 @@ def _update_sources(self: bpy.types.PropertyGroup, context: bpy.types.Context) -
         show_sources(build, visible=self.show_sources)
 
 
+def _ghost(self: bpy.types.PropertyGroup) -> bool:
+    build = current_build(self.id_data)
+    return bool(build) and ghost_shown(build)
+
+
+def _set_ghost(self: bpy.types.PropertyGroup, value: bool) -> None:
+    build = current_build(self.id_data)
+    if build:
+        self["show_sources"] = False
+        show_ghost(build, visible=value)
+
+
 def _update_detail(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     build = _whole_build(self)
     if build:
@@ -248,6 +256,18 @@ class LegorizeView(bpy.types.PropertyGroup):
         name="Show original",
         description="Show the original objects, which building hides; removing the model shows them again",
         update=_update_sources,
+    )
+    ghost: BoolProperty(
+        name="Original as ghost",
+        description="Show the wires of the original objects over the bricks, in the viewport only",
+        get=_ghost,
+        set=_set_ghost,
+    )
+    numbers: EnumProperty(
+        name="Numbers",
+        description="Write numbers on the bricks that are seen, or on those of the step that is shown; in the viewport "
+        "only",
+        items=NUMBER_ITEMS,
     )
     roles: PointerProperty(type=LegorizeRoles)
     section_axis: EnumProperty(

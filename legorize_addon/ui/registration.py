@@ -18,6 +18,7 @@ from . import (
     menus,
     method,
     mosaic,
+    numbers,
     palette,
     panels,
     parts,
@@ -30,7 +31,7 @@ from . import (
 _PARTS = (
     properties, expectation, build, build_larger, export, instructions, animation, learning, looks, parts, edits,
     everything, existing, palette, edit_tool, panels, mosaic, method, menus, preferences, weakest,
-    translations,
+    numbers, translations,
 )  # fmt: skip
 
 

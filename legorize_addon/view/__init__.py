@@ -17,6 +17,7 @@ from .method import (
     show_trajectories,
     trajectories_shown,
 )
+from .numbers import Numbers, brick_numbers
 from .picking import brick_under, edges_of
 from .show_result import show_result
 from .steps import check_steps, explode, exploded, n_pieces, n_steps, steps_done
@@ -41,9 +42,11 @@ __all__ = [
     "Animation",
     "Changed",
     "MethodView",
+    "Numbers",
     "Step",
     "animate",
     "animation_of",
+    "brick_numbers",
     "brick_under",
     "can_highlight",
     "change",

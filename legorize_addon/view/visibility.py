@@ -183,7 +183,7 @@ def shown_bricks(build: bpy.types.Collection) -> Bricks:
     BuildError
         No brick is left.
     """
-    bricks, shown, _ = _in_renders(build)
+    bricks, shown, _ = bricks_in_renders(build)
     return bricks.take(shown)
 
 
@@ -208,7 +208,7 @@ def shown_corners(build: bpy.types.Collection) -> Floats:
     lines = _line_corners(build)
     if len(lines) and not _shown_points(build):
         return lines
-    bricks, shown, found = _in_renders(build)
+    bricks, shown, found = bricks_in_renders(build)
     way = ways(build, found, steps_done(build))[shown]
     return np.concatenate([box_corners(bricks.take(shown), load_catalogue()) + np.repeat(way, 8, axis=0), lines])
 
@@ -256,7 +256,7 @@ def readable(context: bpy.types.Context, objects: Sequence[bpy.types.Object]) ->
             thing.hide_viewport = True
 
 
-def _in_renders(build: bpy.types.Collection) -> tuple[Bricks, Mask, list[bpy.types.Object]]:
+def bricks_in_renders(build: bpy.types.Collection) -> tuple[Bricks, Mask, list[bpy.types.Object]]:
     """Return the bricks of the objects that renders show, which of them are seen, and the objects."""
     check_whole(build)
     found = _shown_points(build)
