@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import textwrap
+from itertools import takewhile
 from typing import Final
-from unicodedata import east_asian_width
+from unicodedata import category, east_asian_width
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface
 
 PIXELS_PER_LETTER: Final = 8.0
 """Width of a letter in the sidebar, with room for the icon: Blender does not wrap texts."""
+
+ENDS: Final = frozenset({"Po", "Pe", "Pf"})
+"""Categories of the wide letters that stand at the end of a line, never at the beginning of one: full stops."""
 
 
 class Tab:
@@ -32,7 +36,19 @@ def draw_wrapped(context: bpy.types.Context, layout: bpy.types.UILayout, text: s
 def wrapped(text: str, width: int) -> list[str]:
     """Return a text in lines of so many letters; half as many where they are as wide as Chinese and Japanese ones."""
     wide = sum(east_asian_width(letter) in "WF" for letter in text)
-    return textwrap.wrap(text, width // 2 if wide > len(text) / 2 else width)
+    lines: list[str] = []
+    for line in textwrap.wrap(text, width // 2 if wide > len(text) / 2 else width):
+        # such lines are cut between any two letters, but none begins with what ends a sentence
+        ends = len(list(takewhile(_is_end, line))) if lines else 0
+        if ends:
+            lines[-1] += line[:ends]
+        if line[ends:]:
+            lines.append(line[ends:])
+    return lines
+
+
+def _is_end(letter: str) -> bool:
+    return east_asian_width(letter) in "WF" and category(letter) in ENDS
 
 
 def redraw(context: bpy.types.Context) -> None:
