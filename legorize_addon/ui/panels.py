@@ -15,6 +15,7 @@ from ..scene import builds, can_show_ghost, check_lines, damage, orphans, state_
 from ..view import LEGEND, animation_of, can_highlight, has_margins, n_pieces, n_steps, roles_shown
 from . import job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
+from .assets import LEGORIZE_OT_mark_asset
 from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
 from .edit_tool import LEGORIZE_PT_edits
 from .everything import LEGORIZE_OT_export_folder
@@ -216,6 +217,7 @@ class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
         self.layout.operator(LEGORIZE_OT_export_list.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_export_folder.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_render_still.bl_idname, icon="RENDER_STILL")
+        self.layout.operator(LEGORIZE_OT_mark_asset.bl_idname, icon="ASSET_MANAGER")
 
 
 def _draw_animation(layout: bpy.types.UILayout, build: bpy.types.Collection) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from . import (
     animation,
+    assets,
     build,
     build_larger,
     edit_tool,
@@ -31,7 +32,7 @@ from . import (
 _PARTS = (
     properties, expectation, build, build_larger, export, instructions, animation, learning, looks, parts, edits,
     everything, existing, palette, edit_tool, panels, mosaic, method, menus, preferences, weakest,
-    numbers, translations,
+    numbers, assets, translations,
 )  # fmt: skip
 
 
