@@ -53,6 +53,9 @@ class Settings:
     palette: str = setting(
         "", "Palette", "LDraw codes of the colours to use, separated by commas or spaces; empty for all that are made "
         "today.", group="Colours")
+    replace_colours: str = setting(
+        "", "Replace colours", "Brick colours of models of meshes to replace by others, by names or LDraw codes, such "
+        "as Tan = Dark Tan, 4 = 15; empty for none.", group="Colours")
     colours: int = setting(
         256, "Dominant colours", "Largest number of dominant colours to find in the textures; similar ones become one "
         "brick colour.", group="Colours", limits=(1, 256))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Self
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from .arrays import Floats, Mask
 from .build import Cut
-from .colours import SurfaceColours, chosen_palette, count_texels, surface_colours
+from .colours import SurfaceColours, chosen_palette, count_texels, replaced, replacements, surface_colours
 from .estimate import AGAIN
 from .layout import FILLER, Alike, Manner, lay, lay_learned
 from .layout.learning import NO_EXCHANGES, FillLog, grades_text, learned_table, samples_text
@@ -166,7 +166,7 @@ def find_colours(run: Run, mesh: TriangleMesh, given: TriangleMesh) -> SurfaceCo
     """
     settings = run.settings
     every = settings.sampling == "image"
-    return surface_colours(
+    found = surface_colours(
         mesh,
         run.catalogue,
         n_colours=min(settings.colours, len(run.palette)) if settings.one_to_one else settings.colours,
@@ -174,6 +174,10 @@ def find_colours(run: Run, mesh: TriangleMesh, given: TriangleMesh) -> SurfaceCo
         one_to_one=settings.one_to_one,
         rng=run.rng,
         texels=count_texels(given.images, given.opacities, least=settings.least_alpha or 0.5) if every else None,
+    )
+    # what is mixed from the palette is replaced when it is mixed
+    return (
+        found if settings.dithering != "none" else found.replaced(replacements(settings.replace_colours, run.catalogue))
     )
 
 
@@ -225,6 +229,8 @@ def make_unit_grid(
     raster = Raster(lattice, levels_of(cut.slices.heights, cut.layer, cut.plate, lattice))
     grid = unit_bricks(mesh, trajectories, surface, raster, rules, catalogue=run.catalogue, progress=run.progress)
     check_any(grid, mesh, keep_thin=settings.keep_thin)
+    if settings.dithering != "none":
+        grid = replace(grid, colour=replaced(grid.colour, replacements(settings.replace_colours, run.catalogue)))
     return grid if facing is None else add_backing(grid, facing, depth=settings.backing)
 
 

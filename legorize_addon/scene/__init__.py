@@ -42,6 +42,7 @@ from .instancing import (
     plastic,
     set_input,
 )
+from .kept_colours import found_colours, keep_found_colours
 from .kept_edits import bricks_text, read_bricks_text
 from .lettering import title_for
 from .model import Model, Source
@@ -97,12 +98,14 @@ __all__ = [
     "colour_material",
     "damage",
     "detail_of",
+    "found_colours",
     "get_input",
     "ghost_shown",
     "hand_remark",
     "has_input",
     "hidden_side",
     "is_own",
+    "keep_found_colours",
     "layer_collections",
     "layers_of",
     "line_objects",

@@ -78,7 +78,8 @@ class LEGORIZE_WT_edit(bpy.types.WorkSpaceTool):
 
 def _draw_changes(layout: Any) -> None:
     """Draw a button for each change."""
-    layout.operator("wm.call_panel", text="Recolour", icon=ICONS["recolour"]).name = "LEGORIZE_PT_edit_colours"
+    colours = layout.operator("wm.call_panel", text="Recolour", icon=ICONS["recolour"])
+    colours.name, colours.keep_open = "LEGORIZE_PT_edit_colours", False
     layout.operator(LEGORIZE_OT_edit.bl_idname, text="Lock", icon=ICONS["lock"]).kind = "lock"
     layout.operator(LEGORIZE_OT_edit_swap.bl_idname, text="Swap Part", icon=ICONS["force"])
     layout.operator(LEGORIZE_OT_edit.bl_idname, text="Forbid", icon=ICONS["forbid"]).kind = "forbid"
@@ -87,13 +88,14 @@ def _draw_changes(layout: Any) -> None:
 
 
 class LEGORIZE_MT_edit(bpy.types.Menu):
-    """What can be done with the picked bricks, around the mouse."""
+    """What can be done with the picked bricks, at the mouse."""
 
     bl_label = "Edit Bricks"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the pie."""
-        _draw_changes(self.layout.menu_pie())
+        """Draw an entry for each change."""
+        self.layout.operator_context = "INVOKE_DEFAULT"
+        _draw_changes(self.layout)
 
 
 class LEGORIZE_PT_edit_colours(bpy.types.Panel):

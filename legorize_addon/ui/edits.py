@@ -146,7 +146,7 @@ class LEGORIZE_OT_pick(OnBuild, bpy.types.Operator):
             context.scene.legorize.build, self.row = found
         done = self.execute(context)
         if self.menu and state_of(current_build(context.scene)).picked:
-            bpy.ops.wm.call_menu_pie(name="LEGORIZE_MT_edit")
+            bpy.ops.wm.call_menu("INVOKE_DEFAULT", name="LEGORIZE_MT_edit")
         return done
 
     def execute(self, context: bpy.types.Context) -> set[str]:

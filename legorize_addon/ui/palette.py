@@ -38,11 +38,16 @@ def _swatches() -> bpy.utils.previews.ImagePreviewCollection:
 
 
 def swatch(colour: Colour) -> int:
-    """Return the number of an icon that is filled with a colour."""
-    known, name = _swatches(), str(colour.code)
+    """Return the number of an icon that is filled with a brick colour."""
+    return filled(colour.rgb, str(colour.code))
+
+
+def filled(rgb: Sequence[int], name: str) -> int:
+    """Return the number of an icon of a name that is filled with sRGB bytes."""
+    known = _swatches()
     if name not in known:
         pixels = np.ones((PIXELS, PIXELS, 4), dtype=np.float32)
-        pixels[..., :3] = np.array(colour.rgb) / 255
+        pixels[..., :3] = np.array(rgb) / 255
         made = known.new(name)
         made.icon_size = (PIXELS, PIXELS)
         made.icon_pixels_float = pixels.ravel()
@@ -170,6 +175,10 @@ class LEGORIZE_PT_palette(Tab, bpy.types.Panel):
         self.layout.label(text="Made of few parts:")
         self._draw_swatches([colour for colour in ranked if hard[colour.code]], used)
         self._draw_counts(context)
+        # which knows this module
+        from .replacing import draw_found
+
+        draw_found(context, self.layout)
 
     def _draw_swatches(self, colours: Sequence[Colour], used: Set[int]) -> None:
         """Draw a button for each colour, pressed where it is used."""

@@ -25,13 +25,14 @@ from . import (
     parts,
     preferences,
     properties,
+    replacing,
     translations,
     weakest,
 )
 
 _PARTS = (
     properties, expectation, build, build_larger, export, instructions, animation, learning, looks, parts, edits,
-    everything, existing, palette, edit_tool, panels, mosaic, method, menus, preferences, weakest,
+    everything, existing, palette, replacing, edit_tool, panels, mosaic, method, menus, preferences, weakest,
     numbers, assets, translations,
 )  # fmt: skip
 

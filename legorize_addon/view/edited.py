@@ -18,6 +18,8 @@ from ..scene import (
     Source,
     bricks_text,
     check_whole,
+    found_colours,
+    keep_found_colours,
     read_bricks,
     read_bricks_text,
     show_build,
@@ -196,10 +198,11 @@ def show_changed(
     model = Model(
         Assembly(changed.bricks, load_catalogue()), state.origin, state.scale, state.mm_per_unit, stability=stability
     )
-    settings = state.settings
+    settings, colours = state.settings, found_colours(build)
     source = Source(name, sources_of(build), notes=state.notes)
     shown = show_build(scene, model, source, detail=detail, replaces=[build])
     state_of(shown).keep_settings(settings)
+    keep_found_colours(shown, colours)
     text = edits_text(changed.edits) if len(changed.edits) else ""
     state_of(shown).edits = (text, bricks_text(changed.unedited))
     if kept is not None:

@@ -11,7 +11,17 @@ import numpy as np
 
 from ..core.edits import edits_text
 from ..core.model import SUPPORTS, Role, concatenate
-from ..scene import Detail, Model, Source, bricks_text, builds_of, show_build, state_of
+from ..scene import (
+    Detail,
+    Model,
+    Source,
+    bricks_text,
+    builds_of,
+    found_colours,
+    keep_found_colours,
+    show_build,
+    state_of,
+)
 from .kept_view import KeptView
 from .visibility import roles_shown, show_role
 
@@ -62,6 +72,7 @@ def show_result(
     supports = build.supports
     earlier = builds_of(scene, source.objects) if replaces is None else replaces
     kept = KeptView.of(earlier)
+    colours = next((found for each in earlier if (found := found_colours(each))), [])
     edits = next((each.edits for each in map(state_of, earlier) if each.edits[0]), ("", ""))
     place = (build.origin, build.scale, mm_per_unit)
     model = Model(supports.assembly, *place, stability=build.stability, steps=supports.steps)
@@ -69,11 +80,21 @@ def show_result(
     state_of(shown).add_building(by_hand=len(supports.unsteady), **_costs(build))
     state_of(shown).keep_texts(build.texts)
     state_of(shown).edits = _edits_of(build) or edits
+    keep_found_colours(shown, _colours_of(build) or colours)
     if Role.SUPPORT_OUTSIDE in roles_shown(shown):
         show_role(shown, Role.SUPPORT_OUTSIDE, visible=False)
     if kept is not None:
         kept.show(scene, shown)
     return shown
+
+
+def _colours_of(build: Finished) -> Sequence[tuple[tuple[int, int, int], int, int, float]]:
+    """Return the colours found in textures and what they became; none of a model that is not of a mesh."""
+    # loaded with the models that it has
+    from ..core.build import Build
+    from ..core.colours import colour_shares
+
+    return colour_shares(build.surface) if isinstance(build, Build) else []
 
 
 def _edits_of(build: Finished) -> tuple[str, str] | None:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from legorize_addon.core.estimate import AGAIN
+from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.progress import Overall, silent
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.stages import Run
+from tests.core.solids import box
+from tests.core.textured import painted
 
 
 def run_of(**options) -> Run:
@@ -36,3 +40,16 @@ def test_what_is_done_again_counts_to_what_it_repeats():
     with pytest.raises(ZeroDivisionError), run.stage("ties"):
         raise ZeroDivisionError
     assert list(run.timings) == ["layout"]
+
+
+@pytest.mark.parametrize("dithering", ["none", "ordered"])
+def test_replaced_colours_are_built(dithering):
+    """No brick has a colour that was replaced, mixed from others or not, and those that were hold the other one."""
+    mesh = painted(box([0.0, 0.0, 0.0], [4.0, 3.0, 2.0]), 4)
+    plain = legorize(mesh, Settings(width=8, dithering=dithering))
+    code = int(np.bincount(plain.bricks.colour).argmax())
+    other = next(each for each in (4, 15, 1) if each not in plain.bricks.colour)
+    made = legorize(mesh, Settings(width=8, dithering=dithering, replace_colours=f"{code}={other}"))
+    assert code not in made.grid.colour
+    assert (made.grid.colour == other).sum() > 0
+    assert code in plain.grid.colour

@@ -6,6 +6,8 @@ from .counted import count_texels
 from .difference import ciede2000, lab_from_srgb, linear_from_srgb, srgb_from_linear
 from .dithering import PaletteMixer
 from .dominant import SurfaceColours, chosen_palette, surface_colours, texels_at
+from .replacing import replaced, replacements, replacements_text
+from .shares import colour_shares
 from .texels import texel_at
 
 __all__ = [
@@ -13,9 +15,13 @@ __all__ = [
     "SurfaceColours",
     "chosen_palette",
     "ciede2000",
+    "colour_shares",
     "count_texels",
     "lab_from_srgb",
     "linear_from_srgb",
+    "replaced",
+    "replacements",
+    "replacements_text",
     "srgb_from_linear",
     "surface_colours",
     "texel_at",

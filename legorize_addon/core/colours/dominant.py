@@ -9,7 +9,8 @@ formula", Color Research and Application 30(1), 2005.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -22,6 +23,7 @@ from ..mesh import TriangleMesh
 from ..model import Catalogue
 from .counted import Counted, count_colours, packed, unpacked
 from .difference import ciede2000, lab_from_srgb
+from .replacing import replaced
 from .texels import border_table, boxes_varied, texel_at
 
 _SAMPLES: Final = 30_000
@@ -50,6 +52,8 @@ class SurfaceColours:
         the texel to the right or above.
     clamp : (n_images,) bool array
         Whether coordinates outside an image take its edge texel; else it repeats.
+    nearest : (m,) int16 array, optional
+        What stood for each dominant colour before a user replaced brick colours.
     """
 
     centres: Bytes
@@ -57,6 +61,15 @@ class SurfaceColours:
     labels: tuple[Bytes, ...]
     borders: tuple[NDArray[np.int32], ...]
     clamp: Mask
+    nearest: Codes | None = None
+
+    def replaced(self, pairs: Mapping[int, int]) -> SurfaceColours:
+        """Return the same with some brick colours replaced by others, LDraw codes by LDraw codes."""
+        if not pairs:
+            return self
+        codes = replaced(self.codes, pairs)
+        borders = tuple(border_table(codes[labels]) for labels in self.labels)
+        return replace(self, codes=codes, borders=borders, nearest=self.codes)
 
     def at(self, image: NDArray[np.integer], uv: Floats) -> Codes:
         """Return the brick colours at points of the images.

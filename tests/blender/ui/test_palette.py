@@ -8,11 +8,14 @@ import bpy
 import pytest
 
 from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.scene import found_colours, read_bricks
 from legorize_addon.scene.builds import builds
 from legorize_addon.ui import palette
 from legorize_addon.ui.palette import LEGORIZE_OT_palette_colour, codes_of, palette_text, swatch
+from legorize_addon.ui.properties import current_build
 from legorize_addon.ui.settings_properties import settings_of
 from tests.blender.bricks import show, table
+from tests.blender.builders import add_table_on_one_leg
 
 pytestmark = pytest.mark.usefixtures("addon")
 
@@ -97,3 +100,24 @@ def test_greys_come_first_and_hues_in_order() -> None:
     ranked = [colour.name for colour in sorted(CATALOGUE.colours, key=palette._rainbow)]
     order = [ranked.index(name) for name in ("Black", "White", "Red", "Green", "Blue")]
     assert order == sorted(order)
+
+
+def test_a_found_colour_is_replaced() -> None:
+    """A model keeps what was found in the texture; what is chosen for it is in the setting, and in the next model."""
+    add_table_on_one_leg()
+    settings = bpy.context.scene.legorize.settings
+    settings.width, settings.layout = 8, "fast"
+    bpy.ops.legorize.build()
+    first = found_colours(current_build(bpy.context.scene))[0]
+    assert first.nearest == first.code
+    other = 4 if first.code != 4 else 15
+    assert bpy.ops.legorize.replace_colour(code=first.nearest, by=other) == {"FINISHED"}
+    bpy.ops.legorize.build()
+    build = current_build(bpy.context.scene)
+    again = found_colours(build)[0]
+    assert (again.nearest, again.code, again.rgb) == (first.nearest, other, first.rgb)
+    assert other in read_bricks(build).colour
+    assert bpy.ops.legorize.replace_colour(code=first.nearest, by=first.nearest) == {"FINISHED"}
+    assert settings.replace_colours == ""
+    with pytest.raises(RuntimeError, match="Colour 12345"):
+        bpy.ops.legorize.replace_colour(code=first.nearest, by=12345)
