@@ -45,8 +45,9 @@ def test_bodies_are_closed(part: Part, detail: str) -> None:
 @every_detail
 def test_faces_are_flat(part: Part, detail: str) -> None:
     """All corners of a face lie in one plane: a side with a curve, a roof, a bevel."""
-    for face in faces(slope_body(part, detail)):
-        points = slope_body(part, detail).vertices[face]
+    loft = slope_body(part, detail)
+    for face in faces(loft):
+        points = loft.vertices[face]
         assert np.linalg.svd(points - points.mean(axis=0))[1][-1] < 1e-4
 
 

@@ -13,7 +13,7 @@ from legorize_addon.core.files.ldraw import write_ldr
 from legorize_addon.core.ldraw.lines import decoded
 from legorize_addon.core.ldraw.reader import read_file, read_ldraw
 from legorize_addon.core.model.assembly import Assembly
-from tests.core.any_bricks import CATALOGUE, any_bricks, everything, multiset
+from tests.core.any_bricks import CATALOGUE, any_bricks, everything, multiset, table
 
 unhurried = settings(deadline=None, max_examples=50)
 GOLDEN = Path(__file__).parents[2] / "golden" / "catalogue.ldr"
@@ -197,3 +197,18 @@ def test_hostile_bytes_are_read_or_refused(data):
     """Any bytes are text of some kind, or refused in one sentence."""
     found, sentence = attempt(data)
     assert found is not None or sentence.endswith(".")
+
+
+@pytest.mark.parametrize("turn", range(4))
+def test_slopes_in_a_mirror_fall_the_same_way(turn):
+    """A slope is its own image across its width: with that axis mirrored it is read at the same turn."""
+    row = CATALOGUE.part_row("3040b")
+    text = write_ldr(Assembly(table([(row, 3, 2, 0, turn, 4, 0, 0, 0)]), CATALOGUE), name="m.ldr", title="m")
+    [line] = [line for line in text.splitlines() if line.startswith("1 ")]
+    words = line.split()
+    # the first column of the matrix is where LDraw's x goes
+    for place in (5, 8, 11):
+        words[place] = str(-int(words[place]))
+    bricks, _ = read(" ".join(words))
+    assert bricks == read(line)[0] == [("3040b", [3, 2, 0], turn, 4)]
+    assert not read(line)[1]
