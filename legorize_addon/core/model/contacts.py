@@ -20,6 +20,7 @@ from ..arrays import Floats, Mask
 from .bricks import NOBODY as NOBODY
 from .bricks import Bricks
 from .catalogue import Catalogue
+from .parts import Part
 from .profiles import Columns, centre, columns
 
 Rows = NDArray[np.int32]
@@ -122,7 +123,7 @@ def stud_columns(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, Rows]:
         Stud square (x, y) and lowest plate z of the brick there.
     """
     brick, kind, nth = _each(bricks, catalogue)
-    table = _tables(catalogue)
+    table = _tables(catalogue.parts)
     squares = bricks.corner[brick]
     squares[:, :2] += table.xy[kind, nth]
     squares[:, 2] += table.low[kind, nth]
@@ -145,7 +146,7 @@ def column_facts(bricks: Bricks, catalogue: Catalogue) -> Columns:
         All counted from the corner of each brick; arrays of length n_columns.
     """
     _, kind, nth = _each(bricks, catalogue)
-    table = _tables(catalogue)
+    table = _tables(catalogue.parts)
     return Columns(*(getattr(table, name)[kind, nth] for name in Columns.__slots__))
 
 
@@ -170,7 +171,7 @@ def clutches(bricks: Bricks, catalogue: Catalogue, lower: Rows, upper: Rows, squ
     """
     if not len(bricks):
         return np.zeros(len(lower), dtype=bool)
-    stud, socket, place = _places(catalogue)
+    stud, socket, place = _places(catalogue.parts)
     held: Mask = np.ones(len(lower), dtype=bool)
     for rows, there in ((lower, stud), (upper, socket)):
         kind = bricks.part[rows].astype(np.intp) * 4 + bricks.turn[rows]
@@ -188,40 +189,40 @@ def middles(bricks: Bricks, catalogue: Catalogue) -> Floats:
 
 def centres(bricks: Bricks, catalogue: Catalogue) -> Floats:
     """Return the centre of mass of each brick, x and y in studs and z in plates, (n, 3) float64."""
-    return bricks.corner + _centres(catalogue)[bricks.part, bricks.turn]
+    return bricks.corner + _centres(catalogue.parts)[bricks.part, bricks.turn]
 
 
 @lru_cache
-def _centres(catalogue: Catalogue) -> Floats:
+def _centres(parts: tuple[Part, ...]) -> Floats:
     """Return the centre of every part at every turn from its corner, (n_parts, 4, 3)."""
-    return np.array([[centre(part, turn) for turn in range(4)] for part in catalogue.parts])
+    return np.array([[centre(part, turn) for turn in range(4)] for part in parts])
 
 
 def _each(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, NDArray[np.intp], NDArray[np.intp]]:
     """Return the brick, the oriented part, and the number within it of each stud square."""
     kind = bricks.part.astype(np.intp) * 4 + bricks.turn
-    count = _sizes(catalogue)[kind]
+    count = _sizes(catalogue.parts)[kind]
     brick = np.repeat(np.arange(len(bricks), dtype=np.int32), count)
     nth = np.arange(len(brick)) - np.repeat(np.cumsum(count) - count, count)
     return brick, kind[brick], nth
 
 
 @lru_cache
-def _oriented(catalogue: Catalogue) -> tuple[Columns, ...]:
+def _oriented(parts: tuple[Part, ...]) -> tuple[Columns, ...]:
     """Return the columns of every part at every turn."""
-    return tuple(columns(part, turn) for part in catalogue.parts for turn in range(4))
+    return tuple(columns(part, turn) for part in parts for turn in range(4))
 
 
 @lru_cache
-def _sizes(catalogue: Catalogue) -> NDArray[np.intp]:
+def _sizes(parts: tuple[Part, ...]) -> NDArray[np.intp]:
     """Return how many stud squares every part has at every turn, (4 n_parts,)."""
-    return np.array([len(each.xy) for each in _oriented(catalogue)])
+    return np.array([len(each.xy) for each in _oriented(parts)])
 
 
 @lru_cache
-def _tables(catalogue: Catalogue) -> Columns:
+def _tables(parts: tuple[Part, ...]) -> Columns:
     """Return the columns of every part at every turn, arrays of (4 n_parts, most)."""
-    found, most = _oriented(catalogue), _sizes(catalogue).max()
+    found, most = _oriented(parts), _sizes(parts).max()
     made = []
     for name in Columns.__slots__:
         first = getattr(found[0], name)
@@ -233,12 +234,12 @@ def _tables(catalogue: Catalogue) -> Columns:
 
 
 @lru_cache
-def _places(catalogue: Catalogue) -> tuple[Mask, Mask, NDArray[np.intp]]:
+def _places(parts: tuple[Part, ...]) -> tuple[Mask, Mask, NDArray[np.intp]]:
     """Return studs and sockets by place in the boxes of oriented parts, one by one; start and sides of each."""
     studs: list[Mask] = []
     sockets: list[Mask] = []
     place, start = [], 0
-    for each in _oriented(catalogue):
+    for each in _oriented(parts):
         wide, deep = (each.xy.max(axis=0) + 1).tolist()
         for made, there in ((studs, each.stud), (sockets, each.socket)):
             box = np.zeros((wide, deep), bool)

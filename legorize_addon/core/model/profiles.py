@@ -131,11 +131,12 @@ def columns(part: Part, turn: int) -> Columns:
 def _extremes(line: Line, start: Floats) -> tuple[Floats, Floats]:
     """Return the lowest and the highest level of a line in each stud from `start`, steps at its ends left out."""
     found: list[Floats] = []
-    for first in start.tolist():
+    rows, row = np.unique(start, return_inverse=True)
+    for first in rows.tolist():
         inside = [z for x, z in line if first < x < first + 1]
         ends = _level(line, first + np.array([_EDGE, 1 - _EDGE]))
         found.append(np.round([min([*inside, *ends]), max([*inside, *ends])], 6))
-    low, high = np.array(found).T
+    low, high = np.array(found)[row.reshape(-1)].T
     return low, high
 
 
