@@ -21,10 +21,10 @@ def bricks(n: int) -> Bricks:
 
 def test_solid_is_what_must_or_may_be_built():
     """Only empty cells are not solid."""
-    cover = np.array(list(Fill), np.uint8).reshape(1, 3, 1, 1)
+    cover = np.resize(np.array(list(Fill), np.uint8), (2, 3, 1, 1))
     colour = np.where(cover == Fill.EMPTY, COLOUR_EMPTY, COLOUR_ANY).astype(np.int16)
     grid = UnitGrid(colour, cover, np.full_like(cover, Role.INSIDE), np.zeros(3))
-    assert grid.solid.ravel().tolist() == [False, True, True]
+    assert grid.solid.ravel().tolist() == [False, True, True, True, False, True]
 
 
 def test_ground_is_the_first_plane_with_anything():
