@@ -98,6 +98,12 @@ def test_supports_are_of_models_that_need_them(tables):
     assert {row["supports"] for row in found["tables_4_built"]} <= {"taken out", "stay inside", "stay outside"}
 
 
+def test_models_with_supports_of_different_kinds():
+    """A kind that one model does not use is nothing there, and the rows are those of one table."""
+    rows = paper_tables.same_columns([{"model": "one", "1x1": 3}, {"model": "other", "1x1": 2, "2x4x3": 1}])
+    assert rows == [{"model": "one", "1x1": 3, "2x4x3": 0}, {"model": "other", "1x1": 2, "2x4x3": 1}]
+
+
 def rows_of(model, bricks, tree):
     """Return rows of Tables 3, 1 and 4 of a made-up model."""
     row = {"model": model, "hor": 0.1, "tc_s": 1.0, "components": 1, "floating": 0, "nb": 100}

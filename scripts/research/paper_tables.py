@@ -112,7 +112,13 @@ def measure(paths: Sequence[Path], *, width: int, seed: int, repeats: int, minut
     rows["tables_claims"] = claims(
         rows["tables_3"], rows["tables_1"], rows["tables_4"], rows["tables_claim_figures"], FIELD
     )
-    return [Table(name, TITLES[name], tuple(rows[name])) for name in TITLES if rows[name]]
+    return [Table(name, TITLES[name], tuple(same_columns(rows[name]))) for name in TITLES if rows[name]]
+
+
+def same_columns(rows: Sequence[Row]) -> list[Row]:
+    """Return rows that all have the columns of all: a model has no supports of the kinds that it does not use."""
+    columns = dict.fromkeys(name for row in rows for name in row)
+    return [{name: row.get(name, 0) for name in columns} for row in rows]
 
 
 def _texts(path: Path, options: Options) -> Row:
