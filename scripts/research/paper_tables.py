@@ -248,6 +248,9 @@ def whole_build(name: str, build: Build, catalogue: Catalogue) -> Row:
         "method": name,
         "hollowing": rule,
         **figures(model.bricks, model.graph, build.grid, catalogue),
+        # what stands on supports that stay is not in the air
+        "components": build.graph.n_components,
+        "floating": build.graph.n_floating,
         "faults": 0,
         "tc_s": sum(build.timings.get(stage, 0.0) for stage in stages),
         "more_bricks": None,
