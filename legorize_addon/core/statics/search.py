@@ -16,7 +16,7 @@ asked in this way first around what changed, before any projection.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 import numpy as np
@@ -65,13 +65,36 @@ ROUNDING: Final = 1e-6
 Kind = Literal["both", "upright", "all"]
 
 
+@dataclass(frozen=True, slots=True)
+class Work:
+    """How much is tried.
+
+    Attributes
+    ----------
+    aims : tuple of Aim
+        What forces to search for by projections, and for how long.
+    programme : int
+        Bricks up to which a linear programme of all decides in the end; 0 if
+        what is left open then is not worth more projections.
+    rounds : int
+        Linear programmes of few bodies that are tried among forces that may lean.
+    worst_first : bool
+        Whether the worst contacts of the start are asked before all else. A
+        collapse of which they tell is soon found, but it is one of few places.
+    """
+
+    aims: tuple[Aim, ...]
+    programme: int
+    rounds: int = ROUNDS
+    worst_first: bool = False
+
+
 def search(
     equations: Statics,
     graph: ContactGraph,
+    work: Work,
     *,
-    aims: tuple[Aim, ...],
     start: Floats | None = None,
-    programme: int,
     kind: Kind = "both",
     progress: Progress = silent,
 ) -> Balance:
@@ -83,13 +106,10 @@ def search(
         The balance.
     graph : ContactGraph
         Components of the bricks.
-    aims : tuple of Aim
-        What forces to search for, and for how long.
+    work : Work
+        How much is tried.
     start : (k,) float64 array, optional
         Forces in N to start from; if they are a balance, they are the answer.
-    programme : int
-        Bricks up to which a linear programme of all decides in the end; 0 if
-        what is left open then is not worth more projections.
     kind : str
         Whether to look among ``"upright"`` forces, among ``"all"``, or among
         ``"both"``, one after the other.
@@ -111,19 +131,25 @@ def search(
     if is_collapse(equations, motion):
         # a model that tips over as a whole is the slowest to find by search, and the quickest to write down
         return replace(_lightest(equations, reduced, progress), motion=motion, collapse=True, found=False)
+    if work.worst_first and reduced is not None and start is not None:
+        soon = _failing(equations, reduced, start, progress)
+        if soon is not None:
+            return soon
     near = stiff = None
     if reduced is not None:
-        near, stiff = _straight(equations, reduced, aims, start, progress)
+        near, stiff = _straight(equations, reduced, work.aims, start, progress)
         if near.found or kind == "upright":
             return near
         start = near.forces
-    if near is None or stiff is None:
-        found = _projected(equations, aims, start, ROUNDS, progress)
+    if kind == "all" and start is not None:
+        found = _decided(equations, _given(equations, start), None, work.rounds, progress)
+    elif near is None or stiff is None:
+        found = _projected(equations, work.aims, start, work.rounds, progress)
     else:
-        found = _torn(equations, near, stiff, progress)
-    if programme and not (found.found or found.collapse):
-        found = balance(equations, aims=aims, progress=progress)
-        if not (found.found or found.collapse) and len(equations.rows) <= programme:
+        found = _torn(equations, near, stiff, work.rounds, progress)
+    if work.programme and not (found.found or found.collapse):
+        found = balance(equations, aims=work.aims, progress=progress)
+        if not (found.found or found.collapse) and len(equations.rows) <= work.programme:
             progress("stability", 1.0)
             found = _programmed(equations, found)
     return found
@@ -148,12 +174,30 @@ def _straight(
     return Balance(forces, enough, motion, False, found.turns, upright=True), stiff
 
 
-def _torn(equations: Statics, near: Balance, stiff: Ints, progress: Progress) -> Balance:
+def _failing(equations: Statics, reduced: Upright, start: Floats, progress: Progress) -> Balance | None:
+    """Return the collapse that the worst contacts of nearly the same model tell of, if they do.
+
+    A model that was mended at one place mostly fails at another one as it did before.
+    """
+    progress("stability", 0.0)
+    few, forces = reduced.statics, reduced.lowered(start)
+    near = _touching(few)
+    loose = _grown(near, _worst(few, forces) | _unbalanced(few, forces))
+    solved = None if np.count_nonzero(loose) > _most(few) else _balanced(few, _lumps(near, loose))
+    if solved is None or not solved.motion.any():
+        return None
+    torn = least_imbalance(equations, _stiff(few, solved.motion), reserve=RESERVE)
+    if torn is None or not is_collapse(equations, torn.motion):
+        return None
+    return replace(_given(equations, start), motion=torn.motion, collapse=True)
+
+
+def _torn(equations: Statics, near: Balance, stiff: Ints, rounds: int, progress: Progress) -> Balance:
     """Look for any forces where upright ones do not stop a motion: first between the lumps that it tears apart."""
     solved = least_imbalance(equations, stiff, reserve=RESERVE)
     if solved is not None and is_collapse(equations, solved.motion):
         return replace(near, motion=solved.motion, collapse=True, upright=False)
-    return _decided(equations, replace(near, upright=False), None, ROUNDS, progress)
+    return _decided(equations, replace(near, upright=False), None, rounds, progress)
 
 
 def _projected(
@@ -171,8 +215,7 @@ def _projected(
 
 def _changed(equations: Statics, start: Floats, progress: Progress) -> Balance:
     """Look for a proof around the bodies at which forces fail or are out of balance, if these are few."""
-    found = Balance(start, False, np.zeros(len(equations.loads)), False, 0)
-    near = _touching(equations)
+    found, near = _given(equations, start), _touching(equations)
     wrong = _wrong(equations, start)
     if np.count_nonzero(loose := _grown(near, wrong)) > _most(equations):
         return found
@@ -181,6 +224,11 @@ def _changed(equations: Statics, start: Floats, progress: Progress) -> Balance:
     if solved is not None and solved.motion.any():
         return replace(found, motion=solved.motion, collapse=True)
     return _mended(equations, found, near)
+
+
+def _given(equations: Statics, start: Floats) -> Balance:
+    """Return forces of which nothing is known yet."""
+    return Balance(start, False, np.zeros(len(equations.loads)), False, 0)
 
 
 def _most(equations: Statics) -> int:
@@ -208,7 +256,7 @@ def _decided(equations: Statics, found: Balance, plane: Plane | None, rounds: in
         if found.found or found.collapse:
             break
         progress("stability", turn / rounds)
-        more = loose | _grown(near, _worst(equations, found.forces))
+        more = loose | _grown(near, _worst(equations, found.forces) | _unbalanced(equations, found.forces))
         loose = more if (more != loose).any() else _grown(near, loose)
         solved = None if np.count_nonzero(loose) > LOOSE else _balanced(equations, _lumps(near, loose))
         if solved is None:
@@ -255,9 +303,14 @@ def _programmed(equations: Statics, found: Balance) -> Balance:
 
 def _wrong(equations: Statics, forces: Floats) -> Mask:
     """Return the bodies that are out of balance, or have a contact that fails, (n,)."""
-    sums = np.abs(equations.matrix @ forces + equations.loads).reshape(len(equations.rows), -1)
-    wrong: Mask = (sums > RESIDUAL).any(axis=1) | (_missing(equations, forces) > 0)
+    wrong: Mask = _unbalanced(equations, forces) | (_missing(equations, forces) > 0)
     return wrong
+
+
+def _unbalanced(equations: Statics, forces: Floats) -> Mask:
+    """Return the bodies that are out of balance, (n,)."""
+    sums = np.abs(equations.matrix @ forces + equations.loads).reshape(len(equations.rows), -1)
+    return np.asarray((sums > RESIDUAL).any(axis=1))
 
 
 def _missing(equations: Statics, forces: Floats) -> Floats:

@@ -25,7 +25,7 @@ from ..progress import Progress, silent
 from .collapse import is_collapse
 from .equilibrium import AIMS, Aim, Balance, is_equilibrium, residual
 from .forces import EQUATIONS, HOLD, Ground, Statics, statics
-from .search import search
+from .search import ROUNDS, Kind, Work, search
 from .tipping import tipping
 from .transfer import transferred
 
@@ -166,6 +166,11 @@ class Effort:
         model; else it collapses or is undecided without them.
     leaning : bool
         Whether studs alone may bear the model by forces that are not upright.
+    rounds : int
+        Linear programmes of few bodies that are tried: fewer if what is not
+        proven soon is as good as what does not stand.
+    worst_first : bool
+        Whether a collapse at the worst contacts of ``near`` is enough to know.
     """
 
     aims: tuple[Aim, ...] = AIMS
@@ -173,6 +178,8 @@ class Effort:
     programme: int = PROGRAMME
     neighbours: bool = True
     leaning: bool = True
+    rounds: int = ROUNDS
+    worst_first: bool = False
 
 
 FULL: Final = Effort()
@@ -213,11 +220,12 @@ def stability(
     """
     progress("stability", 0.0)
     among = partial(statics, assembly, clutch=clutch, ground=ground, loads=loads)
-    look = partial(search, graph=assembly.graph, aims=effort.aims, programme=effort.programme, progress=progress)
+    work = Work(effort.aims, effort.programme, effort.rounds, effort.worst_first)
+    look = partial(search, graph=assembly.graph, work=work, progress=progress)
     equations = alone = among()
     near = effort.near
     start = None if near is None else transferred(near.statics, near.forces, equations)
-    found = weak = look(equations, start=start, kind="both" if effort.leaning else "upright")
+    found = weak = look(equations, start=start, kind=_kind(effort))
     verdict = _verdict(equations, found)
     if effort.neighbours and verdict is not Verdict.STABLE:
         equations = among(neighbours=True)
@@ -240,6 +248,14 @@ def stability(
         tipping=tipping(equations, assembly.graph),
         statics=equations,
     )
+
+
+def _kind(effort: Effort) -> Kind:
+    """Return among which forces to look: where nearly the same model stands by leaning ones alone, it takes those."""
+    if not effort.leaning:
+        return "upright"
+    near = effort.near
+    return "all" if near is not None and near.stable and not near.upright else "both"
 
 
 def _verdict(equations: Statics, found: Balance, best: Verdict = Verdict.STABLE) -> Verdict:

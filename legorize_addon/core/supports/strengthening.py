@@ -60,7 +60,7 @@ def strengthen(
     for number in range(rounds + 1):
         model = Assembly(bricks, catalogue)
         watched = _as_strength(part(progress, number / (rounds + 1), (number + 1) / (rounds + 1)))
-        effort = Effort(aims=SOON, near=near, programme=0, neighbours=False)
+        effort = Effort(aims=SOON, near=near, programme=0, neighbours=False, worst_first=True)
         near = found = stability(model, clutch=clutch, effort=effort, progress=watched)
         if found.standing is Verdict.STABLE or number == rounds or not len(found.torn):
             break

@@ -9,7 +9,7 @@ from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.statics.equilibrium import AIMS, is_equilibrium
 from legorize_addon.core.statics.forces import Ground
 from legorize_addon.core.statics.region import mended, region
-from legorize_addon.core.statics.search import search
+from legorize_addon.core.statics.search import Work, search
 from scripts.benchmarks.stablelego import stair
 from tests.core.standing import CATALOGUE, equations, table
 
@@ -19,7 +19,7 @@ def proof():
     """Return the balance of a stair, and forces that prove it."""
     bricks = table(*stair(10))
     whole = equations(bricks, ground=Ground.BASEPLATE)
-    return whole, search(whole, contact_graph(bricks, CATALOGUE), aims=AIMS, programme=0).forces
+    return whole, search(whole, contact_graph(bricks, CATALOGUE), Work(AIMS, 0)).forces
 
 
 @pytest.mark.parametrize("chosen", [[0], [3, 4, 5], [0, 9], list(range(10))])

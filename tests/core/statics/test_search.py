@@ -12,7 +12,7 @@ from legorize_addon.core.statics import search as module
 from legorize_addon.core.statics.collapse import is_collapse, least_clutch, least_imbalance
 from legorize_addon.core.statics.equilibrium import AIMS, Aim, is_equilibrium
 from legorize_addon.core.statics.forces import HOLD, Ground
-from legorize_addon.core.statics.search import search
+from legorize_addon.core.statics.search import Work, search
 from legorize_addon.core.statics.upright import upright
 from scripts.benchmarks.stablelego import stair
 from tests.core.standing import CATALOGUE, equations, table
@@ -22,7 +22,7 @@ def looked(bricks, *, aims=AIMS, start=None, programme=600, kind="both", **optio
     """Return the balance of bricks and what the search comes to."""
     found = equations(bricks, **options)
     graph = contact_graph(bricks, CATALOGUE)
-    return found, search(found, graph, aims=aims, start=start, programme=programme, kind=kind)
+    return found, search(found, graph, Work(aims, programme, module.ROUNDS), start=start, kind=kind)
 
 
 def test_upright_forces_are_enough_for_weight() -> None:
@@ -76,11 +76,38 @@ def test_what_changed_is_asked_first(monkeypatch) -> None:
     monkeypatch.setattr(module, "balance", None)
     lost = forces.copy()
     lost[(whole.contacts.on == 15) | (whole.contacts.on == 16)] = -5.0
-    found = search(whole, contact_graph(bricks, CATALOGUE), aims=AIMS, start=lost, programme=0)
+    found = search(whole, contact_graph(bricks, CATALOGUE), Work(AIMS, 0), start=lost)
     assert (found.found, found.turns) == (True, 0)
     assert is_equilibrium(whole, found.forces)
     far = (whole.contacts.on < 7) | (whole.contacts.on > 23)
     np.testing.assert_array_equal(found.forces[far], forces[far])
+
+
+def test_the_worst_contacts_tell_of_the_collapse_that_is_left(monkeypatch) -> None:
+    """From the forces of a stair beside a wall that fall short, its collapse is found without any projection."""
+    bricks, limit = wall()
+    aims = (Aim(0.01, 0.0, 30),)
+    whole, known = looked(bricks, aims=aims, programme=0, clutch=0.9 * limit, ground=Ground.BASEPLATE)
+    assert known.collapse
+    monkeypatch.setattr(module, "balance", None)
+    # nor by all that fails
+    monkeypatch.setattr(module, "_changed", None)
+    found = search(whole, contact_graph(bricks, CATALOGUE), Work(aims, 0, worst_first=True), start=known.forces)
+    assert (found.collapse, found.turns) == (True, 0)
+    assert is_collapse(whole, found.motion)
+
+
+def test_leaning_forces_are_looked_for_from_leaning_ones(monkeypatch) -> None:
+    """Where forces among all kinds are nearly in balance, those around what is lost are asked, and no upright ones."""
+    bricks = table(*stair(17))
+    whole, known = looked(bricks, aims=(Aim(0.01, 0.0, 300),), ground=Ground.BASEPLATE, kind="all")
+    monkeypatch.setattr(module, "upright", None)
+    monkeypatch.setattr(module, "balance", None)
+    lost = known.forces.copy()
+    lost[(whole.contacts.on == 9)] = 0.0
+    found = search(whole, contact_graph(bricks, CATALOGUE), Work((), 0), start=lost, kind="all")
+    assert (found.found, found.turns) == (True, 0)
+    assert is_equilibrium(whole, found.forces)
 
 
 def test_a_tower_that_tips_over_needs_no_search() -> None:
