@@ -50,7 +50,7 @@
   const vertex = `#version 300 es
     in vec3 corner; in vec3 normal; in vec3 place; in vec3 size; in vec4 tone; in vec4 lean; in float axis;
     uniform mat4 camera;
-    out vec3 local; out vec3 extent; out vec3 way; out vec4 paint;
+    out vec3 local; out vec3 extent; out vec3 way; out vec4 paint; out vec3 bare;
     void main() {
       float t = axis > 0.5 ? corner.y : corner.x, run = axis > 0.5 ? size.y : size.x;
       float low = mix(lean.x, lean.y, t) * size.z, high = mix(lean.z, lean.w, t) * size.z;
@@ -58,20 +58,22 @@
       vec3 tipped = normal.z * vec3(axis > 0.5 ? 0.0 : -rise, axis > 0.5 ? -rise : 0.0, 1.0);
       way = abs(normal.z) > 0.5 && abs(rise) > 0.0 ? tipped : normal;
       paint = tone;
+      // no lines across what leans: a curve has many pieces
+      bare = lean.z == lean.w ? vec3(0.0) : axis > 0.5 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
       extent = vec3(size.xy, high - low);
       local = vec3(corner.xy * size.xy, corner.z * (high - low));
       gl_Position = camera * vec4(place + local + vec3(0.0, 0.0, low), 1.0);
     }`;
   const fragment = `#version 300 es
     precision highp float;
-    in vec3 local; in vec3 extent; in vec3 way; in vec4 paint;
+    in vec3 local; in vec3 extent; in vec3 way; in vec4 paint; in vec3 bare;
     uniform float lined; out vec4 colour;
     void main() {
       vec3 n = normalize(way);
       float light = 0.62 + 0.30 * max(dot(n, normalize(vec3(-0.4, -0.7, 0.9))), 0.0) + 0.10 * max(n.z, 0.0);
       vec3 base = paint.rgb * light;
       if (lined > 0.5) {
-        vec3 gap = min(local, extent - local) + step(0.5, abs(way)) * 1000.0;
+        vec3 gap = min(local, extent - local) + (step(0.5, abs(way)) + bare) * 1000.0;
         float near = min(gap.x, min(gap.y, gap.z));
         float wide = max(fwidth(near), 0.02);
         float edge = 1.0 - smoothstep(0.12, 0.12 + 1.2 * wide, near);
