@@ -34,6 +34,7 @@ def play(seen: dict[str, Any]) -> Wait:
     yield from copy_and_remove(sample, seen)
     yield from delete_and_show(sample, seen)
     yield from move_and_rebuild(seen)
+    yield from edit_bricks(seen)
     yield from open_and_list(seen)
 
 
@@ -166,6 +167,95 @@ def move_and_rebuild(seen: dict[str, Any]) -> Wait:
     seen["rebuilt"] = list(build["legorize"]["root"].location)
     seen["heat_map"] = bpy.context.scene.legorize.heat_map
     screenshot("11-rebuilt")
+
+
+def edit_bricks(seen: dict[str, Any]) -> Wait:
+    """Choose the tool, pick bricks by clicks, recolour and lock them in the menu, take the last one back by a key."""
+    bpy.context.scene.legorize.heat_map = False
+    area = view_area()
+    with bpy.context.temp_override(window=window(), area=area, region=region_of(area, "WINDOW")):
+        bpy.ops.wm.tool_set_by_id(name="legorize.edit_bricks")
+    frame_all(area)
+    yield 1.0
+    found: list[tuple[int, int]] = []
+    for x, y in around_the_middle(area):
+        yield from click("LEFTMOUSE", x, y)
+        if picked():
+            found.append((x, y))
+            break
+    seen["picked"] = [len(picked())]
+    first = picked()
+    for x, y in around_the_middle(area):
+        yield from click("LEFTMOUSE", x, y, shift=True)
+        if len(picked()) == 2:
+            break
+        if picked() != first:
+            # the same brick once more takes it out again
+            yield from click("LEFTMOUSE", *found[0], shift=True)
+    seen["picked"].append(len(picked()))
+    screenshot("13-picked")
+    x, y = found[0]
+    yield from click("RIGHTMOUSE", x, y)
+    yield 0.7
+    screenshot("14-menu")
+    yield from key("L", x, y)
+    yield 1.0
+    seen["locked"] = listed()
+    yield from click("LEFTMOUSE", x, y)
+    yield from click("RIGHTMOUSE", x, y)
+    yield 0.7
+    yield from key("R", x, y)
+    yield 0.7
+    screenshot("15-colours")
+    for away in range(24, 120, 12):
+        yield from click("LEFTMOUSE", x - 60, y - away)
+        if len(listed()) > len(seen["locked"]):
+            break
+    yield 1.0
+    seen["recoloured"] = listed()
+    screenshot("16-recoloured")
+    yield from press("Z", ctrl=True)
+    yield 1.0
+    seen["edit_undone"] = listed()
+    yield from click_button(seen)
+    yield from wait_until(lambda: not running())
+    yield 1.0
+    seen["edits_rebuilt"] = listed()
+    screenshot("17-rebuilt-with-edits")
+
+
+def around_the_middle(area: Any) -> Iterator[tuple[int, int]]:
+    """Yield places in a 3D viewport, its middle first."""
+    region = region_of(area, "WINDOW")
+    for away in range(0, 240, 24):
+        for dx, dy in ((0, 0), (away, 0), (-away, 0), (0, away), (0, -away)):
+            yield region.x + region.width // 2 - 100 + dx, region.y + region.height // 2 + dy
+
+
+def click(button: str, x: int, y: int, *, shift: bool = False) -> Wait:
+    """Click at a place of the window."""
+    simulate("MOUSEMOVE", "NOTHING", x, y)
+    yield 0.2
+    for value in ("PRESS", "RELEASE"):
+        window().event_simulate(type=button, value=value, x=x, y=y, shift=shift)
+        yield 0.1
+
+
+def key(name: str, x: int, y: int) -> Wait:
+    """Press a key with the mouse at a place."""
+    for value in ("PRESS", "RELEASE"):
+        window().event_simulate(type=name, value=value, x=x, y=y)
+        yield 0.1
+
+
+def picked() -> list[int]:
+    """Return the rows of the picked bricks."""
+    return list(builds()[-1]["legorize"].get("picked", ()))
+
+
+def listed() -> list[list[str]]:
+    """Return the kind of each change by hand, and why it does not fit."""
+    return [[row.kind, row.reason] for row in builds()[-1].legorize_edits]
 
 
 def build_small(seen: dict[str, Any]) -> Wait:

@@ -177,6 +177,16 @@ def test_moved_model_is_built_again_where_it_is(seen: dict[str, Any]) -> None:
     assert seen["heat_map"]
 
 
+def test_bricks_are_edited_by_clicks(seen: dict[str, Any], place: Path) -> None:
+    """Two bricks are picked and locked, one recoloured; Ctrl-Z takes a change back, and a build makes the others."""
+    assert seen["picked"] == [1, 2]
+    assert seen["locked"] == [["lock", ""]] * 2
+    assert [kind for kind, _ in seen["recoloured"]][-1] == "recolour"
+    assert seen["edit_undone"] == seen["locked"] == seen["edits_rebuilt"]
+    orange = np.abs(viewport(place, "13-picked", seen["region"]) - (255, 140, 0)).max(axis=-1) < 60
+    assert orange.sum() > 100
+
+
 def test_escape_cancels(seen: dict[str, Any]) -> None:
     """Esc ends a big run and leaves the scene as it was."""
     assert seen["cancelled"] == seen["before"]
