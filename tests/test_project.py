@@ -19,6 +19,7 @@ READERS = (
         "pipeline",
         "drafting",
         "existing",
+        "run",
         "stages",
         "strength",
         "slope_stages",

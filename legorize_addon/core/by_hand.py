@@ -11,7 +11,7 @@ import numpy as np
 from .edits import Edits, Outcome, apply_edits, outcomes_of
 from .layout.problem import owners, with_margins
 from .model import COLOUR_EMPTY, NOBODY, Assembly, Bricks, Catalogue, Fill, Role, UnitGrid, contact_graph
-from .stages import Run
+from .run import Run
 
 OTHER_GRID: Final = "the model has another size now, or lies otherwise in its grid"
 

@@ -13,10 +13,18 @@ from .mesh import TriangleMesh
 from .model import UnitGrid
 from .native import watched
 from .progress import Overall, Progress, silent
+from .run import Run
 from .settings import Settings
-from .shell import make_cohesive
-from .slicing import link_loops
-from .stages import Run, close_overhangs, cut_mesh, find_colours, hollow_out, make_unit_grid, place_grid, prepare_mesh
+from .stages import (
+    close_overhangs,
+    cut_mesh,
+    find_colours,
+    hollow_out,
+    link_slices,
+    make_unit_grid,
+    place_grid,
+    prepare_mesh,
+)
 from .unit_bricks import add_feet
 
 STAGES: Final = ("mesh", "colours", "slicing", "trajectories", "unit bricks", "overhangs", "hollowing")
@@ -74,22 +82,22 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
     remarks : tuple of str
         On parts of the mesh that cannot be seen, on another size, and on feet.
     """
-    settings, plates = run.settings, run.settings.plates != "none"
     with run.stage("mesh"):
-        mesh, repairs, turn, scale, unseen = prepare_mesh(run, given)
-        mesh, scale, frame, sized = place_grid(run, mesh, scale)
+        mesh, repairs, turn, scale, unseen = run.once(prepare_mesh, given)
+        mesh, scale, frame, sized = run.once(place_grid, mesh, scale)
     with run.stage("colours"):
-        surface = find_colours(run, mesh, given)
+        surface = run.once(find_colours, mesh, given)
     with run.stage("slicing"):
-        cut = cut_mesh(run, mesh, surface, frame)
+        cut = run.once(cut_mesh, mesh, surface, frame)
     with run.stage("trajectories"):
-        trajectories = link_loops(mesh, cut.slices, surface, chord_deviation=settings.chord_deviation)
+        trajectories = run.once(link_slices, mesh, cut, surface)
     with run.stage("unit bricks"):
-        grid, feet = stand_up(run, make_unit_grid(run, mesh, repairs, trajectories, surface, frame, cut))
+        grid = run.once(make_unit_grid, mesh, repairs, trajectories, surface, frame, cut)
+        grid, feet = run.once(stand_up, grid)
     with run.stage("overhangs"):
-        grid, offsets = close_overhangs(run, grid)
+        grid, offsets = run.once(close_overhangs, grid)
     with run.stage("hollowing"):
-        shell = make_cohesive(hollow_out(run, grid), plates=plates)
+        shell = run.once(hollow_out, grid)
     made = Draft(
         mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut, trajectories=trajectories,
         offsets=offsets, grid=grid, hollow=shell,

@@ -12,7 +12,8 @@ import numpy as np
 from .layout import as_good, cells_of, lay_again
 from .ldraw import LdrawModel
 from .model import Assembly, Bricks, Catalogue, Role, column_facts, contact_graph, stud_columns
-from .stages import Run, lay_freely
+from .run import Run
+from .stages import lay_freely
 from .strength import strengthen_joints
 from .supports import AssemblyPlan, plan_as_given, plan_assembly
 

@@ -25,8 +25,8 @@ from .mosaic import (
     wall_of,
     winning_colours,
 )
+from .run import Run
 from .settings import Settings
-from .stages import Run
 from .units import BRICK, STUD
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from .beyond import Beyond, beyond_paper
 from .build import Build, Draft, Judged, Mosaic
-from .building import Proof, prove_steps
+from .building import Proof
 from .by_hand import ByHand, edit_bricks
 from .drafting import drafted, stand_up
 from .edits import NO_EDITS, Edits
@@ -26,11 +26,10 @@ from .existing import (
     without_overlaps,
 )
 from .fitting import fit
-from .layout import recolour_visible
-from .layout.joining import add_ties
 from .limits import check_limits, check_size
+from .memo import Trial
 from .mesh import TriangleMesh
-from .model import Assembly, Bricks, Role, UnitGrid, contact_graph
+from .model import Assembly, Bricks, Role, UnitGrid
 from .mosaic import Covered, Picture
 from .mosaic_estimate import estimate_mosaic
 from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic, wall_cells
@@ -47,19 +46,38 @@ from .report import (
     remarks_on_proof,
     remarks_on_split,
 )
+from .run import Run
 from .settings import Settings
 from .shortage import with_enough_parts
 from .slope_stages import find_slopes, lay_with_slopes
-from .stages import Run, hollow_by, make_plan
-from .statics import Stability, stability
+from .stages import cut_pieces, hollow_by, make_plan
+from .statics import Stability
 from .stock import Owned
-from .strength import brace, carry, check_stability, check_strong, strengthen_joints, take_fewer_lots
-from .supports import AssemblyPlan, segment
+from .strength import (
+    brace,
+    carry,
+    check_final,
+    check_stability,
+    check_strong,
+    prove,
+    show_colours,
+    strengthen_joints,
+    take_fewer_lots,
+    tie_parts,
+)
+from .supports import AssemblyPlan
 from .unit_bricks import remarks_on_dithering
 
 
 @enough_memory()
-def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent, *, edits: Edits = NO_EDITS) -> Build:
+def legorize(
+    mesh: TriangleMesh,
+    settings: Settings,
+    progress: Progress = silent,
+    *,
+    edits: Edits = NO_EDITS,
+    trial: Trial | None = None,
+) -> Build:
     """Turn a textured mesh into a brick model.
 
     Parameters
@@ -72,6 +90,8 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
         is done, which never decreases.
     edits : Edits, optional
         Changes by hand, which are made again.
+    trial : Trial, optional
+        Of a memo: what earlier runs have found is taken over where it would be found again. The result is the same.
 
     Returns
     -------
@@ -82,30 +102,32 @@ def legorize(mesh: TriangleMesh, settings: Settings, progress: Progress = silent
     LegorizeError
         The mesh or the settings cannot be used, in one sentence.
     """
-    make = partial(with_enough_parts, partial(_legorize, edits))
+    make = partial(with_enough_parts, partial(_legorize, edits, trial=trial))
     if settings.size_by in COUNTED:
         return watched(partial(fit, mesh, settings, make), progress)
     return watched(partial(make, mesh, settings), progress)
 
 
-def _legorize(edits: Edits, mesh: TriangleMesh, settings: Settings, progress: Progress) -> Build:
+def _legorize(
+    edits: Edits, mesh: TriangleMesh, settings: Settings, progress: Progress, trial: Trial | None = None
+) -> Build:
     """Go through the stages."""
     check_limits(expected := estimate(mesh, settings), settings)
-    run = Run.of(settings, Overall(expected.stages, progress))
+    run = Run.of(settings, Overall(expected.stages, progress), trial)
     made, told = drafted(run, mesh)
     slopes = None
     if settings.surface == "slopes":
         with run.stage("surface"):
-            slopes = find_slopes(run, made)
+            slopes = run.once(find_slopes, made)
     assembly, shell, found, by_hand = _put_up(run, made.hollow, edits, made.scale, slopes)
     with run.stage("pieces"):
-        assembly, found, exchanged = take_fewer_lots(run, assembly, found)
-        assembly, joints = segment(assembly, most=settings.split, deepest=settings.hanging)
+        assembly, found, exchanged = run.once(take_fewer_lots, assembly, found)
+        assembly, joints = run.once(cut_pieces, assembly)
     with run.stage("supports"):
-        plan = make_plan(run, assembly)
+        plan = run.once(make_plan, assembly)
     if len(plan.final) > len(assembly):
         with run.stage("stability again"):
-            found = stability(plan.final, clutch=settings.clutch, progress=run.progress)
+            found = run.once(check_final, plan.final)
     proof = _prove(run, plan)
     beyond = _beyond_paper(run, made, plan)
     run.progress.finish()
@@ -137,26 +159,26 @@ def _put_up(
     run: Run, shell: UnitGrid, edits: Edits, scale: float, slopes: Bricks | None = None
 ) -> tuple[Assembly, UnitGrid, Stability, ByHand]:
     """Lay the bricks of cells around slopes, edit them, and let them hold and stand; return their cells as well."""
-    plates = run.settings.plates != "none"
     with run.stage("layout"):
-        bricks, shell = lay_with_slopes(run, shell, slopes)
+        bricks, shell = run.once(lay_with_slopes, shell, slopes)
     with run.stage("ties"):
         before = len(bricks)
-        bricks, shell = add_ties(bricks, shell, run.parts.joining, plates=plates)
+        bricks, shell = run.once(tie_parts, bricks, shell)
         run.ties.append(len(bricks) - before)
     with run.stage("strengthening"):
-        bricks, shell, sparing = strengthen_joints(run, bricks, shell)
-        bricks = recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue)
+        bricks, shell, sparing = run.once(strengthen_joints, bricks, shell)
+        bricks = run.once(show_colours, bricks, shell)
     by_hand = ByHand(edits, {}, bricks)
     if edits.edits:
         with run.stage("edits"):
+            # whether it returns the same object says whether there was anything to edit: no work for a memo
             laid, (bricks, shell, by_hand) = bricks, edit_bricks(run, edits, scale, bricks, shell)
             sparing = sparing if bricks is laid else None
     with run.stage("stability"):
-        assembly = carry(run, Assembly(bricks, run.catalogue))
-        found = check_strong(run, assembly, sparing)
+        assembly = run.once(carry, Assembly(bricks, run.catalogue))
+        found = run.once(check_strong, assembly, sparing)
     with run.stage("bracing"):
-        assembly, found = brace(run, assembly, found, sparing)
+        assembly, found = run.once(brace, assembly, found, sparing)
     return assembly, shell, found, by_hand
 
 
@@ -203,7 +225,7 @@ def _legorize_image(picture: Picture, settings: Settings, progress: Progress) ->
             assembly, told = Assembly(covered.bricks, run.catalogue), ()
             found = check_stability(run, assembly, None)
     with run.stage("supports"):
-        plan = make_plan(run, assembly)
+        plan = run.once(make_plan, assembly)
     proof = _prove(run, plan)
     run.progress.finish()
     notes = (*told, *remarks_on_mosaic(picture, canvas, covered), *_notes(run, found, plan, proof, run.parts.owned))
@@ -276,7 +298,7 @@ def _judge(
     if len(final) > len(assembly.take(bricks.role != Role.SUPPORT_OUTSIDE)):
         notes += ("Pillars that stay were added, without which the model cannot be built.",)
     with run.stage("stability"):
-        found = stability(final, clutch=settings.clutch, progress=run.progress)
+        found = check_final(run, final)
     proof = _prove(run, plan)
     run.progress.finish()
     told = _notes(run, found, plan, proof, owned)
@@ -292,7 +314,7 @@ def _prove(run: Run, plan: AssemblyPlan) -> Proof | None:
     if not run.settings.prove_steps:
         return None
     with run.stage("proof"):
-        return prove_steps(plan.steps, plan.assembly, clutch=run.settings.clutch, progress=run.progress)
+        return run.once(prove, plan)
 
 
 def _notes(run: Run, found: Stability, plan: AssemblyPlan, proof: Proof | None, owned: Owned | None) -> tuple[str, ...]:

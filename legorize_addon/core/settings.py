@@ -273,6 +273,11 @@ class Settings:
         if self.hollow_rule == "upper" and not self.hollow:
             raise SettingsError("hollow_rule is 'upper' but hollow is off: turn hollow on, or set the rule to 'both'.")
 
+    @property
+    def supported(self) -> bool:
+        """Whether there may be supports at all."""
+        return self.supports != "none"
+
 
 def setting_type(entry: Field[Any]) -> Any:
     """Return the resolved type of a setting: bool, int, float, str or a Literal."""

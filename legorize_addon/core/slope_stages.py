@@ -8,8 +8,9 @@ from .build import Draft
 from .layout import Manner, lay_around_slopes, lay_fixed
 from .layout.joining import add_ties
 from .model import Bricks, UnitGrid
+from .run import Run
 from .slopes import choose_slopes
-from .stages import Run, filler_of, lay_bricks
+from .stages import lay_bricks
 
 
 def find_slopes(run: Run, made: Draft) -> Bricks:
@@ -33,7 +34,7 @@ def lay_with_slopes(run: Run, shell: UnitGrid, slopes: Bricks | None) -> tuple[B
     layout = run.settings.layout
     if slopes is None or not len(slopes) or layout == "learned":
         return lay_bricks(run, shell)
-    manner, filler = Manner(layout, run.exchanges), filler_of(run.palette, run.catalogue)
+    manner, filler = Manner(layout, run.exchanges), run.filler
 
     def lay(grid: UnitGrid, fixed: Bricks) -> tuple[Bricks, UnitGrid]:
         there = partial(lay_fixed, grid, fixed=fixed, manner=manner, rng=run.rng, filler=filler, progress=run.progress)

@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
-from typing import Self
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .arrays import Floats, Mask
 from .build import Cut
-from .colours import SurfaceColours, chosen_palette, count_texels, replaced, replacements, surface_colours
-from .estimate import AGAIN
-from .layout import FILLER, Alike, Manner, lay, lay_learned
-from .layout.learning import NO_EXCHANGES, FillLog, grades_text, learned_table, samples_text
+from .colours import Dominant, SurfaceColours, count_texels, image_colours, replaced, replacements
+from .layout import Alike, Manner, lay, lay_learned
+from .layout.learning import FillLog
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
-from .model import COLOUR_ANY, Assembly, Bricks, Catalogue, Fill, UnitGrid, load_catalogue
-from .part_choice import PartChoice
-from .progress import Overall, Progress, silent
+from .model import COLOUR_ANY, Assembly, Bricks, Catalogue, Fill, UnitGrid
+from .progress import Progress, silent
+from .run import Run
 from .settings import Settings
-from .shell import hollow
+from .shell import hollow, make_cohesive
 from .slicing import (
     LEEWAY,
     Grid,
@@ -34,15 +31,18 @@ from .slicing import (
     differing_layers,
     fit_grid,
     levels_of,
+    link_loops,
     slice_mesh,
 )
 from .supports import (
     INSIDE_COLOUR,
     AssemblyPlan,
+    Joint,
     Wish,
     of_the_paper,
     parts_of_supports,
     plan_assembly,
+    segment,
 )
 from .texturing import reduce_images, remarks_on_unseen, seen_part
 from .unit_bricks import (
@@ -57,61 +57,6 @@ from .unit_bricks import (
     unit_bricks,
 )
 from .units import PLATES_PER_BRICK
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Run:
-    """What all stages of a run are given.
-
-    Attributes
-    ----------
-    settings : Settings
-    catalogue : Catalogue
-    parts : PartChoice
-        What the layout prefers.
-    palette : (n,) int16 array
-        Codes of the colours to use.
-    exchanges : (4, 16, 16, 24) bool array or None
-        What the quick layout exchanges; None for what was learned from the
-        shipped samples.
-    rng : numpy.random.Generator
-    progress : Overall
-        Of the stage at work.
-    timings : dict of str to float
-        CPU seconds of the stages that are done.
-    learning : list of str
-        What was done in each step of the learned fill.
-    ties : list of int
-        How many more parts there are since parts were tied.
-    """
-
-    settings: Settings
-    catalogue: Catalogue
-    parts: PartChoice
-    palette: NDArray[np.int16]
-    exchanges: Mask | None
-    rng: np.random.Generator
-    progress: Overall
-    timings: dict[str, float]
-    learning: list[str]
-    ties: list[int]
-
-    @classmethod
-    def of(cls, settings: Settings, progress: Overall) -> Self:
-        """Return a run that begins."""
-        catalogue = load_catalogue()
-        palette = chosen_palette(settings.palette, catalogue)
-        parts, rng = PartChoice.of(settings, catalogue), np.random.default_rng(settings.seed)
-        return cls(settings, catalogue, parts, palette, _exchanges(settings), rng, progress, {}, [], [])
-
-    @contextmanager
-    def stage(self, name: str) -> Iterator[None]:
-        """Announce a stage and note its CPU seconds; a repeated stage is added to the first one."""
-        shown = name.removesuffix(AGAIN)
-        start = time.process_time()
-        with self.progress.stage(name, shown=shown):
-            yield
-        self.timings[shown] = self.timings.get(shown, 0.0) + time.process_time() - start
 
 
 def _in_plates(settings: Settings) -> bool:
@@ -164,20 +109,24 @@ def find_colours(run: Run, mesh: TriangleMesh, given: TriangleMesh) -> SurfaceCo
     Where every texel counts once, these are the texels of the mesh that was
     given that alpha does not hide.
     """
+    found = run.once(find_dominant, mesh, given)
+    settings = run.settings
+    surface = found.as_bricks(run.catalogue, palette=run.palette, one_to_one=settings.one_to_one)
+    # what is mixed from the palette is replaced when it is mixed
+    if settings.dithering != "none":
+        return surface
+    return surface.replaced(replacements(settings.replace_colours, run.catalogue))
+
+
+def find_dominant(run: Run, mesh: TriangleMesh, given: TriangleMesh) -> Dominant:
+    """Return the dominant colours of all texels that count."""
     settings = run.settings
     every = settings.sampling == "image"
-    found = surface_colours(
+    return image_colours(
         mesh,
-        run.catalogue,
         n_colours=min(settings.colours, len(run.palette)) if settings.one_to_one else settings.colours,
-        palette=run.palette,
-        one_to_one=settings.one_to_one,
         rng=run.rng,
         texels=count_texels(given.images, given.opacities, least=settings.least_alpha or 0.5) if every else None,
-    )
-    # what is mixed from the palette is replaced when it is mixed
-    return (
-        found if settings.dithering != "none" else found.replaced(replacements(settings.replace_colours, run.catalogue))
     )
 
 
@@ -201,6 +150,11 @@ def _marked(marks: Marks | None, frame: Grid, settings: Settings) -> Mask | None
     if settings.plates == "all":
         return np.ones(frame.n_layers, dtype=bool)
     return None if marks is None else marks.any
+
+
+def link_slices(run: Run, mesh: TriangleMesh, cut: Cut, surface: SurfaceColours) -> Trajectories:
+    """Return the coloured loops of the slices."""
+    return link_loops(mesh, cut.slices, surface, chord_deviation=run.settings.chord_deviation)
 
 
 def make_unit_grid(
@@ -255,8 +209,8 @@ def close_overhangs(run: Run, grid: UnitGrid) -> tuple[UnitGrid, Offsets]:
 
 
 def hollow_out(run: Run, grid: UnitGrid) -> UnitGrid:
-    """Return the required and the optional cells."""
-    return hollow_by(run.settings, grid, run.progress)
+    """Return the required and the optional cells of a shell that hangs together."""
+    return make_cohesive(hollow_by(run.settings, grid, run.progress), plates=_in_plates(run.settings))
 
 
 def hollow_by(settings: Settings, grid: UnitGrid, progress: Progress = silent) -> UnitGrid:
@@ -279,11 +233,10 @@ def lay_freely(run: Run, shell: UnitGrid) -> Bricks:
     settings, log = run.settings, FillLog()
     way: Callable[..., Bricks]
     if settings.layout == "learned":
-        way = partial(lay_learned, learned_from=settings.learned_from, log=log)
+        way = partial(lay_learned, learned_from=settings.learned_from if run.training else "", log=log)
     else:
         way = partial(lay, tier=settings.layout, exchanges=run.exchanges)
-    filler = filler_of(run.palette, run.catalogue)
-    bricks = run.parts.laid(partial(way, shell, rng=run.rng, filler=filler, progress=run.progress))
+    bricks = run.parts.laid(partial(way, shell, rng=run.rng, filler=run.filler, progress=run.progress))
     if settings.layout == "learned":
         run.learning[:] = log.sentences(shell, sum(run.timings.values()), len(bricks))
     return bricks
@@ -292,25 +245,36 @@ def lay_freely(run: Run, shell: UnitGrid) -> Bricks:
 def lay_bricks(run: Run, shell: UnitGrid) -> tuple[Bricks, UnitGrid]:
     """Lay the bricks, and the halves of a symmetric model alike; return the cells that they cover as well."""
     run.parts.check_volume(int(np.count_nonzero(shell.cover == Fill.REQUIRED)))
-    bricks = lay_freely(run, shell)
+    bricks = run.once(lay_freely, shell)
     if run.settings.layout == "learned":
         # the energies of its machine have the mirror images
         return bricks, shell
     # where parts differ in price or weight, or few are owned, their number does not say what a layout costs
     if not run.settings.symmetric or run.parts.minds_lots:
         return bricks, shell
-    manner, burden = Manner(run.settings.layout, run.exchanges), partial(_parts_of_supports, run)
-    filler = filler_of(run.palette, run.catalogue)
-    return Alike(shell, run.parts.catalogue, rng=run.rng, manner=manner, filler=filler, burden=burden).lay(
-        bricks, run.progress
-    )
+    return _alike(run, shell).better(bricks, run.once(lay_halves, shell))
+
+
+def lay_halves(run: Run, shell: UnitGrid) -> tuple[Bricks, UnitGrid] | None:
+    """Lay the halves of a symmetric model alike, whatever that costs; return the cells that they cover as well."""
+    return _alike(run, shell).offer(run.progress)
+
+
+def _alike(run: Run, shell: UnitGrid) -> Alike:
+    manner, burden = Manner(cast("Any", run.settings.layout), run.exchanges), partial(_parts_of_supports, run)
+    return Alike(shell, run.parts.catalogue, rng=run.rng, manner=manner, filler=run.filler, burden=burden)
 
 
 def _parts_of_supports(run: Run, bricks: Bricks) -> float:
     """Return about how many parts supports of a layout take."""
-    if run.settings.supports == "none":
+    if not run.settings.supported:
         return 0.0
     return parts_of_supports(Assembly(bricks, run.catalogue), deepest=run.settings.hanging)
+
+
+def cut_pieces(run: Run, assembly: Assembly) -> tuple[Assembly, tuple[Joint, ...]]:
+    """Cut the model into pieces where that saves supports."""
+    return segment(assembly, most=run.settings.split, deepest=run.settings.hanging)
 
 
 def make_plan(run: Run, assembly: Assembly) -> AssemblyPlan:
@@ -322,24 +286,6 @@ def make_plan(run: Run, assembly: Assembly) -> AssemblyPlan:
         """Plan with supports of a kind, and of the parts of a catalogue if there is one."""
         catalogue = of_the_paper(catalogue or run.catalogue) if few else catalogue
         model = assembly if catalogue is None else Assembly(assembly.bricks, catalogue)
-        return planned(model, wish=wish, progress=run.progress)
+        return planned(model, wish=wish, progress=run.progress, recall=run.recall)
 
     return run.parts.supplied(plan, settings.supports)
-
-
-def _exchanges(settings: Settings) -> Mask | None:
-    """Return what was learned from the user's own samples, if that is asked for, or nothing."""
-    if settings.learned_from and settings.layout == "fast" and settings.learned:
-        return learned_table(settings.learned_from)
-    if settings.learned_from:
-        # a wrong file is reported now, not when another layout is chosen
-        (grades_text if settings.layout == "learned" else samples_text)(settings.learned_from)
-    return None if settings.learned else NO_EXCHANGES
-
-
-def filler_of(palette: NDArray[np.int16], catalogue: Catalogue) -> int:
-    """Return the colour of hidden bricks: the usual one, or the colour of the palette in which most parts exist."""
-    if FILLER in palette:
-        return FILLER
-    made = catalogue.exists_in(np.flatnonzero(catalogue.used_for("model"))[:, None], palette).sum(axis=0)
-    return int(palette[made.argmax()])

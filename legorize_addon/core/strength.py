@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from .model import Assembly, Bricks, UnitGrid, Verdict
-from .stages import Run
+from .building import Proof, prove_steps
+from .layout import recolour_visible
+from .layout.joining import add_ties
+from .model import Assembly, Bricks, UnitGrid, Verdict, contact_graph
+from .run import Run
 from .statics import PROGRAMME, Effort, Stability, stability
-from .supports import add_bracing, add_pillars, of_the_paper, strengthen
+from .supports import AssemblyPlan, add_bracing, add_pillars, of_the_paper, strengthen
+
+
+def tie_parts(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid]:
+    """Join parts that hang together by themselves alone; return the cells that the bricks cover as well."""
+    return add_ties(bricks, shell, run.parts.joining, plates=run.settings.plates != "none")
 
 
 def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid, Stability | None]:
@@ -22,9 +30,14 @@ def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks
     )
 
 
+def show_colours(run: Run, bricks: Bricks, shell: UnitGrid) -> Bricks:
+    """Give hidden bricks the colours of what is seen of them."""
+    return recolour_visible(bricks, shell, contact_graph(bricks, run.catalogue), run.catalogue)
+
+
 def carry(run: Run, assembly: Assembly) -> Assembly:
     """Put pillars under what floats, if there may be supports."""
-    if run.settings.supports == "none":
+    if not run.settings.supported:
         return assembly
     if run.settings.support_parts == "all":
         return add_pillars(assembly)
@@ -37,7 +50,7 @@ def check_strong(run: Run, assembly: Assembly, sparing: Stability | None) -> Sta
     What else is None: pillars will stand there, and this is soon known of the model with them.
     """
     known = _known(sparing, assembly)
-    if run.settings.supports != "none" and known is not None and known.standing is not Verdict.STABLE:
+    if run.settings.supported and known is not None and known.standing is not Verdict.STABLE:
         return None
     return check_stability(run, assembly, sparing)
 
@@ -52,7 +65,7 @@ def check_stability(run: Run, assembly: Assembly, near: Stability | None) -> Sta
 
     Where there may be pillars, it is not asked yet whether neighbours hold what studs do not.
     """
-    alone = run.settings.supports == "none"
+    alone = not run.settings.supported
     effort = Effort(near=near, programme=PROGRAMME if alone else 0, neighbours=alone)
     return stability(assembly, clutch=run.settings.clutch, effort=effort, progress=run.progress)
 
@@ -65,7 +78,7 @@ def brace(
     How the layout stands with something to spare is known from its ties.
     """
     settings = run.settings
-    if found is None or (settings.supports != "none" and settings.strengthen):
+    if found is None or (settings.supported and settings.strengthen):
         options = {"clutch": settings.clutch, "spare": settings.spare}
         known = _known(sparing, assembly)
         assembly, found = add_bracing(assembly, found, known=known, **options, progress=run.progress)
@@ -87,3 +100,13 @@ def take_fewer_lots(run: Run, assembly: Assembly, found: Stability) -> tuple[Ass
     if (found.stable and not tested.stable) or (found.stands and not tested.stands):
         return assembly, found, ()
     return other, stability(other, clutch=run.settings.clutch, effort=Effort(near=tested)), (sentence,)
+
+
+def check_final(run: Run, assembly: Assembly) -> Stability:
+    """Test the model with all that stays in it by force."""
+    return stability(assembly, clutch=run.settings.clutch, progress=run.progress)
+
+
+def prove(run: Run, plan: AssemblyPlan) -> Proof:
+    """Test every building step by forces."""
+    return prove_steps(plan.steps, plan.assembly, clutch=run.settings.clutch, progress=run.progress)

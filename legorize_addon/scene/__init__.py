@@ -47,7 +47,7 @@ from .kept_edits import bricks_text, read_bricks_text
 from .lettering import title_for
 from .model import Model, Source
 from .part_meshes import PART_KEY, Detail, detail_of, parts_collection, parts_in_use, set_detail
-from .placing import layer_collections, world_from_mm
+from .placing import layer_collections, stand_beside, world_from_mm
 from .section import AXES, Section, beyond, hidden_side, place_plane
 from .shared_parts import own_parts, sweep
 from .state import state_of
@@ -129,6 +129,7 @@ __all__ = [
     "show_orphans",
     "show_sources",
     "sources_of",
+    "stand_beside",
     "state_of",
     "steps_of",
     "sweep",

@@ -9,11 +9,16 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-from .builds import damage
+from ..core.units import STUD
+from .builds import builds, damage, sources_of
 from .state import BuildState, state_of
 
 ROUNDING: Final = 1e-5
 """What 32 bits may lose of the place of an object that nobody moved, as a share."""
+
+
+GAP: Final = 4 * STUD
+"""Between builds side by side, in mm."""
 
 
 class Place(NamedTuple):
@@ -77,6 +82,43 @@ def world_from_mm(build: bpy.types.Collection) -> Matrix:
 def upright(origin: Sequence[float], unit_per_mm: float) -> Matrix:
     """Return where a root stands that nobody moved, if its place in the model is at an origin in mm of the object."""
     return Matrix.LocRotScale(Vector(origin) * unit_per_mm, None, Vector([unit_per_mm] * 3))
+
+
+def stand_beside(scene: bpy.types.Scene, build: bpy.types.Collection, other: bpy.types.Collection) -> None:
+    """Let a build stand beside another one and all that stand beside that already, moved and turned as it is.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        Of both.
+    build : bpy.types.Collection
+        A new one of the same objects.
+    other : bpy.types.Collection
+        The one beside which it shall stand.
+    """
+    root, beside = state_of(build).root, state_of(other).root
+    place, own = Place.after(scene, [other]), root.matrix_basis.copy()
+    if place.parent is not None:
+        root.parent, root.matrix_parent_inverse = place.parent
+    # as it would stand in the other one's place
+    there = place.moved @ own
+    there.translation = beside.matrix_basis.translation
+    family = [each for each in builds(scene) if each != build and set(sources_of(each)) & set(sources_of(build))]
+    unit = there.to_scale().x
+    axis = there.to_3x3().normalized().col[0]
+    ends = [
+        (state_of(each).root.matrix_basis.translation - there.translation).dot(axis) + _half(each) * unit
+        for each in {*family, other}
+        if damage(each) is None
+    ]
+    there.translation += axis * (max(ends) + (_half(build) + GAP) * unit)
+    root.matrix_basis = there
+
+
+def _half(build: bpy.types.Collection) -> float:
+    """Return half the width of a build in mm."""
+    low, high = state_of(build).extent
+    return (high[0] - low[0]) / 2
 
 
 def _moved(state: BuildState) -> Matrix:

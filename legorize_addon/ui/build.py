@@ -19,6 +19,7 @@ from .build_larger import ask
 from .progress_text import STOPPED, progress_text
 from .properties import current_build
 from .requests import BuildRequest, build_request, by_uid, chosen_sources
+from .session import SESSION
 from .settings_properties import settings_of, take_renamed
 from .tab import redraw
 
@@ -141,17 +142,10 @@ class Working(Reporting):
         redraw(context)
 
 
-class LEGORIZE_OT_build(Working, bpy.types.Operator):
-    """Make a brick model of the chosen objects."""
+class Building(Working):
+    """What makes a brick model of objects; afresh, or from what earlier runs of the session have found."""
 
-    bl_idname = "legorize.build"
-    bl_label = "Legorize"
-    bl_description = (
-        "Turn the selected objects into a brick model, which replaces their earlier one; the objects are hidden, "
-        "not changed, and come back when the model is removed"
-    )
-    bl_options = {"REGISTER", "UNDO"}
-
+    afresh = True
     nothing_chosen = "Select an object with a surface."
 
     larger: bpy.props.BoolProperty(
@@ -160,10 +154,15 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
+    def _sources(self, context: bpy.types.Context) -> list[bpy.types.Object]:
+        """Return the objects to build."""
+        return chosen_sources(context)
+
     def _take_order(self, context: bpy.types.Context) -> BuildRequest:
         renamed = take_renamed(context.scene.legorize.settings)
-        order = build_request(context, chosen_sources(context), settings_of(context.scene.legorize.settings))
-        order = replace(order, remarks=(*renamed, *order.remarks))
+        order = build_request(context, self._sources(context), settings_of(context.scene.legorize.settings))
+        trial = SESSION.memo.trial(afresh=self.afresh)
+        order = replace(order, remarks=(*renamed, *order.remarks), trial=trial)
         return order.within_limits() if self.larger else order
 
     def _begin(self, context: bpy.types.Context, order: BuildRequest) -> set[str]:
@@ -194,6 +193,8 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         )
         list_parts_of(collection, build)
         list_edits(collection)
+        if order.trial is not None:
+            SESSION.keep(order.trial, collection)
         view.build = collection
         view.show_sources = False
         if scene == context.scene:
@@ -202,6 +203,18 @@ class LEGORIZE_OT_build(Working, bpy.types.Operator):
         for note in notes:
             self.report({"WARNING"}, note)
         return {"FINISHED"}
+
+
+class LEGORIZE_OT_build(Building, bpy.types.Operator):
+    """Make a brick model of the chosen objects."""
+
+    bl_idname = "legorize.build"
+    bl_label = "Legorize"
+    bl_description = (
+        "Turn the selected objects into a brick model, which replaces their earlier one; the objects are hidden, "
+        "not changed, and come back when the model is removed"
+    )
+    bl_options = {"REGISTER", "UNDO"}
 
 
 class Browsing(Working):

@@ -31,6 +31,7 @@ from .properties import current_build
 from .requests import chosen_sources
 from .settings_panels import GROUPS, SETTINGS_PANELS, SIZE, draw_settings
 from .tab import Tab, draw_wrapped
+from .updating import LEGORIZE_OT_build_beside, LEGORIZE_OT_update
 from .weakest import LEGORIZE_OT_show_weakest
 
 MM_PER_CM: Final = 10.0
@@ -62,6 +63,10 @@ class LEGORIZE_PT_main(Tab, bpy.types.Panel):
         button = self.layout.column()
         button.scale_y = 1.6
         button.operator(LEGORIZE_OT_build.bl_idname, icon="MOD_BUILD")
+        if current_build(context.scene):
+            again = self.layout.row(align=True)
+            again.operator(LEGORIZE_OT_update.bl_idname, icon="FILE_REFRESH")
+            again.operator(LEGORIZE_OT_build_beside.bl_idname, icon="ADD")
         if context.window_manager.legorize_said:
             self.layout.label(text=context.window_manager.legorize_said, icon="INFO")
         if len(builds(context.scene)) > 1:

@@ -39,7 +39,7 @@ from ..view import (
     steps_done,
     trajectories_shown,
 )
-from .settings_properties import LegorizeSettings, label
+from .settings_properties import LegorizeSettings, label, take_kept
 from .view_choices import CUT_ITEMS, CUTS, LINE_ITEMS, NUMBER_ITEMS, ROLE_TEXTS
 
 
@@ -192,6 +192,12 @@ def _update_detail(self: bpy.types.PropertyGroup, context: bpy.types.Context) ->
         set_detail(state_of(build).parts, load_catalogue(), self.detail)
 
 
+def _take_settings(self: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """Let the panel have the settings of the build that it shows; limits are the user's, not a build's."""
+    if self.build is not None:
+        take_kept(self.settings, state_of(self.build).settings)
+
+
 def _trajectories(self: bpy.types.PropertyGroup) -> bool:
     build = current_build(self.id_data)
     return bool(build) and trajectories_shown(build)
@@ -237,7 +243,11 @@ class LegorizeView(bpy.types.PropertyGroup):
     settings: PointerProperty(type=LegorizeSettings)
     image: PointerProperty(type=bpy.types.Image, name="Image", description="The image that becomes a mosaic")
     build: PointerProperty(
-        type=bpy.types.Collection, poll=_is_build, name="Model", description="The brick model that these panels show"
+        type=bpy.types.Collection,
+        poll=_is_build,
+        update=_take_settings,
+        name="Model",
+        description="The brick model that these panels show",
     )
     top_layer: IntProperty(
         name="Top layer",

@@ -26,14 +26,16 @@ from . import (
     preferences,
     properties,
     replacing,
+    session,
     translations,
+    updating,
     weakest,
 )
 
 _PARTS = (
-    properties, expectation, build, build_larger, export, instructions, animation, learning, looks, parts, edits,
-    everything, existing, palette, replacing, edit_tool, panels, mosaic, method, menus, preferences, weakest,
-    numbers, assets, translations,
+    properties, expectation, session, build, build_larger, updating, export, instructions, animation, learning, looks,
+    parts, edits, everything, existing, palette, replacing, edit_tool, panels, mosaic, method, menus, preferences,
+    weakest, numbers, assets, translations,
 )  # fmt: skip
 
 

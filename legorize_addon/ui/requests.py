@@ -22,6 +22,7 @@ from .properties import current_build
 
 if TYPE_CHECKING:
     from ..core.build import Build
+    from ..core.memo import Trial
     from ..core.mesh import TriangleMesh
 
 
@@ -54,6 +55,8 @@ class BuildRequest:
         Session identifiers of the builds whose place it takes.
     edits : Edits
         Changes by hand of these, to be made again.
+    trial : Trial or None
+        What earlier runs of the session have found.
     """
 
     name: str
@@ -67,6 +70,7 @@ class BuildRequest:
     mm_per_unit: float
     replaces: tuple[int, ...]
     edits: Edits = NO_EDITS
+    trial: Trial | None = None
 
     def check_limits(self) -> None:
         """Raise ``LimitError`` if the model would be larger than the limits of the settings."""
@@ -87,7 +91,11 @@ class BuildRequest:
         from ..core.pipeline import legorize
 
         build = legorize(
-            self.mesh, replace(self.settings, learned_from=self.samples, **self.files), progress, edits=self.edits
+            self.mesh,
+            replace(self.settings, learned_from=self.samples, **self.files),
+            progress,
+            edits=self.edits,
+            trial=self.trial,
         )
         # the scene keeps the name that holds on every machine
         build = replace(build, settings=self.settings)
@@ -165,6 +173,11 @@ def build_request(context: bpy.types.Context, sources: Sequence[bpy.types.Object
         replaces=tuple(model.session_uid for model in replaced),
         edits=next((edits_of(model) for model in replaced if state_of(model).edits[0]), NO_EDITS),
     )
+
+
+def resolved_settings(settings: Settings) -> Settings:
+    """Return settings with the paths by which a run finds the files that they name."""
+    return replace(settings, learned_from=resolved(settings.learned_from), **absolute_files(settings))
 
 
 def absolute_files(settings: Settings) -> dict[str, Any]:

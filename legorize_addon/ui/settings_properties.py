@@ -6,13 +6,15 @@ which alone knows their defaults, limits and texts.
 
 from __future__ import annotations
 
-from dataclasses import Field, fields
+from collections.abc import Mapping
+from dataclasses import Field, fields, replace
 from typing import Any, Final
 
 import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from ..core.errors import SettingsError
 from ..core.setting import renamed
 from ..core.settings import Settings, choices, setting_type
 
@@ -49,6 +51,9 @@ def _earlier_property(entry: Field[Any]) -> Any:
     kind, keywords = _property(entry).function, _property(entry).keywords
     return kind(**{**keywords, "options": {"HIDDEN"}})
 
+
+LIMITS: Final = tuple(entry.name for entry in fields(Settings) if entry.metadata["group"] == "Limits")
+"""Settings that refuse a build, and do not change it."""
 
 RENAMED: Final = [entry for entry in fields(Settings) if entry.metadata["was"]]
 """Settings that had another name in an earlier version."""
@@ -97,6 +102,37 @@ def set_settings(group: bpy.types.PropertyGroup, settings: Settings) -> None:
             group.property_unset(entry.name)
         else:
             setattr(group, entry.name, value)
+
+
+def kept_settings(stored: Mapping[str, Any]) -> Settings | None:
+    """Return the settings that a build keeps.
+
+    Parameters
+    ----------
+    stored : mapping of str to object
+        Names and values.
+
+    Returns
+    -------
+    Settings or None
+        What it does not know, as one of an earlier version, has its default. None where it knows nothing, or what no
+        settings can be.
+    """
+    known = [entry for entry in fields(Settings) if entry.name in stored]
+    # a custom property may keep a truth as a number
+    truths = {entry.name: bool(stored[entry.name]) for entry in known if setting_type(entry) is bool}
+    values = {entry.name: stored[entry.name] for entry in known} | truths
+    try:
+        return Settings(**values) if values else None
+    except SettingsError:
+        return None
+
+
+def take_kept(group: bpy.types.PropertyGroup, stored: Mapping[str, Any]) -> None:
+    """Let the scene's settings be those that a build keeps, if it knows them; limits are the user's, not a build's."""
+    kept = kept_settings(stored)
+    if kept is not None:
+        set_settings(group, replace(kept, **{name: getattr(group, name) for name in LIMITS}))
 
 
 def _value(value: Any) -> Any:

@@ -8,8 +8,8 @@ import pytest
 from legorize_addon.core.estimate import AGAIN
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.progress import Overall, silent
+from legorize_addon.core.run import Run
 from legorize_addon.core.settings import Settings
-from legorize_addon.core.stages import Run
 from tests.core.solids import box
 from tests.core.textured import painted
 

@@ -5,18 +5,20 @@ from __future__ import annotations
 from .counted import count_texels
 from .difference import ciede2000, lab_from_srgb, linear_from_srgb, srgb_from_linear
 from .dithering import PaletteMixer
-from .dominant import SurfaceColours, chosen_palette, surface_colours, texels_at
+from .dominant import Dominant, SurfaceColours, chosen_palette, image_colours, surface_colours
 from .replacing import replaced, replacements, replacements_text
 from .shares import colour_shares
-from .texels import texel_at
+from .texels import texel_at, texels_at
 
 __all__ = [
+    "Dominant",
     "PaletteMixer",
     "SurfaceColours",
     "chosen_palette",
     "ciede2000",
     "colour_shares",
     "count_texels",
+    "image_colours",
     "lab_from_srgb",
     "linear_from_srgb",
     "replaced",

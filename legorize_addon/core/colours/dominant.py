@@ -24,7 +24,7 @@ from ..model import Catalogue
 from .counted import Counted, count_colours, packed, unpacked
 from .difference import ciede2000, lab_from_srgb
 from .replacing import replaced
-from .texels import border_table, boxes_varied, texel_at
+from .texels import border_table, boxes_varied, texel_at, texels_at
 
 _SAMPLES: Final = 30_000
 """Texels sampled for the clustering; more change the centres by less than a byte."""
@@ -128,6 +128,31 @@ class SurfaceColours:
         return self.centres[self.labels[row]]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Dominant:
+    """The dominant colours of a mesh's images, before there are bricks' colours for them.
+
+    Attributes
+    ----------
+    centres : (m, 3) uint8 array
+        sRGB.
+    labels : tuple of (h, w) uint8 arrays
+        Dominant colour of every texel, one array an image; row 0 is v = 0.
+    clamp : (n_images,) bool array
+        Whether coordinates outside an image take its edge texel; else it repeats.
+    """
+
+    centres: Bytes
+    labels: tuple[Bytes, ...]
+    clamp: Mask
+
+    def as_bricks(self, catalogue: Catalogue, *, palette: Codes, one_to_one: bool) -> SurfaceColours:
+        """Find the bricks' colours for them, see :func:`brick_colours`."""
+        codes = brick_colours(self.centres, catalogue, palette=palette, one_to_one=one_to_one)
+        borders = tuple(border_table(codes[image]) for image in self.labels)
+        return SurfaceColours(self.centres, codes, self.labels, borders, self.clamp)
+
+
 def surface_colours(
     mesh: TriangleMesh,
     catalogue: Catalogue,
@@ -168,12 +193,17 @@ def surface_colours(
     ----------
     Paper, Algorithm 1.
     """
+    found = image_colours(mesh, n_colours=n_colours, rng=rng, texels=texels)
+    return found.as_bricks(catalogue, palette=palette, one_to_one=one_to_one)
+
+
+def image_colours(
+    mesh: TriangleMesh, *, n_colours: int, rng: np.random.Generator, texels: Counted | None = None
+) -> Dominant:
+    """Find the dominant colours of a mesh's images, with the parameters of :func:`surface_colours`."""
     counted = count_colours(_surface_texels(mesh, rng)) if texels is None else texels
     centres = dominant_colours(counted, n_colours=n_colours, rng=rng)
-    codes = brick_colours(centres, catalogue, palette=palette, one_to_one=one_to_one)
-    labels = _nearest_centres(mesh.images, centres)
-    borders = tuple(border_table(codes[image]) for image in labels)
-    return SurfaceColours(centres, codes, labels, borders, mesh.image_clamp)
+    return Dominant(centres, _nearest_centres(mesh.images, centres), mesh.image_clamp)
 
 
 def dominant_colours(counted: Counted, *, n_colours: int, rng: np.random.Generator) -> Bytes:
@@ -289,30 +319,6 @@ def _surface_texels(mesh: TriangleMesh, rng: np.random.Generator) -> Bytes:
     weight = np.stack([1 - root, root * (1 - b), root * b], axis=1)
     uv = (mesh.uvs[face] * weight[:, :, None]).sum(axis=1)
     return texels_at(mesh, mesh.face_image[face], uv)
-
-
-def texels_at(mesh: TriangleMesh, image: NDArray[np.integer], uv: Floats) -> Bytes:
-    """Return the texels at points of a mesh's images.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-    image : (k,) int array
-        Image of each point.
-    uv : (k, 2) float64 array
-        Image coordinates.
-
-    Returns
-    -------
-    (k, 3) uint8 array
-        sRGB.
-    """
-    texels = np.empty((len(uv), 3), dtype=np.uint8)
-    for row, pixels in enumerate(mesh.images):
-        here = image == row
-        column, line = texel_at(uv[here], pixels.shape[:2], clamp=bool(mesh.image_clamp[row]))
-        texels[here] = pixels[line, column]
-    return texels
 
 
 def _nearest_centres(images: tuple[Bytes, ...], centres: Bytes) -> tuple[Bytes, ...]:

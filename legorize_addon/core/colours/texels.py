@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints, Mask
+from ..mesh import TriangleMesh
 
 
 def texel_at(uv: Floats, shape: tuple[int, ...], *, clamp: bool) -> tuple[Ints, Ints]:
@@ -83,3 +84,27 @@ def border_table(codes: NDArray[np.int16]) -> NDArray[np.int32]:
     table = np.zeros((codes.shape[0] + 1, codes.shape[1] + 1), dtype=np.int32)
     np.cumsum(np.cumsum(border, axis=0, dtype=np.int32), axis=1, out=table[1:, 1:])
     return table
+
+
+def texels_at(mesh: TriangleMesh, image: NDArray[np.integer], uv: Floats) -> NDArray[np.uint8]:
+    """Return the texels at points of a mesh's images.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    image : (k,) int array
+        Image of each point.
+    uv : (k, 2) float64 array
+        Image coordinates.
+
+    Returns
+    -------
+    (k, 3) uint8 array
+        sRGB.
+    """
+    texels = np.empty((len(uv), 3), dtype=np.uint8)
+    for row, pixels in enumerate(mesh.images):
+        here = image == row
+        column, line = texel_at(uv[here], pixels.shape[:2], clamp=bool(mesh.image_clamp[row]))
+        texels[here] = pixels[line, column]
+    return texels

@@ -70,16 +70,23 @@ class Alike:
         grid : UnitGrid
             With the cells inside that had to be added for this.
         """
+        return self.better(free, self.offer(progress))
+
+    def offer(self, progress: Progress) -> tuple[Bricks, UnitGrid] | None:
+        """Lay the halves alike, whatever that costs; None where they are not alike."""
         fold = fold_of(self.grid, self.catalogue)
         if fold is None:
-            return free, self.grid
+            return None
         grid, same = mirrored(self.grid, fold)
         if np.count_nonzero(same) < LEAST * np.count_nonzero(grid.solid):
-            return free, self.grid
+            return None
         bricks = self._laid(grid, same, fold, progress)
         work = sheets_and_shapes(grid, self.catalogue, self.filler)
-        bricks = join_loose(bricks, grid, self.catalogue, work, self.rng, progress)
-        return (bricks, grid) if self._as_good(bricks, free) else (free, self.grid)
+        return join_loose(bricks, grid, self.catalogue, work, self.rng, progress), grid
+
+    def better(self, free: Bricks, offer: tuple[Bricks, UnitGrid] | None) -> tuple[Bricks, UnitGrid]:
+        """Return the symmetric layout if it is cheap, else the other one."""
+        return (free, self.grid) if offer is None or not self._as_good(offer[0], free) else offer
 
     def _as_good(self, bricks: Bricks, free: Bricks) -> bool:
         """Whether a layout takes hardly more parts, and hardly more supports, in no more components."""

@@ -25,6 +25,7 @@ from ..building import (
     tipping,
     walk,
 )
+from ..memo import Recall, plainly
 from ..model import Assembly, Bricks, Role, concatenate
 from ..progress import Progress, part, silent
 from ..statics import HOLD
@@ -164,6 +165,7 @@ def plan_assembly(
     clutch: float = HOLD,
     long_bricks: bool = False,
     progress: Progress = silent,
+    recall: Recall = plainly,
 ) -> AssemblyPlan:
     """Put supports under a model, piece by piece, and find the order in which it is built.
 
@@ -182,6 +184,8 @@ def plan_assembly(
     long_bricks : bool
         Whether trees carry wide undersides by bricks of eight studs, see :mod:`.chassis`.
     progress : Progress
+    recall : Recall
+        Returns supports that were found before.
 
     Returns
     -------
@@ -195,7 +199,7 @@ def plan_assembly(
         # supports of the first piece are still there when the others are joined to it
         room = clearance_around(assembly.graph) if number == 0 and len(numbers) > 1 else None
         rows = np.flatnonzero(assembly.bricks.piece == number)
-        look = partial(plan_supports, clutch=clutch, long_bricks=long_bricks, progress=here)
+        look = partial(plan_supports, clutch=clutch, long_bricks=long_bricks, progress=here, recall=recall)
         pieces.append(_piece(assembly, rows, room, wish, deepest, look))
     pillars = [_numbered(piece.pillars, number) for piece, number in zip(pieces, numbers, strict=True)]
     added = [_numbered(piece.plan.supports, number) for piece, number in zip(pieces, numbers, strict=True)]

@@ -62,16 +62,21 @@ class Growth:
         The piece, n bricks.
     need : Demand
         Its undersides.
+
+    Attributes
+    ----------
+    arrival : (n,) int64 array or None
+        Steps in which its bricks come, as they were planned last.
     """
 
     def __init__(self, assembly: Assembly, need: Demand) -> None:
         self.assembly, self.need = assembly, need
-        self._arrival: Ints | None = None
+        self.arrival: Ints | None = None
 
     @property
     def known(self) -> bool:
         """Whether steps were planned before."""
-        return self._arrival is not None
+        return self.arrival is not None
 
     def with_supports(self, supports: Bricks, touched: Rows, *, add: bool, planned: bool, progress: Progress) -> Grown:
         """Return what falls over, and what undersides, if some may be added, save more.
@@ -103,12 +108,12 @@ class Growth:
             return x, y
 
         asked = prop if add else no_prop
-        if planned or self._arrival is None:
+        if planned or self.arrival is None:
             ordering, watching = part(progress, 0.0, 0.5), part(progress, 0.5, 1.0)
             steps = plan_steps(bricks, everything.catalogue, contacts.pairs, temporary=temporary, progress=ordering)
-            self._arrival = steps.arrival(len(bricks))[: len(self.assembly)].astype(np.int64)
+            self.arrival = steps.arrival(len(bricks))[: len(self.assembly)].astype(np.int64)
             return Grown(tipping(steps, everything, contacts.pairs, prop=asked, progress=watching), braces, steps)
-        arrivals = _guessed(self._arrival, bricks, contacts)
+        arrivals = _guessed(self.arrival, bricks, contacts)
         floor = int(bricks.corner[:, 2].min(initial=0))
         towers = falling(arrivals, everything, contacts.pairs, floor=floor, prop=asked, progress=progress)
         return Grown(towers, braces, None)

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints, Mask
 from ..building import Tipping
+from ..memo import Recall, plainly
 from ..model import Assembly, Bricks, Catalogue, ContactGraph, Role, Rows, Verdict, contact_graph
 from ..progress import Progress, part, silent
 from ..statics import Effort, stability
@@ -98,6 +99,7 @@ def plan_supports(
     clutch: float,
     long_bricks: bool = False,
     progress: Progress = silent,
+    recall: Recall = plainly,
 ) -> Plan:
     """Put supports under a piece.
 
@@ -116,6 +118,8 @@ def plan_supports(
         Whether trees carry wide undersides by bricks of eight studs, see :func:`~.chassis.chassis`.
     progress : Progress, optional
         Told how far the search is.
+    recall : Recall, optional
+        Returns supports that were found before.
 
     Returns
     -------
@@ -131,10 +135,18 @@ def plan_supports(
         if best is not None and not len(contacts.cells):
             break
         laid = partial(_light, best, need, assembly.catalogue, way, long_bricks=long_bricks)
-        found = _settled(growth, contacts, way, clutch, trying, laid)
+        inputs = assembly, need, contacts, way, clutch, best, long_bricks, growth.arrival
+        settle = partial(_settled, growth, contacts, way, clutch, trying, laid)
+        # what the piece was found to grow like counts for the next kind
+        found, growth.arrival = recall("supports of a kind", inputs, partial(_with_arrival, growth, settle))
         if best is None or (found is not None and _worth(found, assembly.catalogue) < _worth(best, assembly.catalogue)):
             best = found
     return _bare(growth, contacts, progress) if best is None else best
+
+
+def _with_arrival(growth: Growth, settle: Callable[[], Plan | None]) -> tuple[Plan | None, Ints | None]:
+    """Return supports of a kind, and when the bricks of the piece come then."""
+    return settle(), growth.arrival
 
 
 def _worth(plan: Plan, catalogue: Catalogue) -> tuple[bool, float]:

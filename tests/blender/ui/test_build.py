@@ -182,7 +182,7 @@ def test_clear_leaves_the_source(box) -> None:
 def failing(error: Exception):
     """Return a core that raises an error."""
 
-    def legorize(mesh, settings, progress: Progress) -> None:
+    def legorize(mesh, settings, progress: Progress, **more) -> None:
         raise error
 
     return legorize
@@ -456,9 +456,9 @@ def while_building(monkeypatch, change) -> None:
     """Let something happen between the reading of objects and the showing of bricks."""
     legorize = pipeline.legorize
 
-    def changing(*arguments):
+    def changing(*arguments, **more):
         change()
-        return legorize(*arguments)
+        return legorize(*arguments, **more)
 
     monkeypatch.setattr(pipeline, "legorize", changing)
 
