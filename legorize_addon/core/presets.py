@@ -38,6 +38,11 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
             "Plates wherever the surface or the colour asks for them, however many parts that takes.",
             {"plates": "all", "fewer_parts": 0.0},
         ),
+        "smooth": Preset(
+            "Smooth Surface",
+            "Slopes where the surface falls, and the studs where they fit the shape best: closer to it for some more parts.",
+            {"surface": "slopes", "grid_fit": "shifts"},
+        ),
         "bricks": Preset("Bricks Only", "Bold and quick to build: whole bricks, without plates.", {"plates": "none"}),
         "cheapest": Preset(
             "Cheapest",
