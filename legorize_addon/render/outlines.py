@@ -34,17 +34,19 @@ def outlined(materials: Iterable[bpy.types.Material], width: float) -> Iterator[
     Parameters
     ----------
     materials : iterable of bpy.types.Material
-        Plastics, whose base colour is a value.
+        Plastics, whose base colour is a value, varied or not.
     width : float
         How far from the edge a line may reach, in world units.
     """
-    added = [(material.node_tree, _add_lines(material.node_tree, width)) for material in materials]
+    added = [(material.node_tree, *_add_lines(material.node_tree, width)) for material in materials]
     try:
         yield
     finally:
-        for tree, nodes in added:
+        for tree, nodes, colour in added:
             for node in nodes:
                 tree.nodes.remove(node)
+            if colour is not None:
+                tree.links.new(colour, _base(tree))
 
 
 def line_colour(colour: Sequence[float]) -> tuple[float, float, float]:
@@ -55,10 +57,16 @@ def line_colour(colour: Sequence[float]) -> tuple[float, float, float]:
     return red * DARKER, green * DARKER, blue * DARKER
 
 
-def _add_lines(tree: bpy.types.NodeTree, width: float) -> list[bpy.types.Node]:
-    """Put the nodes between a material's colour and its shader; removing them brings the colour back."""
+def _base(tree: bpy.types.NodeTree) -> bpy.types.NodeSocket:
+    """Return where the shader takes its colour."""
     shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
-    base = shader.inputs["Base Color"]
+    return shader.inputs["Base Color"]
+
+
+def _add_lines(tree: bpy.types.NodeTree, width: float) -> tuple[list[bpy.types.Node], bpy.types.NodeSocket | None]:
+    """Put nodes between a material's colour and its shader; return them, and what the shader was linked to."""
+    base = _base(tree)
+    colour = base.links[0].from_socket if base.is_linked else None
     bevel, face, dot, edge, mix = nodes = [
         tree.nodes.new(f"ShaderNode{kind}") for kind in ("Bevel", "NewGeometry", "VectorMath", "Math", "Mix")
     ]
@@ -68,12 +76,14 @@ def _add_lines(tree: bpy.types.NodeTree, width: float) -> list[bpy.types.Node]:
     mix.data_type = "RGBA"
     _socket(mix.inputs, "A").default_value = base.default_value
     _socket(mix.inputs, "B").default_value = (*line_colour(base.default_value), 1.0)
+    if colour is not None:
+        tree.links.new(colour, _socket(mix.inputs, "A"))
     tree.links.new(bevel.outputs["Normal"], dot.inputs[0])
     tree.links.new(face.outputs["Normal"], dot.inputs[1])
     tree.links.new(dot.outputs["Value"], edge.inputs[0])
     tree.links.new(edge.outputs["Value"], _socket(mix.inputs, "Factor"))
     tree.links.new(_socket(mix.outputs, "Result"), base)
-    return nodes
+    return nodes, colour
 
 
 def _socket(sockets: Any, name: str) -> bpy.types.NodeSocket:

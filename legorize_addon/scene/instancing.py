@@ -9,6 +9,7 @@ import bpy
 from mathutils import Color
 
 from ..core.model import Colour
+from .abs_plastic import set_up_plastic, vary
 from .brick_tree import PARTS, SECTION, TREE_KEY, brick_tree
 
 MATERIAL_KEY: Final = "legorize_colour"
@@ -81,7 +82,7 @@ def colour_material(colour: Colour) -> bpy.types.Material:
     Returns
     -------
     bpy.types.Material
-        Glossy plastic; the viewport's solid mode shows the same colour.
+        Glossy plastic that differs a little from brick to brick; the viewport's solid mode shows the plain colour.
     """
     return plastic(f"Brick {colour.code} {colour.name}", colour.rgb, MATERIAL_KEY, colour.code)
 
@@ -96,7 +97,7 @@ def plastic(name: str, rgb: Sequence[int], key: str, value: int) -> bpy.types.Ma
     rgb : sequence of three int
         Colour in sRGB bytes, for the shader and for the viewport's solid mode.
     key, value : str, int
-        Custom property by which the material is known.
+        Custom property by which the material is known; only bricks in their own colours differ a little.
 
     Returns
     -------
@@ -107,14 +108,9 @@ def plastic(name: str, rgb: Sequence[int], key: str, value: int) -> bpy.types.Ma
             return material
     material = bpy.data.materials.new(name)
     material[key] = value
-    red, green, blue = Color([byte / 255 for byte in rgb]).from_srgb_to_scene_linear()
-    material.diffuse_color = (red, green, blue, 1.0)
-    material.roughness = 0.3
-    if material.node_tree is None:
-        material.use_nodes = True
-    shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
-    shader.inputs["Base Color"].default_value = (red, green, blue, 1.0)
-    shader.inputs["Roughness"].default_value = 0.25
+    set_up_plastic(material, Color([byte / 255 for byte in rgb]).from_srgb_to_scene_linear())
+    if key == MATERIAL_KEY:
+        vary(material)
     return material
 
 

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from ..core.model import Catalogue, Part, columns
 from ..core.units import PLATE, STUD
 from .lofts import BEVEL, GAP, ROOF, WALL, Detail, Floats, Loft
+from .rounding import corner_normals
 from .slope_bodies import level, slope_body
 
 Ring = tuple[float, float]
@@ -85,7 +86,11 @@ def part_mesh(part: Part, detail: Detail) -> bpy.types.Mesh:
     for mesh in bpy.data.meshes:
         if mesh.get(MESH_KEY) == key:
             return mesh
-    mesh = _to_mesh(part_loft(part, detail), f"Brick {key}")
+    loft = part_loft(part, detail)
+    mesh = _to_mesh(loft, f"Brick {key}")
+    if detail == "high":
+        mesh.polygons.foreach_set("use_smooth", np.ones(len(loft.starts), dtype=bool))
+        mesh.normals_split_custom_set(corner_normals(loft).tolist())
     mesh[MESH_KEY] = key
     return mesh
 
