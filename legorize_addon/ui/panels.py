@@ -22,6 +22,7 @@ from .everything import LEGORIZE_OT_export_folder
 from .existing import LEGORIZE_OT_again, LEGORIZE_OT_open_ldraw
 from .expectation import expected
 from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
+from .hints import draw_hints
 from .instructions import LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps
 from .looks import draw_looks
 from .palette import LEGORIZE_PT_palette
@@ -52,6 +53,7 @@ class LEGORIZE_PT_main(Tab, bpy.types.Panel):
             self.layout.progress(factor=share, type="BAR", text=text)
             self.layout.label(text="Esc stops")
             return
+        draw_hints(context, self.layout)
         sources = [source.name for source in chosen_sources(context)]
         if sources:
             self.layout.label(text=", ".join(sources), icon="MESH_DATA")

@@ -9,7 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 from bpy.app.translations import pgettext_n as n
 from bpy.app.translations import pgettext_rpt as rpt
-from bpy.props import StringProperty
+from bpy.props import BoolProperty, StringProperty
 
 from ..core.settings import Settings
 
@@ -36,7 +36,11 @@ class LegorizePreferences(bpy.types.AddonPreferences):
     """The panel in Blender's preferences."""
 
     bl_idname = PACKAGE
-    __annotations__ = {name: _preference(name) for name in KEPT}
+    __annotations__ = {name: _preference(name) for name in KEPT} | {
+        "show_hints": BoolProperty(
+            name="Show hints", description="Say in the panel what to do first, while a file has no model", default=True
+        )
+    }
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw what new files begin with."""
@@ -46,6 +50,7 @@ class LegorizePreferences(bpy.types.AddonPreferences):
             self.layout.prop(self, name)
         self.layout.operator(LEGORIZE_OT_keep_preferences.bl_idname)
         self.layout.operator(LEGORIZE_OT_take_preferences.bl_idname)
+        self.layout.prop(self, "show_hints")
 
 
 def preferences() -> Any:

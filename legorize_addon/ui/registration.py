@@ -13,6 +13,7 @@ from . import (
     existing,
     expectation,
     export,
+    hints,
     instructions,
     learning,
     looks,
@@ -35,7 +36,7 @@ from . import (
 _PARTS = (
     properties, expectation, session, build, build_larger, updating, export, instructions, animation, learning, looks,
     parts, edits, everything, existing, palette, replacing, edit_tool, panels, mosaic, method, menus, preferences,
-    weakest, numbers, assets, translations,
+    weakest, numbers, hints, assets, translations,
 )  # fmt: skip
 
 
