@@ -20,7 +20,7 @@ from .slicing import Marks, Slices, Trajectories
 from .statics import Stability
 from .stock import Owned, Prices
 from .supports import AssemblyPlan, Joint
-from .unit_bricks import Offsets
+from .unit_bricks import Offsets, WantedColours
 from .units import STUD
 
 
@@ -71,6 +71,8 @@ class Draft:
         All unit bricks, before hollowing.
     hollow : UnitGrid
         Required and optional cells.
+    wanted : WantedColours
+        The surface on each cell that shows it, whatever colour the cell has.
     """
 
     mesh: TriangleMesh
@@ -83,6 +85,7 @@ class Draft:
     offsets: Offsets
     grid: UnitGrid
     hollow: UnitGrid
+    wanted: WantedColours
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -192,6 +195,8 @@ class Build(Finished):
         All unit bricks, before hollowing.
     hollow : UnitGrid
         Required and optional cells.
+    wanted : WantedColours
+        The surface on each cell that shows it, whatever colour the cell has.
     edits : Edits
         Changes by hand that were made.
     outcomes : tuple of Outcome
@@ -211,6 +216,7 @@ class Build(Finished):
     offsets: Offsets
     grid: UnitGrid
     hollow: UnitGrid
+    wanted: WantedColours
 
     edits: Edits = NO_EDITS
     outcomes: tuple[Outcome, ...] = ()

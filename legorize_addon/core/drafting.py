@@ -19,6 +19,7 @@ from .stages import (
     close_overhangs,
     cut_mesh,
     find_colours,
+    find_wanted,
     hollow_out,
     link_slices,
     make_unit_grid,
@@ -94,13 +95,14 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
     with run.stage("unit bricks"):
         grid = run.once(make_unit_grid, mesh, repairs, trajectories, surface, frame, cut)
         grid, feet = run.once(stand_up, grid)
+        wanted = find_wanted(run, mesh, surface, grid)
     with run.stage("overhangs"):
         grid, offsets = run.once(close_overhangs, grid)
     with run.stage("hollowing"):
         shell = run.once(hollow_out, grid)
     made = Draft(
         mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut, trajectories=trajectories,
-        offsets=offsets, grid=grid, hollow=shell,
+        offsets=offsets, grid=grid, hollow=shell, wanted=wanted,
     )  # fmt: skip
     return made, (*unseen, *sized, *feet)
 

@@ -140,9 +140,9 @@ def _legorize(
     return Build(
         settings=settings, mesh=made.mesh, repairs=made.repairs, scale=made.scale, turn=made.turn,
         surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
-        hollow=shell, edits=by_hand.edits, outcomes=outcomes, unedited=by_hand.before, assembly=plan.final,
-        stability=found, supports=plan, joints=joints, **run.parts.files, proof=proof, notes=notes, timings=run.timings,
-        beyond=asdict(beyond) if beyond else {},
+        hollow=shell, wanted=made.wanted, edits=by_hand.edits, outcomes=outcomes, unedited=by_hand.before,
+        assembly=plan.final, stability=found, supports=plan, joints=joints, **run.parts.files, proof=proof,
+        notes=notes, timings=run.timings, beyond=asdict(beyond) if beyond else {},
     )  # fmt: skip
 
 

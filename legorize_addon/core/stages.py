@@ -47,14 +47,17 @@ from .supports import (
 from .texturing import reduce_images, remarks_on_unseen, seen_part
 from .unit_bricks import (
     Detail,
+    Facing,
     Offsets,
     Raster,
     Rules,
+    WantedColours,
     add_backing,
     add_offset_bricks,
     dithering_of,
     facing_of,
     unit_bricks,
+    wanted_colours,
 )
 from .units import PLATES_PER_BRICK
 
@@ -186,6 +189,17 @@ def make_unit_grid(
     if settings.dithering != "none":
         grid = replace(grid, colour=replaced(grid.colour, replacements(settings.replace_colours, run.catalogue)))
     return grid if facing is None else add_backing(grid, facing, depth=settings.backing)
+
+
+def find_wanted(run: Run, mesh: TriangleMesh, surface: SurfaceColours, grid: UnitGrid) -> WantedColours:
+    """Return what the surface asks for at every cell, which the cells' own colours do not change."""
+    facing = facing_of(mesh, surface) if run.settings.backing else None
+    return run.once(light_on_cells, mesh, grid.solid, grid.origin, facing)
+
+
+def light_on_cells(run: Run, mesh: TriangleMesh, solid: Mask, origin: Floats, facing: Facing | None) -> WantedColours:
+    """Return the light of the surface on solid cells."""
+    return wanted_colours(mesh, solid, origin, plates=_in_plates(run.settings), facing=facing)
 
 
 def _detail(layer: NDArray[np.int32], frame: Grid, settings: Settings) -> Detail | None:

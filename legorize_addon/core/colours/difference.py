@@ -42,7 +42,12 @@ def srgb_from_linear(linear: NDArray[np.floating]) -> NDArray[np.uint8]:
 
 def lab_from_srgb(rgb: NDArray[np.uint8]) -> Floats:
     """Return CIELAB of sRGB bytes, shape (..., 3)."""
-    xyz = linear_from_srgb(rgb) @ _XYZ_FROM_LINEAR.T / _WHITE
+    return lab_from_linear(linear_from_srgb(rgb))
+
+
+def lab_from_linear(linear: Floats) -> Floats:
+    """Return CIELAB of linear colours in [0, 1], shape (..., 3)."""
+    xyz = linear @ _XYZ_FROM_LINEAR.T / _WHITE
     f = np.where(xyz > (6 / 29) ** 3, np.cbrt(xyz), xyz / (3 * (6 / 29) ** 2) + 4 / 29)
     x, y, z = f[..., 0], f[..., 1], f[..., 2]
     return np.stack([116 * y - 16, 500 * (x - y), 200 * (y - z)], axis=-1)

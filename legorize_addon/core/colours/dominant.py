@@ -21,8 +21,9 @@ from ..arrays import Floats, Mask
 from ..errors import SettingsError
 from ..mesh import TriangleMesh
 from ..model import Catalogue
+from .brick_difference import brick_differences
 from .counted import Counted, count_colours, packed, unpacked
-from .difference import ciede2000, lab_from_srgb
+from .difference import lab_from_srgb
 from .replacing import replaced
 from .texels import border_table, boxes_varied, texel_at, texels_at
 
@@ -267,13 +268,7 @@ def brick_colours(centres: Bytes, catalogue: Catalogue, *, palette: Codes, one_t
     SettingsError
         If a one-to-one choice has fewer brick colours than dominant colours.
     """
-    rgb = catalogue.rgb[[catalogue.colour_row(int(code)) for code in palette]]
-    wanted = lab_from_srgb(centres)[:, None]
-    difference = ciede2000(wanted, lab_from_srgb(rgb)[None])
-    # LDraw's Black is a dark blue-grey, farther from pure black than Dark Brown is;
-    # the plastic is black, so whatever is nearer to pure black is Black as well
-    black = palette == 0
-    difference[:, black] = np.minimum(difference, ciede2000(wanted, np.zeros((1, 1, 3))))[:, black]
+    difference = brick_differences(lab_from_srgb(centres)[:, None], palette, catalogue)
     if not one_to_one:
         nearest: Codes = palette[difference.argmin(axis=1)]
         return nearest

@@ -10,7 +10,7 @@ import numpy as np
 from ..arrays import Floats, Mask
 from ..build import Build, Cut
 from ..files import ldraw_matrix
-from ..measures import corner_windings, pass_through_types
+from ..measures import colour_errors, corner_windings, pass_through_types
 from ..model import NOBODY, SUPPORTS, Fill, UnitGrid, brick_columns
 from ..shell import free_bodies, tally_cases
 from ..slicing import cut_at_grid
@@ -33,6 +33,7 @@ def facts_of_mesh(build: Build, mm_per_unit: float) -> dict[str, Any]:
         "hollowing": _hollowing(build, levels),
         "hollow_ratio": round(hollow_ratio(build), 4),
         "bodies": free_bodies(build.hollow),
+        "colour_error": _colour_error(build),
         "beyond_paper": dict(build.beyond),
     }
 
@@ -123,6 +124,20 @@ def _hollowing(build: Build, levels: Mask) -> dict[str, Any]:
         "may": int((cover == Fill.OPTIONAL).sum()),
         "solid": int(build.grid.solid.sum()),
         "cases": asdict(tally_cases(levels, upper_only=build.settings.hollow_rule == "upper")),
+    }
+
+
+def _colour_error(build: Build) -> dict[str, Any]:
+    """Return how far colours are from the texture: the mean by surface, the worst brick, and how many were judged."""
+    found = colour_errors(build.bricks, build.assembly.catalogue, build.wanted)
+    judged = int((~np.isnan(found.error)).sum())
+    if not judged:
+        return {"mean": None, "worst": None, "brick": None, "judged": 0}
+    return {
+        "mean": round(found.mean, 2),
+        "worst": round(float(found.error[found.worst]), 2),
+        "brick": found.worst,
+        "judged": judged,
     }
 
 

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 from .backing import add_backing
+from .colour_votes import CLEAR
 from .dithering import dithering_of, remarks_on_dithering
-from .facing import facing_of
+from .facing import Facing, facing_of
 from .feet import add_feet, said_of_feet
 from .generation import Raster, Rules, half_covered, unit_bricks
 from .offset_bricks import add_offset_bricks
 from .offset_rings import Offsets, OverhangKind, overhang_kinds
 from .plates import Detail
+from .wanted_colours import WantedColours, wanted_colours
 
 __all__ = [
+    "CLEAR",
     "Detail",
+    "Facing",
     "Offsets",
     "OverhangKind",
     "Raster",
     "Rules",
+    "WantedColours",
     "add_backing",
     "add_feet",
     "add_offset_bricks",
@@ -27,4 +32,5 @@ __all__ = [
     "remarks_on_dithering",
     "said_of_feet",
     "unit_bricks",
+    "wanted_colours",
 ]

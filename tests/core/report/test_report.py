@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.build import Build, Cut
+from legorize_addon.core.colours.difference import ciede2000, lab_from_srgb
 from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks, Role
@@ -22,8 +23,9 @@ from legorize_addon.core.slicing.layer_differences import Marks
 from legorize_addon.core.statics.stability import stability
 from legorize_addon.core.supports.assembly_plan import plan_assembly
 from legorize_addon.core.unit_bricks.offset_rings import Offsets, offset_rings
+from legorize_addon.core.unit_bricks.wanted_colours import WantedColours, wanted_colours
 from tests.core.solids import box
-from tests.core.textured import painted, stages
+from tests.core.textured import painted, rgb_of, stages
 
 CATALOGUE = load_catalogue()
 
@@ -82,6 +84,7 @@ def build_of(rows):
         offsets=offsets_of(grid_of(solid), plates=False),
         grid=grid_of(solid),
         hollow=grid_of(solid),
+        wanted=wanted_colours(cut.mesh, grid_of(solid).solid, grid_of(solid).origin, plates=False),
         assembly=Assembly(bricks, CATALOGUE),
         stability=stability(Assembly(bricks, CATALOGUE)),
         supports=supports,
@@ -208,6 +211,18 @@ def test_cells_that_trajectories_pass_are_counted(described):
     """A rectangle whose sides pass the middles of cells leaves one corner of four of them inside, two of ten."""
     n_slices = len(stages(painted(box((4, 28, 0), (36, 52, 19.2)), 4)).heights)
     assert described["pass_through"] == {"type_1": 4 * n_slices, "type_2": 10 * n_slices, "type_3": 0}
+
+
+def test_colours_are_compared_with_the_surface(described):
+    """A red block's red bricks are right; the white ones beside them are the worst."""
+    red, white = (lab_from_srgb(rgb_of([code]))[0] for code in (4, 15))
+    told = described["colour_error"]
+    assert told["worst"] == pytest.approx(ciede2000(red, white), abs=0.01)
+    assert 0 < told["mean"] < told["worst"]
+    assert told["judged"] > 1
+    nothing = WantedColours(np.zeros((0, 3), np.int16), 3, np.zeros((0, 3), np.float32), np.zeros(0, np.float32))
+    unseen = described_grid(grid_of(np.ones((1, 4, 4), bool)), wanted=nothing)["colour_error"]
+    assert unseen == {"mean": None, "worst": None, "brick": None, "judged": 0}
 
 
 def test_offsets_are_counted():
