@@ -26,6 +26,7 @@ from .builds import (
     sources_of,
 )
 from .collections import clear_build, read_bricks, show_build, steps_of
+from .colour_errors import COLOUR_ERROR, colour_error_of, surface_of
 from .curves import add_lines
 from .hand_changes import hand_remark
 from .hidden_sources import orphans, show_orphans
@@ -50,12 +51,13 @@ from .part_meshes import PART_KEY, Detail, detail_of, parts_collection, parts_in
 from .placing import layer_collections, stand_beside, world_from_mm
 from .section import AXES, Section, beyond, hidden_side, place_plane
 from .shared_parts import own_parts, sweep
-from .state import state_of
+from .state import is_build, state_of
 from .verdict import check_lines
 
 __all__ = [
     "ASIDE",
     "AXES",
+    "COLOUR_ERROR",
     "EXPLODE",
     "FIRST",
     "FRAMES",
@@ -95,6 +97,7 @@ __all__ = [
     "check_lines",
     "check_whole",
     "clear_build",
+    "colour_error_of",
     "colour_material",
     "damage",
     "detail_of",
@@ -104,6 +107,7 @@ __all__ = [
     "hand_remark",
     "has_input",
     "hidden_side",
+    "is_build",
     "is_own",
     "keep_found_colours",
     "layer_collections",
@@ -132,6 +136,7 @@ __all__ = [
     "stand_beside",
     "state_of",
     "steps_of",
+    "surface_of",
     "sweep",
     "there_after",
     "title_for",

@@ -39,6 +39,7 @@ from .builds import (
 )
 from .builds import builds as builds
 from .builds import show_sources as show_sources
+from .colour_errors import colour_error_facts
 from .figures import figures, n_layers
 from .hand_changes import hand_remark
 from .hidden_sources import as_before, forget, remember
@@ -110,7 +111,8 @@ def show_build(
     plane = _own(build, add_plane(build.name))
     hang(plane, root, facts["middle"])
     parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, source.name)
-    _add_layers(build, bricks, variant.reshape(-1), _more(model), catalogue, plane, parts)
+    errors, error_facts = colour_error_facts(model)
+    _add_layers(build, bricks, variant.reshape(-1), {**_more(model), **errors}, catalogue, plane, parts)
     hidden = [as_before(scene, each) for each in source.objects]
     held = [as_before(scene, each) for each in holders(scene, source.objects)]
     write_state(
@@ -127,6 +129,7 @@ def show_build(
         settings={} if source.settings is None else asdict(source.settings),
         notes=list(source.notes),
         **facts,
+        **error_facts,
         **figures(model.assembly, model.stability, model.steps),
     )
     remember(scene, [*hidden, *held])

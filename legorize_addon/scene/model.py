@@ -14,6 +14,7 @@ from ..core.settings import Settings
 
 if TYPE_CHECKING:
     from ..core.statics import Stability
+    from ..core.unit_bricks import WantedColours
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,6 +36,8 @@ class Model:
         supports that are taken out again may be left out.
     steps : Steps or None
         The order in which these bricks are built, for the panel and the steps.
+    wanted : WantedColours or None
+        The surface on the cells of a mesh's model, for the view of colour errors.
     """
 
     assembly: Assembly
@@ -43,6 +46,7 @@ class Model:
     mm_per_unit: float
     stability: Stability | None = None
     steps: Steps | None = None
+    wanted: WantedColours | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -12,7 +12,18 @@ from ..core.progress import duration
 from ..core.shopping import SECONDS_A_BRICK
 from ..core.units import BRICK, STUD
 from ..scene import builds, can_show_ghost, check_lines, damage, orphans, state_of
-from ..view import LEGEND, animation_of, can_highlight, has_margins, n_pieces, n_steps, roles_shown
+from ..view import (
+    ERROR_LEGEND,
+    LEGEND,
+    animation_of,
+    can_highlight,
+    colour_error_lines,
+    has_colour_errors,
+    has_margins,
+    n_pieces,
+    n_steps,
+    roles_shown,
+)
 from . import job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
 from .assets import LEGORIZE_OT_mark_asset
@@ -33,7 +44,7 @@ from .requests import chosen_sources
 from .settings_panels import GROUPS, SETTINGS_PANELS, SIZE, draw_settings
 from .tab import Tab, draw_wrapped
 from .updating import LEGORIZE_OT_build_beside, LEGORIZE_OT_update
-from .weakest import LEGORIZE_OT_show_weakest
+from .weakest import LEGORIZE_OT_show_weakest, LEGORIZE_OT_show_worst_colour
 
 MM_PER_CM: Final = 10.0
 
@@ -192,6 +203,7 @@ class LEGORIZE_PT_stability(_BuildPanel, bpy.types.Panel):
         switch.operator(LEGORIZE_OT_show_weakest.bl_idname, text="Weakest", icon="ZOOM_SELECTED")
         if view.heat_map:
             draw_wrapped(context, self.layout, LEGEND, "INFO")
+        _draw_colour_errors(context, self.layout, build)
 
 
 class LEGORIZE_PT_lots(_BuildPanel, bpy.types.Panel):
@@ -225,6 +237,18 @@ class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
         self.layout.operator(LEGORIZE_OT_export_folder.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_render_still.bl_idname, icon="RENDER_STILL")
         self.layout.operator(LEGORIZE_OT_mark_asset.bl_idname, icon="ASSET_MANAGER")
+
+
+def _draw_colour_errors(context: bpy.types.Context, layout: bpy.types.UILayout, build: bpy.types.Collection) -> None:
+    """Draw how far the colours are from the texture, and the switch of that view."""
+    for text, icon in colour_error_lines(build):
+        draw_wrapped(context, layout, text, icon)
+    switch = layout.row()
+    switch.enabled = has_colour_errors(build) and job.running() is None
+    switch.prop(build, "legorize_colour_errors")
+    switch.operator(LEGORIZE_OT_show_worst_colour.bl_idname, text="Worst Colour", icon="ZOOM_SELECTED")
+    if build.legorize_colour_errors:
+        draw_wrapped(context, layout, ERROR_LEGEND, "INFO")
 
 
 def _draw_animation(layout: bpy.types.UILayout, build: bpy.types.Collection) -> None:

@@ -24,7 +24,7 @@ from ..core.errors import BuildError
 from ..core.model import Assembly, Colour, Part, Role, load_catalogue
 from ..core.shopping import FORMATS, Lot, ShoppingList, priced, shopping_list
 from ..scene import damage, read_bricks, steps_of
-from ..view import can_highlight, heat_map_shown, highlight_step, show_heat_map, show_lot, shown_lot
+from ..view import can_highlight, hide_tint, highlight_step, show_lot, shown_lot
 from .build import OnBuild
 from .export import chosen_path, written
 from .instructions import title_of
@@ -49,8 +49,7 @@ def _show_lot(self: bpy.types.Collection, context: bpy.types.Context) -> None:
     if damage(self) or not 0 <= self.legorize_lot < len(self.legorize_lots):
         return
     row = self.legorize_lots[self.legorize_lot]
-    if heat_map_shown(self):
-        show_heat_map(self, visible=False)
+    hide_tint(self)
     if can_highlight(self):
         highlight_step(self, visible=False)
     show_lot(self, (row.number, row.code))

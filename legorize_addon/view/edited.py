@@ -25,6 +25,7 @@ from ..scene import (
     show_build,
     sources_of,
     state_of,
+    surface_of,
 )
 from .kept_view import KeptView
 
@@ -195,9 +196,8 @@ def show_changed(
         It does not know its steps: they are planned anew when all changes are made.
     """
     state, kept = state_of(build), KeptView.of([build])
-    model = Model(
-        Assembly(changed.bricks, load_catalogue()), state.origin, state.scale, state.mm_per_unit, stability=stability
-    )
+    assembly, place = Assembly(changed.bricks, load_catalogue()), (state.origin, state.scale, state.mm_per_unit)
+    model = Model(assembly, *place, stability=stability, wanted=surface_of(build))
     settings, colours = state.settings, found_colours(build)
     source = Source(name, sources_of(build), notes=state.notes)
     shown = show_build(scene, model, source, detail=detail, replaces=[build])

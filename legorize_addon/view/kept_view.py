@@ -10,6 +10,7 @@ import bpy
 from ..core.model import Role
 from ..scene import Section, damage, state_of
 from .animation import Animation, animate, animation_of
+from .colour_errors import colour_errors_shown, has_colour_errors, show_colour_errors
 from .heat_map import has_margins, heat_map_shown, show_heat_map
 from .highlight import highlight_step, highlighted
 from .steps import explode, exploded, n_steps, steps_done
@@ -36,6 +37,8 @@ class KeptView:
         Building steps that are done; 0 for all.
     heat_map : bool
         Whether its heat map is shown.
+    colour_errors : bool
+        Whether its colour errors are shown.
     highlighted : bool
         Whether what was there before the last step is pale.
     animation : Animation or None
@@ -49,6 +52,7 @@ class KeptView:
     exploded: float
     steps: int
     heat_map: bool
+    colour_errors: bool
     highlighted: bool
     animation: Animation | None
 
@@ -66,6 +70,7 @@ class KeptView:
                     exploded=exploded(build),
                     steps=steps_done(build),
                     heat_map=heat_map_shown(build),
+                    colour_errors=colour_errors_shown(build),
                     highlighted=highlighted(build),
                     animation=animation_of(build),
                 )
@@ -95,6 +100,8 @@ class KeptView:
                 animate(scene, build, first=self.animation.first, frames=self.animation.frames)
         if self.heat_map and has_margins(build):
             show_heat_map(build, visible=True)
+        if self.colour_errors and has_colour_errors(build):
+            show_colour_errors(build, visible=True)
 
 
 def _wanted_roles(build: bpy.types.Collection) -> dict[Role, bool]:

@@ -27,6 +27,7 @@ from .visibility import roles_shown, show_role
 
 if TYPE_CHECKING:
     from ..core.build import Finished
+    from ..core.unit_bricks import WantedColours
 
 
 def show_result(
@@ -75,7 +76,7 @@ def show_result(
     colours = next((found for each in earlier if (found := found_colours(each))), [])
     edits = next((each.edits for each in map(state_of, earlier) if each.edits[0]), ("", ""))
     place = (build.origin, build.scale, mm_per_unit)
-    model = Model(supports.assembly, *place, stability=build.stability, steps=supports.steps)
+    model = Model(supports.assembly, *place, stability=build.stability, steps=supports.steps, wanted=_surface_of(build))
     shown = show_build(scene, model, replace(source, settings=build.settings), detail=detail, replaces=earlier)
     state_of(shown).add_building(by_hand=len(supports.unsteady), **_costs(build))
     state_of(shown).keep_texts(build.texts)
@@ -86,6 +87,14 @@ def show_result(
     if kept is not None:
         kept.show(scene, shown)
     return shown
+
+
+def _surface_of(build: Finished) -> WantedColours | None:
+    """Return the surface on the cells of a model of a mesh; None of any other model."""
+    # loaded with the models that it has
+    from ..core.build import Build
+
+    return build.wanted if isinstance(build, Build) else None
 
 
 def _colours_of(build: Finished) -> Sequence[tuple[tuple[int, int, int], int, int, float]]:

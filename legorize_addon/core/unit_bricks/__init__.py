@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from .backing import add_backing
-from .colour_votes import CLEAR
 from .dithering import dithering_of, remarks_on_dithering
 from .facing import Facing, facing_of
 from .feet import add_feet, said_of_feet
@@ -14,7 +13,6 @@ from .plates import Detail
 from .wanted_colours import WantedColours, wanted_colours
 
 __all__ = [
-    "CLEAR",
     "Detail",
     "Facing",
     "Offsets",
