@@ -69,8 +69,9 @@ def state(build: bpy.types.Collection) -> tuple[dict[str, Any], list[dict[str, l
     for points in point_objects(build):
         found = {}
         for attribute in points.data.attributes:
-            values = np.empty(len(points.data.vertices) * (3 if attribute.name == "position" else 1), dtype=np.float32)
-            attribute.data.foreach_get("vector" if attribute.name == "position" else "value", values)
+            vector = attribute.data_type == "FLOAT_VECTOR"
+            values = np.empty(len(points.data.vertices) * (3 if vector else 1), dtype=np.float32)
+            attribute.data.foreach_get("vector" if vector else "value", values)
             found[attribute.name] = values.tolist()
         attributes.append(found)
     return build[BUILD_KEY].to_dict(), attributes
