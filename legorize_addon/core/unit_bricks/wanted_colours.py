@@ -78,7 +78,8 @@ def wanted_colours(
     """
     levels = 1 if plates else PLATES_PER_BRICK
     solid = solid.reshape(-1, *solid.shape[2:])[::levels]
-    grid = Grid(origin, *solid.shape, height=levels * PLATE)
+    n_layers, n_y, n_x = solid.shape
+    grid = Grid(origin, n_layers, n_y, n_x, levels * PLATE)
     light = light_samples(mesh, grid)
     light = light.at(reached_by_air(light, grid.shape) & ~occluded(light))
     if facing is not None:
