@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ..arrays import Ints, Mask
+from ..arrays import Floats, Ints, Mask
 from ..geometry import outer_air
 from ..mesh import TriangleMesh
 from ..model import COLOUR_EMPTY, Fill, UnitGrid
 from ..slicing import fine_shares
+from ..units import PLATES_PER_BRICK
 from .forms import PARTS
 
 Cell = TypeVar("Cell", bound=np.generic)
@@ -24,6 +25,9 @@ ROOF: Final = 10
 
 _WHOLE: Final = 0.98
 """How far inside or outside of the mesh a cell is, -1 to 1, that its surface does not go through."""
+
+_KEPT: Final = 0.9
+"""How far outside of the mesh what the model fills of a brick's column lies that it fills in spite of that."""
 
 _AIR: Final = 0
 _INSIDE: Final = 1
@@ -44,7 +48,7 @@ class Site:
     air : bool array
         Empty cells that are connected with the outside.
     room : bool array
-        Cells that a slope may claim: of the shell, or empty and open.
+        Cells that a slope may claim: of the shell, or empty and open, where the cut of the mesh tells what is inside.
     hidden : bool array
         Cells without a colour of their own.
     colour : int16 array
@@ -89,7 +93,7 @@ class Site:
             solid=solid.reshape(-1),
             required=(cover == Fill.REQUIRED).reshape(-1),
             air=air.reshape(-1),
-            room=(np.where(solid, cover == Fill.REQUIRED, air) & inner).reshape(-1),
+            room=(np.where(solid, cover == Fill.REQUIRED, air) & inner & _told(solid, whole[row])).reshape(-1),
             hidden=(solid & (colour < 0)).reshape(-1),
             colour=colour.reshape(-1),
             row=row.reshape(-1),
@@ -120,3 +124,22 @@ def _near(solid: Mask) -> Mask:
     inner = ndimage.binary_erosion(solid, whole, border_value=1)
     near: Mask = ndimage.binary_dilation(solid, whole) & ~inner
     return near
+
+
+def _told(solid: Mask, outside: Floats) -> Mask:
+    """Return where a model is filled as the cut of its mesh says, which thin walls and open surfaces are not.
+
+    Parameters
+    ----------
+    solid : (n_z, n_y, n_x) bool array
+        Whole bricks from the ground on.
+    outside : (n_z, n_y, n_x) float array
+        How far outside of the mesh each cell is, -1 to 1.
+    """
+    by_brick = (-1, PLATES_PER_BRICK, *solid.shape[1:])
+    high = -len(solid) % PLATES_PER_BRICK
+    there, cost = (np.pad(each, ((0, high), (0, 0), (0, 0))).reshape(by_brick) for each in (solid, outside))
+    many = there.sum(axis=1, keepdims=True)
+    kept = np.where(there, cost, 0).sum(axis=1, keepdims=True) > _KEPT * many
+    told: Mask = np.where(there, ~(kept & (many > 0)), cost >= 0).reshape(-1, *solid.shape[1:])[: len(solid)]
+    return told

@@ -52,3 +52,19 @@ def test_closed_hollows_are_no_air():
     site = Site.of(ramp(), grid, replace(grid, cover=cover))
     assert not site.room[at(site, 3, 2, 1)]
     assert not site.air[at(site, 3, 2, 1)]
+
+
+def test_the_cut_has_to_tell_what_is_filled():
+    """What is left empty inside of the mesh, or filled outside of it, as with open surfaces, may not be claimed."""
+    grid = cells_of_ramp()
+    cover = grid.cover.copy()
+    cover[0, 1, 1, 2] = Fill.EMPTY
+    # a wall of a stud that stands in front of the ramp
+    cover[:, :, 2, 8] = Fill.REQUIRED
+    wall = replace(grid, cover=cover)
+    site = Site.of(ramp(), wall, wall)
+    assert not site.room[at(site, 2, 1, 1)]
+    assert not site.room[at(site, 8, 2, 3)]
+    # the uppermost cell under the fall is filled to a fifth alone, but its brick by more than a half
+    assert site.room[at(site, 6, 2, 5)]
+    assert site.room[at(site, 8, 3, 3)]
