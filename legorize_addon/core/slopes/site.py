@@ -31,7 +31,8 @@ _KEPT: Final = 0.9
 
 _AIR: Final = 0
 _INSIDE: Final = 1
-"""Rows of the cells that are far from the surface."""
+_OPEN: Final = 2
+"""Rows of the cells that are far from the surface, and of those that are left empty inside of it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,16 +85,20 @@ class Site:
         low, high = MARGIN, [size - MARGIN for size in solid.shape[1:]]
         shares = fine_shares(mesh, grid.origin, near[: -ROOF or None, low : high[0], low : high[1]])
         row = np.where(solid, _INSIDE, _AIR).astype(np.int32)
-        row[near] = 2 + np.arange(len(shares))
-        gain = np.concatenate([np.full((1, PARTS), 1.0), np.full((1, PARTS), -1.0), 1 - 2 * shares.reshape(-1, PARTS)])
+        row[near] = _OPEN + 1 + np.arange(len(shares))
+        far = [np.full((1, PARTS), cost) for cost in (1.0, -1.0, 0.0)]
+        gain = np.concatenate([*far, 1 - 2 * shares.reshape(-1, PARTS)])
         whole = gain.mean(axis=1)
         mixed = np.flatnonzero((np.abs(whole) < _WHOLE)[row.reshape(-1)])
+        told = _told(solid, whole[row])
+        # to fill what is empty inside of an open surface is neither right nor wrong
+        row[~solid & (whole[row] < 0)] = _OPEN
         return cls(
             shape=solid.shape,
             solid=solid.reshape(-1),
             required=(cover == Fill.REQUIRED).reshape(-1),
             air=air.reshape(-1),
-            room=(np.where(solid, cover == Fill.REQUIRED, air) & inner & _told(solid, whole[row])).reshape(-1),
+            room=(np.where(solid, cover == Fill.REQUIRED, air) & inner & told).reshape(-1),
             hidden=(solid & (colour < 0)).reshape(-1),
             colour=colour.reshape(-1),
             row=row.reshape(-1),
@@ -141,5 +146,5 @@ def _told(solid: Mask, outside: Floats) -> Mask:
     there, cost = (np.pad(each, ((0, high), (0, 0), (0, 0))).reshape(by_brick) for each in (solid, outside))
     many = there.sum(axis=1, keepdims=True)
     kept = np.where(there, cost, 0).sum(axis=1, keepdims=True) > _KEPT * many
-    told: Mask = np.where(there, ~(kept & (many > 0)), cost >= 0).reshape(-1, *solid.shape[1:])[: len(solid)]
+    told: Mask = ~(there & kept).reshape(-1, *solid.shape[1:])[: len(solid)]
     return told
