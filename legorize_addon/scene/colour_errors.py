@@ -26,7 +26,7 @@ NO_ERROR: Final = -1.0
 """Error of a brick that shows no surface."""
 
 SURFACE: Final = "surface"
-"""Name of the packed surface: about 8 bytes a visible cell."""
+"""Name of the packed surface: about 12 bytes a visible cell."""
 
 _CELL: Final = np.dtype([("cell", "<i2", 3), ("light", "<f2", 3), ("area", "<f2")])
 

@@ -183,7 +183,7 @@ def price_file(path: Path, catalogue: Catalogue, *, seed: int = 1) -> Path:
     rows = []
     for part in catalogue.parts:
         studs = part.length * part.width - part.corner
-        height = {1: 0.6, 3: 1.0, 9: 2.2}[part.height]
+        height = round(0.4 + 0.2 * part.height, 1)
         base = (0.025 + 0.028 * studs**0.75) * height * (_POPULAR | _RARE).get(part.number, 1.0)
         for colour in catalogue.colours:
             price = base * (1.0 if colour.code in _COMMON else 1.5) * np.exp(rng.normal(0, 0.25))
