@@ -300,8 +300,8 @@ def _building_figures(building: Mapping[str, Any] | None) -> tuple[str, ...]:
 classes = (
     LEGORIZE_PT_main,
     LEGORIZE_PT_palette,
-    LEGORIZE_PT_edits,
     LEGORIZE_PT_result,
+    LEGORIZE_PT_edits,
     LEGORIZE_PT_stability,
     LEGORIZE_PT_layers,
     LEGORIZE_PT_lots,

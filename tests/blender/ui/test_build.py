@@ -23,6 +23,7 @@ from legorize_addon.scene.state import BUILD_KEY
 from legorize_addon.ui import build as operators
 from legorize_addon.ui import job, panels
 from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.requests import chosen_sources
 from tests.blender.bricks import assert_same, content, instances
 from tests.blender.builders import add_table_on_one_leg
 
@@ -539,7 +540,8 @@ def test_a_giant_is_a_question_in_a_window(box, monkeypatch) -> None:
     bpy.context.scene.legorize.settings.limit_size = 5
     asked: list[str] = []
     monkeypatch.setattr(operators, "ask", asked.append)
-    order = operators.LEGORIZE_OT_build._take_order(SimpleNamespace(larger=False), bpy.context)
+    pressed = SimpleNamespace(larger=False, afresh=False, _sources=chosen_sources)
+    order = operators.LEGORIZE_OT_build._take_order(pressed, bpy.context)
     assert operators.LEGORIZE_OT_build._begin(None, bpy.context, order) == {"CANCELLED"}
     [sentence] = asked
     assert sentence.endswith("raise limit_size to 10.")
