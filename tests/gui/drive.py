@@ -67,6 +67,9 @@ def build_undo_cancel(sample: str, seen: dict[str, Any]) -> Wait:
     seen["region"] = [region.x, region.y, region.width, region.height]
     seen["before"] = scene_content(sample)
     screenshot("1-before")
+    # the box of hints would move the button
+    bpy.ops.legorize.close_hints()
+    yield 0.5
 
     bpy.context.scene.legorize.settings.width = 48
     yield from click_button(seen)
