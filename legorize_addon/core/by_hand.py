@@ -9,8 +9,8 @@ from typing import Final
 import numpy as np
 
 from .edits import Edits, Outcome, apply_edits, outcomes_of
-from .layout.problem import owners, with_margins
-from .model import COLOUR_EMPTY, NOBODY, Assembly, Bricks, Catalogue, Fill, Role, UnitGrid, contact_graph
+from .layout import owners_of
+from .model import COLOUR_EMPTY, NOBODY, Assembly, Bricks, Catalogue, Fill, Role, UnitGrid
 from .run import Run
 
 OTHER_GRID: Final = "the model has another size now, or lies otherwise in its grid"
@@ -76,8 +76,7 @@ def edit_bricks(
 
 def _as_built(shell: UnitGrid, bricks: Bricks, catalogue: Catalogue) -> UnitGrid:
     """Return the cells that bricks fill, in their colours where those of the cells count."""
-    owner = owners(contact_graph(bricks, catalogue), with_margins(shell.colour, 0).shape)
-    owner = owner[1:-1].reshape(shell.colour.shape)
+    owner = owners_of(bricks, shell, catalogue)[1:-1].reshape(shell.colour.shape)
     filled = owner != NOBODY
     added, gone = filled & ~shell.solid, ~filled & (shell.cover == Fill.REQUIRED)
     colour = np.where(filled & (shell.colour >= 0) | added, bricks.colour[owner], shell.colour)

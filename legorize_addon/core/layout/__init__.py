@@ -5,6 +5,7 @@ from __future__ import annotations
 from .again import as_good, cells_of, lay_again
 from .alike import Alike
 from .around import lay_around
+from .fixed import owners_of
 from .lay import FILLER, Manner, lay, lay_fixed
 from .lay_learned import lay_learned
 from .recolour import recolour_visible
@@ -22,5 +23,6 @@ __all__ = [
     "lay_around_slopes",
     "lay_fixed",
     "lay_learned",
+    "owners_of",
     "recolour_visible",
 ]

@@ -11,8 +11,9 @@ import numpy as np
 from ..arrays import Mask
 from ..model import Bricks, Catalogue, Fill, UnitGrid, contact_graph
 from ..progress import Progress
+from .fixed import owners_of
 from .lay import Manner, cover, join_loose, sheets_and_shapes
-from .problem import gather, owners, with_margins
+from .problem import gather
 from .symmetric import LEAST, Fold, fold_of, mirrored, some_cells
 
 DEARER: Final = 0.01
@@ -106,7 +107,7 @@ class Alike:
         rest = some_cells(grid, left)
         if not (rest.cover == Fill.REQUIRED).any():
             return bricks
-        there = owners(contact_graph(bricks, self.catalogue), with_margins(grid.colour, 0).shape)
+        there = owners_of(bricks, grid, self.catalogue)
         return gather([bricks, self._cover(rest, replace(self.manner, beside=there), progress)])
 
     def _cover(self, grid: UnitGrid, manner: Manner, progress: Progress) -> Bricks:

@@ -36,6 +36,6 @@ def with_fixed(grid: UnitGrid, fixed: Bricks, catalogue: Catalogue) -> UnitGrid:
     )
 
 
-def owners_of(fixed: Bricks, grid: UnitGrid, catalogue: Catalogue) -> Rows:
+def owners_of(bricks: Bricks, grid: UnitGrid, catalogue: Catalogue) -> Rows:
     """Return the row of the brick in each cell of a grid, with the planes of :func:`~.problem.with_margins`."""
-    return owners(contact_graph(fixed, catalogue), with_margins(grid.colour, 0).shape)
+    return owners(contact_graph(bricks, catalogue), with_margins(grid.colour, 0).shape)

@@ -24,7 +24,7 @@ from .slices import slice_mesh
 from .trajectories import linked
 
 PARTS: Final = 4
-"""Steps of a shift in a stud: those of half a stud and between, as finer ones gain next to nothing."""
+"""Steps of a shift in a stud."""
 
 LEEWAY: Final = 0.03
 """Share by which a size may differ: less than a stud of 32."""

@@ -26,8 +26,8 @@ OWN: Final = 0.5
 """Share of a feature's surface that has its own colour, at least."""
 
 MISSED: Final = CLEAR / 4
-"""CIEDE2000 by which the mean difference of a feature's surface grows in another colour, at least: an eye's by 20 and
-more, that of a shade beside the next one by 2."""
+"""CIEDE2000 by which the mean difference of a feature's surface grows in another colour, at least. At
+48 studs, lone bricks in a clear colour of their own grew by 5.7 to 23, shades beside the next shade by .1 to 2."""
 
 _WAYS: Final = np.array([way for way in product((-1, 0, 1), repeat=3) if way > (0, 0, 0)])
 """From a cell to half of its 26 neighbours, the others being those that it is a neighbour of."""
