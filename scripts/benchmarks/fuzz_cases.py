@@ -275,6 +275,8 @@ def _settings(rng: np.random.Generator) -> Settings:
         chosen |= {"open_bottom": False, "hollow_rule": "both"}
     if chosen.get("one_to_one") or chosen.get("cell_colour") == "longest":
         chosen["dithering"] = "none"
+    if chosen.get("layout") == "learned":
+        chosen["surface"] = "studs"
     return Settings(**chosen)
 
 
