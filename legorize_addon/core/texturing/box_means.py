@@ -26,9 +26,25 @@ def box_means(values: NDArray[np.floating], shape: tuple[int, ...]) -> Floats:
     means = values
     for n in shape:
         # one side and then, on the transposed image, the other
-        means = (_weights(n, means.shape[0]) @ means).T
+        means = _along(means, n).T
     result: Floats = np.asarray(means, dtype=np.float64)
     return result
+
+
+def _along(values: NDArray[np.floating], boxes: int) -> NDArray[np.floating]:
+    """Return the means over the boxes along the rows, (boxes, w)."""
+    every, left = divmod(len(values), boxes)
+    if left:
+        means: NDArray[np.floating] = _weights(boxes, len(values)) @ values
+        return means
+    if every == 1:
+        return values
+    # whole texels alone: added in the same order as by the matrix, in a fraction of its time
+    share = np.float32(1 / every)
+    means = values[::every] * share
+    for texel in range(1, every):
+        means += values[texel::every] * share
+    return means
 
 
 def _weights(boxes: int, texels: int) -> sparse.csr_array:

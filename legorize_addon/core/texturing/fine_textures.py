@@ -10,6 +10,7 @@ its texels stay.
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -31,51 +32,86 @@ a quarter of a stud 0.35, on checkers of half a stud 0.
 """
 
 Bytes = NDArray[np.uint8]
+Singles = NDArray[np.float32]
 
 
-def average_windows(image: Bytes, window: tuple[int, int], *, clamp: bool) -> Bytes:
-    """Replace texture that is finer than a stud by its mean.
+class FineTextures:
+    """An image of which texture that is finer than a stud becomes its mean, for studs of any size in texels.
 
     Parameters
     ----------
     image : (h, w, 3) uint8 array
         sRGB.
-    window : two int
-        Rows and columns that make about a stud.
     clamp : bool
         Whether the image ends at its rim; else it repeats.
-
-    Returns
-    -------
-    (h, w, 3) uint8 array
-        The image itself if nothing in it is that fine.
     """
-    shape = tuple(max(1, round(size / each)) for size, each in zip(image.shape[:2], window, strict=True))
-    if shape == image.shape[:2]:
-        return image
-    fine = _fine_blocks(image, shape, clamp=clamp)
-    if not fine.any():
-        return image
-    row, column = (np.arange(size) * n // size for size, n in zip(image.shape[:2], shape, strict=True))
-    means = srgb_from_linear(_smooth(_linear_means(image, shape), fine, clamp=clamp))
-    return np.where(fine[row[:, None], column][..., None], means[row[:, None], column], image)
+
+    def __init__(self, image: Bytes, *, clamp: bool) -> None:
+        self._image, self._clamp = image, clamp
+        self._means: dict[tuple[int, int], Singles] = {}
+
+    def averaged(self, window: tuple[int, int]) -> Bytes:
+        """Replace texture that is finer than a stud by its mean.
+
+        Parameters
+        ----------
+        window : two int
+            Rows and columns that make about a stud.
+
+        Returns
+        -------
+        (h, w, 3) uint8 array
+            The image itself if nothing in it is that fine.
+        """
+        image, clamp = self._image, self._clamp
+        height, width = (max(1, round(size / each)) for size, each in zip(image.shape[:2], window, strict=True))
+        shape = height, width
+        if shape == image.shape[:2]:
+            return image
+        fine = _fine_blocks(self._over(shape), clamp=clamp)
+        if not fine.any():
+            return image
+        row, column = (np.arange(size) * n // size for size, n in zip(image.shape[:2], shape, strict=True))
+        means = srgb_from_linear(_smooth(_linear_means(image, shape), fine, clamp=clamp))
+        made, (y, x) = image.copy(), np.nonzero(fine[row][:, column])
+        made[y, x] = means[row[y], column[x]]
+        return made
+
+    def _over(self, shape: tuple[int, int]) -> Singles:
+        """Return the means of the texels and of their squares over blocks, (2, 3, rows, columns)."""
+        if shape not in self._means:
+            # of smaller blocks without any rest, if there are some: whole numbers over powers of two, so exact
+            parts = [each for each in self._means if not (each[0] % shape[0] or each[1] % shape[1])]
+            finest = self._means[min(parts, key=math.prod)] if parts else _with_squares(self._image)
+            made = [[box_means(channel, shape) for channel in of] for of in finest]
+            self._means[shape] = np.array(made, dtype=np.float32)
+        return self._means[shape]
 
 
-def _fine_blocks(image: Bytes, shape: tuple[int, int], *, clamp: bool) -> Mask:
+def _with_squares(image: Bytes) -> Singles:
+    """Return the texels and their squares by channels, (2, 3, h, w)."""
+    texels = np.moveaxis(image, 2, 0).astype(np.float32)
+    return np.stack([texels, texels**2])
+
+
+def _fine_blocks(means: Singles, *, clamp: bool) -> Mask:
     """Return the blocks whose texels differ more than they do from the blocks around."""
-    spread, difference = np.zeros(shape), np.zeros(shape)
-    around = np.ones((3, 3)) / 8
-    around[1, 1] = 0
-    mode = "nearest" if clamp else "wrap"
-    for channel in range(3):
-        values = image[..., channel].astype(np.float32)
-        mean = box_means(values, shape)
-        spread += np.maximum(box_means(values**2, shape) - mean**2, 0)
+    spread, difference = np.zeros((2, *means.shape[2:]))
+    for mean, square in means.transpose(1, 0, 2, 3).astype(np.float64):
+        spread += np.maximum(square - mean**2, 0)
         # the mean of squared differences, without a loop over the eight
-        near, square = (ndimage.convolve(each, around, mode=mode) for each in (mean, mean**2))
-        difference += np.maximum(mean**2 - 2 * mean * near + square, 0)
+        near, further = (_around(each, clamp=clamp) for each in (mean, mean**2))
+        difference += np.maximum(mean**2 - 2 * mean * near + further, 0)
     fine: Mask = (spread > _CLEAR**2) & (difference < _LEVEL**2 * spread)
     return fine
+
+
+def _around(values: Floats, *, clamp: bool) -> Floats:
+    """Return the mean of the eight blocks around each."""
+    wide = np.pad(values, 1, mode="edge" if clamp else "wrap")
+    rows = wide[:-2] + wide[1:-1] + wide[2:]
+    around: Floats = (rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:] - values) / 8
+    return around
 
 
 def _linear_means(image: Bytes, shape: tuple[int, int]) -> Floats:

@@ -26,7 +26,7 @@ from ..colours import linear_from_srgb, srgb_from_linear
 from ..mesh import TriangleMesh
 from ..units import STUD
 from .box_means import box_means
-from .fine_textures import average_windows
+from .fine_textures import FineTextures
 
 TEXELS_PER_STUD: Final = 16
 """Largest number of texels that a stud's length crosses along one side of an image."""
@@ -83,15 +83,17 @@ class _Images:
         self.images: list[Bytes] = []
         self.clamp: list[bool] = []
         self._mesh, self._least = mesh, least
-        self._reduced: dict[tuple[int, int, int], Bytes] = {}
+        self._reduced: tuple[tuple[int, int, int], FineTextures] | None = None
 
     def row(self, image: int, y: int, x: int, high: int, wide: int) -> int:
         """Return the row of an image, given how often its sides are halved and the logarithms of its windows."""
         clamp, key = bool(self._mesh.image_clamp[image]), (image, y, x)
-        if key not in self._reduced:
+        if self._reduced is None or self._reduced[0] != key:
             opacity = self._mesh.opacities[image] if self._mesh.opacities else None
-            self._reduced[key] = _reduced(self._mesh.images[image], opacity, (y, x), self._least)
-        made = average_windows(self._reduced[key], (1 << high, 1 << wide), clamp=clamp)
+            reduced = _reduced(self._mesh.images[image], opacity, (y, x), self._least)
+            # of the last one alone, as they take much room and those of one image follow each other
+            self._reduced = key, FineTextures(reduced, clamp=clamp)
+        made = self._reduced[1].averaged((1 << high, 1 << wide))
         known = [row for row, each in enumerate(self.images) if each is made and self.clamp[row] == clamp]
         if known:
             return known[0]
