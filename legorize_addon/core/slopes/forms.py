@@ -62,13 +62,19 @@ class Form:
 
 @lru_cache
 def forms(parts: tuple[Part, ...], *, plates: bool) -> tuple[Form, ...]:
-    """List the slopes of a catalogue in all their turns; without plates those alone that are as high as bricks."""
+    """List the slopes of a catalogue in all their turns; without plates those alone that leave room for bricks."""
     return tuple(
         _form(part, row, turn)
         for row, part in enumerate(parts)
-        if part.sloped and (plates or part.height % PLATES_PER_BRICK == 0)
+        if part.sloped and (plates or _as_bricks(part))
         for turn in range(part.turns)
     )
+
+
+def _as_bricks(part: Part) -> bool:
+    """Return whether bricks alone fit above and below a part: not under the steps of a curved one."""
+    facts = columns(part, 0)
+    return not ((facts.low % PLATES_PER_BRICK).any() or (facts.high % PLATES_PER_BRICK).any())
 
 
 def slopes_of(catalogue: Catalogue, *, plates: bool) -> tuple[Form, ...]:

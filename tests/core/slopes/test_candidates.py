@@ -34,7 +34,9 @@ def test_the_slopes_that_fit():
     # cells of the fall have shares of .98, .6 and .2; two studs wide; parts that the fall goes through count half
     assert 0.9 < score < 2 * (0.02 + 0.4 + 0.2)
     assert ("3039", 2, (5, 1, 3)) not in found
-    assert max(found.values(), key=lambda each: each[1])[1] == pytest.approx(score)
+    # as wide as the ramp is twice as good, and nothing is better
+    assert found["3037", 0, (5, 1, 3)][1] == pytest.approx(2 * score)
+    assert max(found.values(), key=lambda each: each[1])[1] == pytest.approx(2 * score)
 
 
 def test_parts_cost():
