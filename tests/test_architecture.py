@@ -67,6 +67,7 @@ ORDER: Final = (
     "core.by_hand",
     "core.slope_stages",
     "core.drafting",
+    "core.preview",
     "core.beyond",
     "core.mosaic_estimate",
     "core.mosaic_stages",

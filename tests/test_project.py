@@ -17,6 +17,7 @@ CORE = ROOT / "legorize_addon" / "core"
 READERS = (
     *(
         "pipeline",
+        "preview",
         "drafting",
         "existing",
         "run",

@@ -5,16 +5,18 @@ from __future__ import annotations
 from functools import partial
 from typing import Final
 
-from .build import Draft
+from .build import Cut, Draft
+from .colours import SurfaceColours
 from .errors import SettingsError, enough_memory
 from .estimate import COUNTED, estimate
 from .limits import check_limits
-from .mesh import TriangleMesh
+from .mesh import Repairs, TriangleMesh
 from .model import UnitGrid
 from .native import watched
 from .progress import Overall, Progress, silent
 from .run import Run
 from .settings import Settings
+from .slicing import Grid, Trajectories
 from .stages import (
     close_overhangs,
     cut_mesh,
@@ -26,7 +28,7 @@ from .stages import (
     place_grid,
     prepare_mesh,
 )
-from .unit_bricks import add_feet
+from .unit_bricks import Offsets, WantedColours, add_feet
 
 STAGES: Final = ("mesh", "colours", "slicing", "trajectories", "unit bricks", "overhangs", "hollowing")
 """Their names."""
@@ -88,6 +90,37 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
         mesh, scale, frame, sized = run.once(place_grid, mesh, scale)
     with run.stage("colours"):
         surface = run.once(find_colours, mesh, given)
+    cut, trajectories, grid, feet = gridded(run, mesh, repairs, surface, frame)
+    wanted = _wanted(run, mesh, surface, grid)
+    grid, offsets, shell = hollowed(run, grid)
+    made = Draft(
+        mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut, trajectories=trajectories,
+        offsets=offsets, grid=grid, hollow=shell, wanted=wanted,
+    )  # fmt: skip
+    return made, (*unseen, *sized, *feet)
+
+
+def gridded(
+    run: Run, mesh: TriangleMesh, repairs: Repairs, surface: SurfaceColours, frame: Grid
+) -> tuple[Cut, Trajectories, UnitGrid, tuple[str, ...]]:
+    """Go from a mesh in its size and its colours to unit bricks.
+
+    Parameters
+    ----------
+    run : Run
+    mesh : TriangleMesh
+        Repaired and scaled.
+    repairs : Repairs
+        What was done to it.
+    surface : SurfaceColours
+    frame : Grid
+        The grid that lies over it.
+
+    Returns
+    -------
+    tuple
+        The slices, the trajectories, the unit bricks, and remarks on feet.
+    """
     with run.stage("slicing"):
         cut = run.once(cut_mesh, mesh, surface, frame)
     with run.stage("trajectories"):
@@ -95,16 +128,33 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
     with run.stage("unit bricks"):
         grid = run.once(make_unit_grid, mesh, repairs, trajectories, surface, frame, cut)
         grid, feet = run.once(stand_up, grid)
-        wanted = find_wanted(run, mesh, surface, grid)
+    return cut, trajectories, grid, feet
+
+
+def _wanted(run: Run, mesh: TriangleMesh, surface: SurfaceColours, grid: UnitGrid) -> WantedColours:
+    """Return the light of the surface, which no preview needs, in the time of the unit bricks."""
+    with run.stage("unit bricks"):
+        return find_wanted(run, mesh, surface, grid)
+
+
+def hollowed(run: Run, grid: UnitGrid) -> tuple[UnitGrid, Offsets, UnitGrid]:
+    """Go from unit bricks to the cells that are to be covered.
+
+    Parameters
+    ----------
+    run : Run
+    grid : UnitGrid
+
+    Returns
+    -------
+    tuple
+        The unit bricks with the colours of offset bricks, those bricks, and the shell.
+    """
     with run.stage("overhangs"):
         grid, offsets = run.once(close_overhangs, grid)
     with run.stage("hollowing"):
         shell = run.once(hollow_out, grid)
-    made = Draft(
-        mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut, trajectories=trajectories,
-        offsets=offsets, grid=grid, hollow=shell, wanted=wanted,
-    )  # fmt: skip
-    return made, (*unseen, *sized, *feet)
+    return grid, offsets, shell
 
 
 def stand_up(run: Run, grid: UnitGrid) -> tuple[UnitGrid, tuple[str, ...]]:

@@ -49,6 +49,7 @@ from .lettering import title_for
 from .model import Model, Source
 from .part_meshes import PART_KEY, Detail, detail_of, parts_collection, parts_in_use, set_detail
 from .placing import layer_collections, stand_beside, world_from_mm
+from .preview import end_preview, preview_in, previewed, show_preview
 from .section import AXES, Section, beyond, hidden_side, place_plane
 from .shared_parts import own_parts, sweep
 from .state import is_build, state_of
@@ -101,6 +102,7 @@ __all__ = [
     "colour_material",
     "damage",
     "detail_of",
+    "end_preview",
     "found_colours",
     "get_input",
     "ghost_shown",
@@ -123,6 +125,8 @@ __all__ = [
     "plastic",
     "point_objects",
     "positions",
+    "preview_in",
+    "previewed",
     "read_bricks",
     "read_bricks_text",
     "read_columns",
@@ -131,6 +135,7 @@ __all__ = [
     "show_build",
     "show_ghost",
     "show_orphans",
+    "show_preview",
     "show_sources",
     "sources_of",
     "stand_beside",

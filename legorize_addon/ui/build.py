@@ -16,6 +16,7 @@ from ..scene import Source, builds, clear_build, damage, orphans, show_orphans, 
 from ..view import show_result
 from . import job
 from .build_larger import ask
+from .live import leave_preview
 from .progress_text import STOPPED, progress_text
 from .properties import current_build
 from .requests import BuildRequest, build_request, by_uid, chosen_sources
@@ -285,6 +286,7 @@ class LEGORIZE_OT_clear(OnBuild, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Remove the build."""
+        leave_preview(context)
         clear_build(context.scene, current_build(context.scene))
         return {"FINISHED"}
 

@@ -35,6 +35,7 @@ from .expectation import expected
 from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
 from .hints import draw_hints
 from .instructions import LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps
+from .live import draw_live
 from .looks import draw_looks
 from .palette import LEGORIZE_PT_palette
 from .parts import LEGORIZE_OT_export_list, LEGORIZE_OT_list_parts, LEGORIZE_OT_show_all
@@ -86,6 +87,8 @@ class LEGORIZE_PT_main(Tab, bpy.types.Panel):
             self.layout.prop(context.scene.legorize, "build")
         self._draw_damage(context)
         self.layout.operator(LEGORIZE_OT_open_ldraw.bl_idname, icon="IMPORT")
+        # last, because what it says would move what is below
+        draw_live(context, self.layout)
 
     def _draw_expected(self, context: bpy.types.Context) -> None:
         """Draw what the settings will come to."""

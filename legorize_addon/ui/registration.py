@@ -16,6 +16,7 @@ from . import (
     hints,
     instructions,
     learning,
+    live,
     looks,
     menus,
     method,
@@ -34,9 +35,9 @@ from . import (
 )
 
 _PARTS = (
-    properties, expectation, session, build, build_larger, updating, export, instructions, animation, learning, looks,
-    parts, edits, everything, existing, palette, replacing, edit_tool, panels, mosaic, method, menus, preferences,
-    weakest, numbers, hints, assets, translations,
+    properties, expectation, session, build, build_larger, updating, live, export, instructions, animation, learning,
+    looks, parts, edits, everything, existing, palette, replacing, edit_tool, panels, mosaic, method, menus,
+    preferences, weakest, numbers, hints, assets, translations,
 )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from ..core.setting import SEPARATOR
 from ..core.settings import Settings
 from ..core.units import MM_PER_METRE
 from ..reading import has_surface
-from ..scene import builds_of, is_own, orphans, sources_of, state_of
+from ..scene import builds_of, end_preview, is_own, orphans, previewed, sources_of, state_of
 from ..view import edits_of, readable
 from .kept_texts import with_texts
 from .learned_files import resolved
@@ -109,6 +109,10 @@ def chosen_sources(context: bpy.types.Context) -> list[bpy.types.Object]:
     the objects it was made of, and with nothing selected those of the model
     that the panel shows, or what a model hid that was deleted since.
     """
+    shown = previewed(context.scene)
+    if shown and not context.selected_objects:
+        # which hides them, or their model
+        return shown
     selected = [thing for thing in context.selected_objects if not is_own(thing) and has_surface(thing)]
     models = builds_of(context.scene, [thing for thing in context.selected_objects if is_own(thing)])
     if not selected and not models and current_build(context.scene):
@@ -139,7 +143,7 @@ def replaced_by(context: bpy.types.Context, sources: Sequence[bpy.types.Object])
 
 
 def build_request(context: bpy.types.Context, sources: Sequence[bpy.types.Object], settings: Settings) -> BuildRequest:
-    """Read objects, which may be hidden, for a build.
+    """Read objects, which may be hidden, for a build; what a preview stands for is there again.
 
     Parameters
     ----------
@@ -156,6 +160,7 @@ def build_request(context: bpy.types.Context, sources: Sequence[bpy.types.Object
     """
     from ..reading import read_objects
 
+    end_preview(context.scene, context.view_layer)
     with readable(context, sources):
         context.view_layer.update()
         mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get())

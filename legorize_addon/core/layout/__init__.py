@@ -6,7 +6,7 @@ from .again import as_good, cells_of, lay_again
 from .alike import Alike
 from .around import lay_around
 from .fixed import owners_of
-from .lay import FILLER, Manner, lay, lay_fixed
+from .lay import FILLER, Manner, lay, lay_fixed, lay_unjoined
 from .lay_learned import lay_learned
 from .recolour import recolour_visible
 from .slopes import lay_around_slopes
@@ -23,6 +23,7 @@ __all__ = [
     "lay_around_slopes",
     "lay_fixed",
     "lay_learned",
+    "lay_unjoined",
     "owners_of",
     "recolour_visible",
 ]

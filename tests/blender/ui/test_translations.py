@@ -66,6 +66,8 @@ def registered() -> Iterator[Text]:
             yield DEFAULT, getattr(each, "bl_label", "")
             if kind in (bpy.types.PropertyGroup, bpy.types.AddonPreferences):
                 yield from of_properties(each.bl_rna)
+    live = bpy.types.WindowManager.bl_rna.properties["legorize_live"]
+    yield from ((DEFAULT, live.name), (DEFAULT, live.description))
     for each in set(classes(bpy.types.Operator)):
         yield OPERATOR, each.bl_label
         yield DEFAULT, getattr(each, "bl_description", "")
