@@ -9,6 +9,7 @@ from .brick_tree import EXPLODE, HEAT_MAP, HEAT_PARTS, PALE, PARTS, STEPS, brick
 from .builds import (
     LAYER_KEY,
     ROLE_KEY,
+    all_builds,
     bricks_of,
     builds,
     builds_of,
@@ -28,6 +29,7 @@ from .builds import (
 from .collections import clear_build, read_bricks, show_build, steps_of
 from .colour_errors import COLOUR_ERROR, colour_error_of, surface_of
 from .curves import add_lines
+from .duplicates import adopt_copies, copied_roots, is_copied_root
 from .hand_changes import hand_remark
 from .hidden_sources import orphans, show_orphans
 from .instancing import (
@@ -84,6 +86,8 @@ __all__ = [
     "Section",
     "Source",
     "add_lines",
+    "adopt_copies",
+    "all_builds",
     "animated_tree",
     "beyond",
     "box_corners",
@@ -100,6 +104,7 @@ __all__ = [
     "clear_build",
     "colour_error_of",
     "colour_material",
+    "copied_roots",
     "damage",
     "detail_of",
     "end_preview",
@@ -110,6 +115,7 @@ __all__ = [
     "has_input",
     "hidden_side",
     "is_build",
+    "is_copied_root",
     "is_own",
     "keep_found_colours",
     "layer_collections",

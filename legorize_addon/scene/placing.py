@@ -37,12 +37,12 @@ class Place(NamedTuple):
                 moved = _moved(state)
                 inverse = state.root.matrix_parent_inverse.copy()
                 parent = (state.root.parent, inverse) if state.root.parent else None
-                around = _collection_around(scene, build)
+                around = collection_around(scene, build)
                 return cls(scene.collection if _unticked(scene, around) else around, moved, parent)
         return cls(scene.collection, Matrix(), None)
 
 
-def _collection_around(scene: bpy.types.Scene, build: bpy.types.Collection) -> bpy.types.Collection:
+def collection_around(scene: bpy.types.Scene, build: bpy.types.Collection) -> bpy.types.Collection:
     """Return the collection in which a build lies."""
     around = (collection for collection in scene.collection.children_recursive if build.name in collection.children)
     return scene.collection if build.name in scene.collection.children else next(around)

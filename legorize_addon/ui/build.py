@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
@@ -11,14 +10,16 @@ from bpy.app.handlers import persistent
 from bpy.app.translations import pgettext_iface as iface
 from bpy.app.translations import pgettext_rpt as rpt
 
-from ..core.errors import BuildError, Cancelled, LegorizeError, LimitError, enough_memory
+from ..core.errors import BuildError, LimitError
 from ..scene import Source, builds, clear_build, damage, orphans, show_orphans, show_sources, state_of, sweep
 from ..view import show_result
 from . import job
 from .build_larger import ask
+from .duplicates import adopt
 from .live import leave_preview
-from .progress_text import STOPPED, progress_text
+from .progress_text import progress_text
 from .properties import current_build
+from .reporting import Reporting, forget_status
 from .requests import BuildRequest, build_request, by_uid, chosen_sources
 from .session import SESSION
 from .settings_properties import settings_of, take_renamed
@@ -30,31 +31,10 @@ if TYPE_CHECKING:
 TICK: Final = 0.1
 """Seconds between two looks at a running job."""
 
-SAID: Final = 6.0
-"""Seconds for which a sentence stays in the status bar: about as long as one of Blender's own."""
-
 NAVIGATION: Final = frozenset(
     {"MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM"}
 )
 """Events that are allowed while a job runs: looking around, but not changing the scene."""
-
-
-class Reporting:
-    """The one place where an expected failure becomes a report."""
-
-    def reported(self, work: Callable[..., set[str]], *arguments: Any) -> set[str]:
-        """Call a function; report an expected failure and cancel."""
-        try:
-            with enough_memory():
-                return work(*arguments)
-        except LegorizeError as error:
-            self.report({"ERROR"}, str(error))
-        except Cancelled:
-            self.report({"INFO"}, rpt(STOPPED))
-            bpy.context.window_manager.legorize_said = STOPPED
-            if not bpy.app.background:
-                _say_in_status_bar(bpy.context, rpt(STOPPED))
-        return {"CANCELLED"}
 
 
 class Working(Reporting):
@@ -286,6 +266,7 @@ class LEGORIZE_OT_clear(OnBuild, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Remove the build."""
+        adopt(context)
         leave_preview(context)
         clear_build(context.scene, current_build(context.scene))
         return {"FINISHED"}
@@ -323,24 +304,6 @@ def _select_only(context: bpy.types.Context, *things: bpy.types.Object) -> None:
         context.view_layer.objects.active = thing
 
 
-def _say_in_status_bar(context: bpy.types.Context, sentence: str) -> None:
-    context.workspace.status_text_set(f"Legorize: {sentence}")
-    _forget_status()
-    bpy.app.timers.register(_clear_status, first_interval=SAID)
-
-
-def _clear_status() -> None:
-    if not job.running():
-        for workspace in bpy.data.workspaces:
-            workspace.status_text_set(None)
-
-
-def _forget_status() -> None:
-    """Remove the timers of jobs before their window or file goes away."""
-    if bpy.app.timers.is_registered(_clear_status):
-        bpy.app.timers.unregister(_clear_status)
-
-
 @persistent
 def _stop_jobs(*arguments: Any) -> None:
     job.stop()
@@ -369,7 +332,7 @@ def register() -> None:
 def unregister() -> None:
     """Undo :func:`register`, after stopping what runs."""
     job.stop()
-    _forget_status()
+    forget_status()
     bpy.app.handlers.load_post.remove(_hide_linked_sources)
     bpy.app.handlers.load_pre.remove(_stop_jobs)
     _unregister_classes()

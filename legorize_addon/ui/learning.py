@@ -14,8 +14,9 @@ from ..core.model import Bricks, UnitGrid, load_catalogue
 from ..core.progress import Progress, part
 from ..core.settings import Settings
 from ..scene import builds_of, is_own, sources_of, state_of
-from .build import Reporting, Working
+from .build import Working
 from .learned_files import new_file, own_versions, resolved
+from .reporting import Reporting
 from .requests import build_request, chosen_sources
 from .settings_properties import settings_of
 

@@ -7,6 +7,7 @@ from . import (
     assets,
     build,
     build_larger,
+    duplicates,
     edit_tool,
     edits,
     everything,
@@ -35,8 +36,8 @@ from . import (
 )
 
 _PARTS = (
-    properties, expectation, session, build, build_larger, updating, live, export, instructions, animation, learning,
-    looks, parts, edits, everything, existing, palette, replacing, edit_tool, panels, mosaic, method, menus,
+    properties, expectation, session, build, build_larger, updating, duplicates, live, export, instructions, animation,
+    learning, looks, parts, edits, everything, existing, palette, replacing, edit_tool, panels, mosaic, method, menus,
     preferences, weakest, numbers, hints, assets, translations,
 )  # fmt: skip
 

@@ -10,9 +10,9 @@ from bpy.props import IntProperty
 from ..core.errors import SettingsError
 from ..core.model import load_catalogue
 from ..scene import found_colours
-from .build import Reporting
 from .palette import filled, ranked_colours, swatch
 from .properties import current_build
+from .reporting import Reporting
 
 MOST: Final = 16
 """Colours that the panel shows: the most frequent ones."""

@@ -20,10 +20,13 @@ class Session:
     ----------
     memo : Memo
         Their results, as many as it may keep.
+    left : set of int
+        Session identifiers of copied roots that an undo has left: if they became models at once, nobody could go on.
     """
 
     def __init__(self) -> None:
         self.memo = Memo()
+        self.left: set[int] = set()
         self._steps: dict[int, tuple[Step, ...]] = {}
 
     def keep(self, trial: Trial, build: bpy.types.Collection) -> None:
@@ -32,6 +35,11 @@ class Session:
         self._steps[build.session_uid] = trial.steps()
         for uid in list(self._steps)[:-_BUILDS]:
             del self._steps[uid]
+
+    def share(self, build: bpy.types.Collection, copy: bpy.types.Collection) -> None:
+        """Note that a build is a copy of another one."""
+        if build.session_uid in self._steps:
+            self._steps[copy.session_uid] = self._steps[build.session_uid]
 
     def steps_of(self, build: bpy.types.Collection) -> tuple[Step, ...] | None:
         """Return how a build came about; None if this session has not made it."""
