@@ -1,4 +1,4 @@
-"""What the tests inside Blender share: every test begins with an empty file."""
+"""What the tests inside Blender share: every test begins with an empty file, unless it is about numbers alone."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ bpy = pytest.importorskip("bpy", reason="needs Blender as a Python module")
 
 
 @pytest.fixture(autouse=True)
-def empty_file() -> None:
-    """Open an empty file; unlike read_factory_settings this keeps add-ons enabled."""
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+def empty_file(request: pytest.FixtureRequest) -> None:
+    """Open an empty file, but where only numbers are tested; unlike read_factory_settings this keeps add-ons enabled."""
+    if "numbers" not in request.keywords:
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
 
 
 @pytest.fixture(scope="module")

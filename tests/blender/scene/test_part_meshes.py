@@ -53,6 +53,7 @@ def tops(loft: Loft) -> NDArray[np.float64]:
     )
 
 
+@pytest.mark.numbers
 @every_part
 def test_low_detail_encloses_body_and_studs(part: Part) -> None:
     """The simple mesh encloses exactly the box with its gaps and an octagonal prism a stud: closed and outward."""
@@ -68,6 +69,7 @@ def test_low_detail_encloses_body_and_studs(part: Part) -> None:
     assert volume(part_loft(part, "low")) == pytest.approx(body + studs + open_bottoms)
 
 
+@pytest.mark.numbers
 @every_part
 @every_detail
 def test_no_edge_has_a_wrong_neighbour(part: Part, detail: str) -> None:
@@ -84,6 +86,7 @@ def test_no_edge_has_a_wrong_neighbour(part: Part, detail: str) -> None:
     assert len(heights) > 0 or not part.studs
 
 
+@pytest.mark.numbers
 @every_part
 @every_detail
 def test_part_keeps_to_its_box(part: Part, detail: str) -> None:
@@ -100,6 +103,7 @@ def test_part_keeps_to_its_box(part: Part, detail: str) -> None:
     assert vertices[:, 2].max() == pytest.approx(part.height * PLATE + top)
 
 
+@pytest.mark.numbers
 @every_part
 @every_detail
 def test_studs_stand_on_the_footprint(part: Part, detail: str) -> None:
@@ -114,6 +118,7 @@ def test_studs_stand_on_the_footprint(part: Part, detail: str) -> None:
         np.testing.assert_allclose(cells, [[part.length / 2 - 0.5, part.width / 2 - 0.5]], atol=1e-9)
 
 
+@pytest.mark.numbers
 @every_detail
 def test_high_detail_is_hollow(detail: str) -> None:
     """A brick seen from below has a floor in low detail and none but the rim and the tubes in high detail."""

@@ -35,6 +35,7 @@ def bevelled_edge(width: float) -> Loft:
     return welded([top, front, bevel])
 
 
+@pytest.mark.numbers
 def test_bevel_goes_from_face_to_face() -> None:
     """It has the normal of the level face above, that of the upright one below; both keep theirs."""
     loft = bevelled_edge(BEVEL)
@@ -45,6 +46,7 @@ def test_bevel_goes_from_face_to_face() -> None:
     assert (points[8:10, 2] < points[10:, 2].min()).all()
 
 
+@pytest.mark.numbers
 def test_wide_bevels_and_sharp_edges_stay() -> None:
     """What is wide is a face of its own, and an edge without a bevel is none."""
     wide = bevelled_edge(1.0)
@@ -53,6 +55,7 @@ def test_wide_bevels_and_sharp_edges_stay() -> None:
     np.testing.assert_allclose(corner_normals(sharp), [(0, 0, 1)] * 4 + [(0, -1, 0)] * 4, atol=1e-12)
 
 
+@pytest.mark.numbers
 @every_part
 def test_wide_faces_stay_flat(part: Part) -> None:
     """Flat faces as wide as a plate is thick have their own normals; no other normal turns away from its face."""
@@ -66,6 +69,7 @@ def test_wide_faces_stay_flat(part: Part) -> None:
             np.testing.assert_allclose(normals[face], np.tile(flat, (len(face), 1)), atol=1e-9)
 
 
+@pytest.mark.numbers
 def test_studs_are_round_and_upright() -> None:
     """The side of a stud is shaded as a cylinder's, up to its bevel."""
     loft = part_loft(CATALOGUE.parts[CATALOGUE.part_row("3005")], "high")

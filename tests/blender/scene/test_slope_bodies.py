@@ -31,6 +31,7 @@ def volume(loft: Loft) -> float:
     return total / 6
 
 
+@pytest.mark.numbers
 @every_slope
 @every_detail
 def test_bodies_are_closed(part: Part, detail: str) -> None:
@@ -41,6 +42,7 @@ def test_bodies_are_closed(part: Part, detail: str) -> None:
     assert {(end, start) for start, end in edges} == set(edges)
 
 
+@pytest.mark.numbers
 @every_slope
 @every_detail
 def test_faces_are_flat(part: Part, detail: str) -> None:
@@ -51,6 +53,7 @@ def test_faces_are_flat(part: Part, detail: str) -> None:
         assert np.linalg.svd(points - points.mean(axis=0))[1][-1] < 1e-4
 
 
+@pytest.mark.numbers
 @every_slope
 def test_low_detail_is_the_profile_drawn_out(part: Part) -> None:
     """The simple body fills what lies between the two lines, a gap less on all sides but below."""
@@ -61,6 +64,7 @@ def test_low_detail_is_the_profile_drawn_out(part: Part) -> None:
     assert volume(slope_body(part, "low")) == pytest.approx(area * (part.width * STUD - 2 * GAP), rel=3e-3)
 
 
+@pytest.mark.numbers
 @every_slope
 def test_high_detail_is_hollow(part: Part) -> None:
     """A hollow body has less volume than a whole one, but more than a sixth of it, and is within the same box."""
@@ -70,6 +74,7 @@ def test_high_detail_is_hollow(part: Part) -> None:
         np.testing.assert_allclose(end(low.vertices, axis=0), end(high.vertices, axis=0), atol=1.2 * BEVEL)
 
 
+@pytest.mark.numbers
 @every_slope
 @every_detail
 def test_studs_stand_where_columns_have_them(part: Part, detail: str) -> None:
@@ -85,6 +90,7 @@ def test_studs_stand_where_columns_have_them(part: Part, detail: str) -> None:
     assert loft.vertices[:, 2].max() <= top + 1e-9
 
 
+@pytest.mark.numbers
 @every_slope
 def test_tubes_end_below_the_top(part: Part) -> None:
     """Nothing round inside reaches through the slope, and nothing hangs below the part."""
@@ -103,6 +109,7 @@ def test_blender_finds_nothing_to_repair() -> None:
             assert not part_mesh(part, detail).validate(verbose=True)
 
 
+@pytest.mark.numbers
 def test_equal_points_are_welded() -> None:
     """Two triangles at one edge have four vertices; corners that repeat are left out."""
     one = np.array([(0, 0, 0), (1, 0, 0), (1, 0, 0), (0, 1, 0)], dtype=float)
