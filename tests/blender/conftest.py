@@ -11,7 +11,7 @@ bpy = pytest.importorskip("bpy", reason="needs Blender as a Python module")
 
 @pytest.fixture(autouse=True)
 def empty_file(request: pytest.FixtureRequest) -> None:
-    """Open an empty file, but where only numbers are tested; unlike read_factory_settings this keeps add-ons enabled."""
+    """Open an empty file, unless only numbers are tested; unlike read_factory_settings this keeps add-ons enabled."""
     if "numbers" not in request.keywords:
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
 
