@@ -31,7 +31,9 @@ _INWARDS: Final = 1e-7
 """A point on a border of cells belongs to the inner one, as an edge of a trajectory does; in cells."""
 
 
-def dense_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid, count: int) -> SurfaceSamples:
+def dense_samples(
+    mesh: TriangleMesh, surface: SurfaceColours, grid: Grid, count: int, *, seed: int = 0
+) -> SurfaceSamples:
     """Return points evenly over the surface, each in the brick colour of its texel.
 
     Parameters
@@ -41,12 +43,14 @@ def dense_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid, count
     grid : Grid
     count : int
         Points.
+    seed : int
+        Of their places.
 
     Returns
     -------
     SurfaceSamples
     """
-    face, weight, area = scattered(mesh, count)
+    face, weight, area = scattered(mesh, count, seed)
     points = np.einsum("ki,kij->kj", weight, mesh.vertices[mesh.faces[face]])
     place = ((points - grid.origin) / [STUD, STUD, BRICK])[:, ::-1]
     normal = face_normals(mesh)[face]
@@ -61,13 +65,14 @@ def dense_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid, count
     )
 
 
-def scattered(mesh: TriangleMesh, count: int) -> tuple[NDArray[np.intp], Floats, float]:
+def scattered(mesh: TriangleMesh, count: int, seed: int = 0) -> tuple[NDArray[np.intp], Floats, float]:
     """Choose points evenly over the surface.
 
     Parameters
     ----------
     mesh : TriangleMesh
     count : int
+    seed : int
 
     Returns
     -------
@@ -80,7 +85,7 @@ def scattered(mesh: TriangleMesh, count: int) -> tuple[NDArray[np.intp], Floats,
     """
     corners = mesh.vertices[mesh.faces]
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
-    rng = np.random.default_rng(0)
+    rng = np.random.default_rng(seed)
     comb = (np.arange(count) + rng.random()) / count * area.sum()
     face = np.minimum(np.searchsorted(np.cumsum(area), comb), len(area) - 1)
     return face, _barycentric(count, rng), float(area.sum())
