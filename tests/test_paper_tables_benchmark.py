@@ -12,12 +12,14 @@ from legorize_addon.core.mesh.triangle_mesh import repair
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from scripts import benchmark
-from scripts.research import accuracy, claim_figures, paper_tables
+from scripts.benchmarks.kept import Kept
+from scripts.research import accuracy, claim_figures, paper_case, paper_tables
 from scripts.research.claims import claims
 from scripts.research.five_kinds import KINDS
 from scripts.research.layout_goals import GREEDY
 from scripts.research.layouts import METHODS, SHELL
-from scripts.research.paper_tables import FIELD, LEARNED, NO_OPTIONAL, PAPER_RULE, TITLES
+from scripts.research.paper_case import FIELD, LEARNED, NO_OPTIONAL, PAPER_RULE
+from scripts.research.paper_tables import TITLES
 from tests.core.overhanging import overhanging
 from tests.core.solids import box
 
@@ -36,8 +38,8 @@ def tables(tmp_path_factory):
     folder = tmp_path_factory.mktemp("tables")
     quick = pytest.MonkeyPatch()
     # those that search, and the machine, take longer than all others together
-    some = [*list(paper_tables.methods())[:3], (METHODS[GREEDY], GREEDY, SHELL)]
-    quick.setattr(paper_tables, "methods", lambda: some)
+    some = [*list(paper_case.methods())[:3], (METHODS[GREEDY], GREEDY, SHELL)]
+    quick.setattr(paper_case, "methods", lambda: some)
     quick.setattr(claim_figures, "TRUTH", 64)
     quick.setattr(accuracy, "POINTS", 2000)
     meshes = {"table": overhanging(100.0)["table"], "block": box((0, 0, 0), (60, 60, 12))}
@@ -57,15 +59,44 @@ def test_all_tables_are_written(tables):
     assert set(found) == set(TITLES) == set(facts["tables"])
     [run] = facts["tables"]["tables_run"]
     assert (run["seed"], run["width"]) == (3, 12)
+    assert run["models"] == "table, block"
+    assert "plates none" in run["bricks_alone"]
+    assert "layout learned" in run["as_published"]
     assert run["legorize"]
     assert {name: len(rows) for name, rows in found.items()} == {
         name: len(rows) for name, rows in facts["tables"].items()
     }
 
 
+def test_a_run_goes_on_part_by_part(tmp_path, monkeypatch):
+    """What a run without time leaves out the next one measures, and what was measured is not measured again."""
+    calls = []
+    rows = {"one": {"tables_3": []}, "two": {"tables_3": []}}
+    monkeypatch.setattr(
+        paper_tables, "parts", lambda case: {name: lambda name=name: calls.append(name) or rows[name] for name in rows}
+    )
+    options = paper_case.Options(12, 0, 1)
+
+    def found(minutes):
+        return paper_tables.kept_parts(tmp_path / "model.obj", options, Kept(tmp_path, minutes))
+
+    Kept(tmp_path, 0.0).row("model-12-0-1-one", lambda: calls.append("before") or {"tables_3": "[]"})
+    assert found(-1.0) == {}
+    assert calls == ["before"]
+    rows["two"] = {
+        "tables_3": [{"nb": 3, "mass_g": 2.0, "tc_of": "layout"}],
+        "tables_claim_figures": [{"h": 1}, {"g": 2}],
+    }
+    whole = found(0.0)
+    assert calls == ["before", "two"]
+    start = {"model": "model", "studs": 12}
+    assert whole["tables_claim_figures"] == [start | {"h": 1, "g": 2}]
+    assert whole["tables_3"] == [start | {"nb": 3, "mass_g": 2.0, "tc_of": "layout", "more_bricks": 0, "more_g": 0}]
+
+
 def test_methods_are_those_of_the_paper_and_ours():
     """Ours by three rules, the learned fill by two, the methods of the field by theirs and on our cells."""
-    ways = [(method, rule) for _, method, rule in paper_tables.methods()]
+    ways = [(method, rule) for _, method, rule in paper_case.methods()]
     assert len(ways) == len(set(ways))
     assert [method for method, _ in ways].count(LEARNED) == 2
     for name in FIELD:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
@@ -81,25 +81,32 @@ class Given:
     largest: Lay
 
 
-def claim_figures(start: Row, given: Given) -> Row:
-    """Measure a model for the claims that the tables do not decide; the names begin with the claim."""
-    settings = given.build.settings
-    plain = Settings(width=settings.width, seed=settings.seed)
-    row = start | _named("h1", accuracy(given.mesh, plain)) | _points(given.mesh, plain) | _singles(given)
-    row |= _supports(given, plain) | _named("h10", cavities(given.build))
-    return row | _named("h10", soundness(given.build.grid, given.build.hollow)) | _learning(given.own)
-
-
 def _named(claim: str, figures: Row) -> Row:
     return {f"{claim}_{name}": value for name, value in figures.items()}
 
 
-def _points(mesh: TriangleMesh, settings: Settings) -> Row:
+def _plain(given: Given) -> Settings:
+    return Settings(width=given.build.settings.width, seed=given.build.settings.seed)
+
+
+def _accuracy(given: Given) -> Row:
+    """Return how near bricks and plates come, beside centre points."""
+    return _named("h1", accuracy(given.mesh, _plain(given)))
+
+
+def _inside(given: Given) -> Row:
+    """Return what becomes of cavities, and whether hollowing opens a hole."""
+    sound = soundness(given.build.grid, given.build.hollow)
+    return _named("h10", cavities(given.build)) | _named("h10", sound)
+
+
+def _points(given: Given) -> Row:
     """Return the points on trajectories against a voxelization's samples, and how often each gives a wrong colour.
 
     Of the voxelization, so many samples count that it errs no more, and at least :data:`SAMPLES_A_VOXEL`.
     """
-    cut = cut_for_grid(prepared_mesh("model", mesh, settings), replace(settings, chord_deviation=CHORD))
+    settings = _plain(given)
+    cut = cut_for_grid(prepared_mesh("model", given.mesh, settings), replace(settings, chord_deviation=CHORD))
     colour = cut.bricks()
     solid = colour != COLOUR_EMPTY
     seen = visible(solid, outer_air(solid))
@@ -144,18 +151,30 @@ def _singles(given: Given) -> Row:
     return {"h6_singles": count[0], "h6_singles_largest_first": count[1], "h6_free_share": free / len(own)}
 
 
-def _supports(given: Given, settings: Settings) -> Row:
+def _supports(given: Given) -> Row:
     """Return how many supports stay stuck, and what splitting saves of them where it splits."""
-    split = legorize(given.mesh, replace(settings, split=PIECES)).supports
+    split = legorize(given.mesh, replace(_plain(given), split=PIECES)).supports
     whole = given.build.supports
     saved = 1 - len(split.removed) / len(whole.removed) if len(split.pieces) > 1 and len(whole.removed) else None
     return {"h9_stuck": len(whole.walk.stuck), "h9_pieces": len(split.pieces), "h9_split_saves": saved}
 
 
-def _learning(grid: UnitGrid) -> Row:
+def _learning(given: Given) -> Row:
     """Return which share of J the machine saves of each control."""
+    grid = given.own
     fills = ways(SAMPLES.read_text(encoding="utf-8"))
     ours = in_way(fills[LEARNED], grid).cost
     costs: Mapping[str, float] = {name: in_way(fills[way], grid).cost for name, way in CONTROLS.items()}
     shuffled = float(np.mean([in_way(fill, grid).cost for way, fill in fills.items() if way.startswith(SHUFFLED)]))
     return {f"h12_saves_of_{name}": 1 - ours / cost for name, cost in {**costs, "shuffled": shuffled}.items()}
+
+
+FIGURES: Final[Mapping[str, Callable[[Given], Row]]] = {
+    "H1": _accuracy,
+    "H2": _points,
+    "H6": _singles,
+    "H9": _supports,
+    "H10": _inside,
+    "H12": _learning,
+}
+"""What measures a model for the claims that the tables do not decide; the names of its figures begin with the claim."""

@@ -35,7 +35,7 @@ def claims(
     layouts, volumes, supports : sequence of Row
         Tables 3, 1 and 4.
     others : sequence of Row
-        Of :func:`~.claim_figures.claim_figures`.
+        Of :data:`~.claim_figures.FIGURES`.
     field : sequence of str
         Methods of the field, largest first in front and those that search last.
 
