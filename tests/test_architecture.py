@@ -66,6 +66,7 @@ ORDER: Final = (
     "core.strength",
     "core.by_hand",
     "core.slope_stages",
+    "core.tile_stages",
     "core.drafting",
     "core.preview",
     "core.beyond",

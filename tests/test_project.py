@@ -24,6 +24,7 @@ READERS = (
         "stages",
         "strength",
         "slope_stages",
+        "tile_stages",
         "mosaic_stages",
         "mosaic_estimate",
         "build",

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from .edits import Edits, Outcome, apply_edits, outcomes_of
+from .edits import Edit, Edits, Outcome, apply_edits, outcomes_of
 from .layout import owners_of
 from .model import COLOUR_EMPTY, NOBODY, Assembly, Bricks, Catalogue, Fill, Role, UnitGrid
 from .run import Run
@@ -33,6 +33,11 @@ class ByHand:
     edits: Edits
     refused: Mapping[int, str]
     before: Bricks
+
+    @property
+    def made(self) -> tuple[Edit, ...]:
+        """Those that were made."""
+        return tuple(each for number, each in enumerate(self.edits.edits) if number not in self.refused)
 
     def outcomes(self, assembly: Assembly) -> tuple[Outcome, ...]:
         """Return what a finished model has of them."""

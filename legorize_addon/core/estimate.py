@@ -253,6 +253,9 @@ _SECONDS: Final[Mapping[str, _Features]] = MappingProxyType({
 """CPU seconds of the stages. Those of strengthening and stability were fitted to eight models at 24 and 48 studs. With
 bracing, which is a guess, they are rough: models of one size differ fiftyfold, by how weak they are."""
 
+_TOPS: Final = _Features(bricks=4e-4, crowd=2e-6)
+"""CPU seconds of tiles on top: their forces take as long as those of the layout."""
+
 TIERS: Final = MappingProxyType({"fast": 0.3, "standard": 1.0, "exact": 6.0, "learned": 8.0})
 """Time of each tier of the layout, as a multiple of the standard one."""
 
@@ -280,6 +283,8 @@ def _stages(build: _Features, settings: Settings) -> dict[str, float]:
     seconds["layout"] *= TIERS[settings.layout]
     if settings.surface != "slopes":
         del seconds["surface"]
+    if settings.smooth:
+        seconds["pieces"] += _TOPS.of(build)
     if settings.prove_steps:
         seconds["proof"] = PROOF * sum(seconds.values())
     return seconds

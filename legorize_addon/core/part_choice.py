@@ -136,6 +136,11 @@ class PartChoice:
         there = usable(self.catalogue, self.owned.count)
         return replace(self.catalogue, exists=self.catalogue.exists & there[:, None], cost=None)
 
+    @property
+    def at_most(self) -> Ints | None:
+        """How many of each part there are, (n_parts,), if nothing can be bought."""
+        return self.owned.count.sum(axis=1) if self.owned is not None and self.only else None
+
     def check_volume(self, n_cells: int) -> None:
         """Refuse a model that is larger than all owned parts together, before the work begins.
 

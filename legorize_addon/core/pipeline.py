@@ -66,6 +66,7 @@ from .strength import (
     tie_parts,
 )
 from .supports import AssemblyPlan
+from .tile_stages import smooth_surface
 from .unit_bricks import remarks_on_dithering
 
 
@@ -122,6 +123,7 @@ def _legorize(
     assembly, shell, found, by_hand = _put_up(run, made.hollow, edits, made.scale, slopes)
     with run.stage("pieces"):
         assembly, found, exchanged = run.once(take_fewer_lots, assembly, found)
+        assembly, found, smoothed = run.once(smooth_surface, assembly, found, by_hand.made)
         assembly, joints = run.once(cut_pieces, assembly)
     with run.stage("supports"):
         plan = run.once(make_plan, assembly)
@@ -133,7 +135,7 @@ def _legorize(
     run.progress.finish()
     notes = (
         *made.repairs.sentences(), *told, *remarks_on_dithering(made.mesh, settings.dithering), *run.learning,
-        *((beyond.sentence(),) if beyond else ()), *exchanged,
+        *((beyond.sentence(),) if beyond else ()), *exchanged, *smoothed,
         *remarks_on_edits(outcomes := by_hand.outcomes(plan.final), run.catalogue),
         *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
     )  # fmt: skip

@@ -40,8 +40,8 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
         ),
         "smooth": Preset(
             "Smooth Surface",
-            "Slopes where the surface falls, and the studs where they fit the shape best: closer to it for some more "
-            "parts.",
+            "Slopes where the surface falls, tiles where studs would show, and the grid where it fits the shape best: "
+            "closer to it for some more parts.",
             {"surface": "slopes", "grid_fit": "shifts"},
         ),
         "bricks": Preset("Bricks Only", "Bold and quick to build: whole bricks, without plates.", {"plates": "none"}),

@@ -87,9 +87,14 @@ class Settings:
     plates: Literal["none", "pays", "all"] = setting(
         "pays", "Plates", "Where to use plates instead of bricks.", group="Shape", words={
             "none": "nowhere", "pays": "where they pay", "all": "wherever the surface cuts through a brick"})
-    surface: Literal["studs", "slopes"] = setting(
+    surface: Literal["studs", "tiles", "slopes"] = setting(
         "studs", "Surface", "What the surface is made of.", group="Shape", words={
-            "studs": "bricks and plates alone", "slopes": "slopes as well, where they come closer to the shape"})
+            "studs": "bricks and plates alone", "tiles": "tiles as well, where studs would show on top",
+            "slopes": "tiles, and slopes where they come closer to the shape"})
+    tops: Literal["studs", "smooth", "all"] = setting(
+        "smooth", "Tops", "Which studs on top become tiles; those that hold something always stay.", group="Shape",
+        words={"studs": "none", "smooth": "those of whole plates, and others where a few parts more hide many",
+               "all": "all that can be seen, however many parts that takes"}, needs=("surface", "tiles", "slopes"))
     slope_price: float = setting(
         1.0, "Price of slopes", "Volume that slopes must save for each part that they add, in studs a plate high.",
         group="Shape", limits=(0.0, 10.0), needs=("surface", "slopes"))
@@ -270,8 +275,18 @@ class Settings:
             raise SettingsError(
                 "surface is 'slopes' but layout is 'learned', which lays nothing around slopes: choose another layout."
             )
+        if self.surface == "tiles" and not self.smooth:
+            other = "plates is 'none'" if self.plates == "none" else "tops is 'studs'"
+            raise SettingsError(
+                f"surface is 'tiles' but {other}, which leaves no place for tiles: change one of the two."
+            )
         if self.hollow_rule == "upper" and not self.hollow:
             raise SettingsError("hollow_rule is 'upper' but hollow is off: turn hollow on, or set the rule to 'both'.")
+
+    @property
+    def smooth(self) -> bool:
+        """Whether there may be tiles on top, which are as high as plates."""
+        return self.surface != "studs" and self.tops != "studs" and self.plates != "none"
 
     @property
     def supported(self) -> bool:

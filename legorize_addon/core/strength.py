@@ -93,13 +93,22 @@ def take_fewer_lots(run: Run, assembly: Assembly, found: Stability) -> tuple[Ass
     other, sentence = run.parts.exchanged(assembly)
     if other is assembly:
         return assembly, found, ()
-    spare = run.settings.spare if found.stable and found.margin.min(initial=1.0) >= run.settings.spare else 0.0
-    tested = stability(
-        other, clutch=(1 - spare) * run.settings.clutch, effort=Effort(programme=0), progress=run.progress
-    )
-    if (found.stable and not tested.stable) or (found.stands and not tested.stands):
+    tested = like_before(run, other, found)
+    if weaker(tested, found):
         return assembly, found, ()
     return other, stability(other, clutch=run.settings.clutch, effort=Effort(near=tested)), (sentence,)
+
+
+def like_before(run: Run, other: Assembly, found: Stability, near: Stability | None = None) -> Stability:
+    """Test bricks that may lie in the place of others with as much to spare as these have, as far as is soon known."""
+    spare = run.settings.spare if found.stable and found.margin.min(initial=1.0) >= run.settings.spare else 0.0
+    effort = Effort(near=near, programme=0)
+    return stability(other, clutch=(1 - spare) * run.settings.clutch, effort=effort, progress=run.progress)
+
+
+def weaker(tested: Stability, found: Stability) -> bool:
+    """Tell whether bricks do not stand as well as others did."""
+    return (found.stable and not tested.stable) or (found.stands and not tested.stands)
 
 
 def check_final(run: Run, assembly: Assembly) -> Stability:

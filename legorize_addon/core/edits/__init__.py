@@ -11,10 +11,10 @@ from .rules import rules_of
 
 if TYPE_CHECKING:
     from .apply import apply_edits
-    from .outcomes import Outcome, outcomes_of
+    from .outcomes import Outcome, outcomes_of, ruled
 else:
     # the layout, and the graphs of scipy
-    __getattr__ = on_demand(__name__, apply=("apply_edits",), outcomes=("Outcome", "outcomes_of"))
+    __getattr__ = on_demand(__name__, apply=("apply_edits",), outcomes=("Outcome", "outcomes_of", "ruled"))
 
 __all__ = [
     "NO_EDITS",
@@ -27,5 +27,6 @@ __all__ = [
     "edits_text",
     "outcomes_of",
     "read_edits",
+    "ruled",
     "rules_of",
 ]

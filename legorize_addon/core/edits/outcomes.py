@@ -66,6 +66,16 @@ def outcomes_of(
     return tuple(found)
 
 
+def ruled(bricks: Bricks, catalogue: Catalogue, edits: Sequence[Edit]) -> NDArray[np.bool_]:
+    """Return which bricks no later stage may exchange: those that edits laid, or where edits forbid a part, (n,)."""
+    found = np.zeros(len(bricks), dtype=bool)
+    graph = contact_graph(bricks, catalogue) if edits else None
+    for rule in rules_of(edits, catalogue):
+        if graph is not None and rule.by < 0 and rule.edit.kind in (*LAYS, "forbid"):
+            found[_owners(graph, sorted(rule.cells))] = True
+    return found
+
+
 def _missing(rule: Rule, bricks: Bricks, graph: ContactGraph, catalogue: Catalogue) -> str:
     """Return why a model does not have an edit, empty if it has."""
     edit = rule.edit

@@ -10,11 +10,13 @@ from .lay import FILLER, Manner, lay, lay_fixed, lay_unjoined
 from .lay_learned import lay_learned
 from .recolour import recolour_visible
 from .slopes import lay_around_slopes
+from .tops import Smoothed, smooth_tops
 
 __all__ = [
     "FILLER",
     "Alike",
     "Manner",
+    "Smoothed",
     "as_good",
     "cells_of",
     "lay",
@@ -26,4 +28,5 @@ __all__ = [
     "lay_unjoined",
     "owners_of",
     "recolour_visible",
+    "smooth_tops",
 ]
