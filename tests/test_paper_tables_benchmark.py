@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -206,6 +207,22 @@ def test_open_meshes_are_not_compared_with_centre_points():
     layouts, volumes, supports = rows_of("model", 110, 59.0)
     rows = claims(layouts, volumes, supports, [figures_of("model", **none)], FIELD)
     assert all(row["met"] for row in rows)
+
+
+def test_voxelization_takes_so_many_samples_that_it_errs_no_more(monkeypatch):
+    """The share of the points is that of the samples with which it is as good."""
+
+    def dense(cut, solid, seen, points, seed=0):
+        assert isinstance(points, int)
+        return cut.bricks()[seen] - (points < 32 * seen.sum())
+
+    monkeypatch.setattr(claim_figures, "_dense", dense)
+    given = SimpleNamespace(mesh=box((0, 0, 0), (60, 60, 12)), build=SimpleNamespace(settings=Settings(width=8)))
+    row = claim_figures.FIGURES["H2"](given)
+    assert row["h2_samples_a_voxel"] == 32
+    assert row["h2_wrong"] == 0
+    assert row["h2_wrong_by_samples"] == 1
+    assert row["h2_points_share"] == row["h2_points"] / (32 * row["h2_surface_voxels"])
 
 
 def test_figures_of_the_claims(tables):

@@ -39,8 +39,8 @@ CHORD: Final = 0.4
 TRUTH: Final = 1024
 """Points in a surface voxel that stand for all of its surface."""
 
-MORE: Final = (1, 1.5, 2, 3, 4)
-"""Times as many samples as the fewest ones that a voxelization may need to err no more."""
+ENOUGH: Final = (SAMPLES_A_VOXEL, 24, 32, 48, 64)
+"""Points in a surface voxel of which a voxelization takes the fewest that err no more."""
 
 SCATTERINGS: Final = 4
 """Of the samples, whose errors are averaged."""
@@ -103,7 +103,7 @@ def _inside(given: Given) -> Row:
 def _points(given: Given) -> Row:
     """Return the points on trajectories against a voxelization's samples, and how often each gives a wrong colour.
 
-    Of the voxelization, so many samples count that it errs no more, and at least :data:`SAMPLES_A_VOXEL`.
+    Of the voxelization, so many samples count that it errs no more, if :data:`ENOUGH` are enough.
     """
     settings = _plain(given)
     cut = cut_for_grid(prepared_mesh("model", given.mesh, settings), replace(settings, chord_deviation=CHORD))
@@ -113,8 +113,8 @@ def _points(given: Given) -> Row:
     voxels, points = int(seen.sum()), len(cut.trajectories.points)
     truth = _dense(cut, solid, seen, TRUTH * voxels)
     wrong = float((colour[seen] != truth).mean())
-    by_samples = {SAMPLES_A_VOXEL * more: 0.0 for more in MORE}
-    for samples in by_samples:
+    by_samples: dict[int, float] = {}
+    for samples in ENOUGH:
         scattered = (_dense(cut, solid, seen, samples * voxels, seed) for seed in range(1, SCATTERINGS + 1))
         by_samples[samples] = float(np.mean([(each != truth).mean() for each in scattered]))
         if by_samples[samples] <= wrong:
