@@ -9,6 +9,7 @@ import numpy as np
 
 from .builds import LAYER_KEY, LINES_KEY, OWN_KEY, layers_of
 from .instancing import LINE_KEY, plastic
+from .placing import hang
 from .state import state_of
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def add_lines(build: bpy.types.Collection, lines: Lines) -> None:
             spline.points.foreach_set("co", np.column_stack([points, np.ones(len(points))]).ravel())
             spline.use_cyclic_u = lines.closed
             spline.material_index = used.index(lines.paint[row])
-        _link(collection, bpy.data.objects.new(curve.name, curve), state_of(build).root)
+        _link(collection, bpy.data.objects.new(curve.name, curve), build)
 
 
 def _new_layer(build: bpy.types.Collection, layer: int) -> bpy.types.Collection:
@@ -59,7 +60,7 @@ def _new_layer(build: bpy.types.Collection, layer: int) -> bpy.types.Collection:
     return collection
 
 
-def _link(collection: bpy.types.Collection, thing: bpy.types.Object, root: bpy.types.Object) -> None:
+def _link(collection: bpy.types.Collection, thing: bpy.types.Object, build: bpy.types.Collection) -> None:
     thing[OWN_KEY] = True
-    thing.parent = root
+    hang(thing, state_of(build).root, state_of(build).middle)
     collection.objects.link(thing)

@@ -24,8 +24,8 @@ from .sheet import Line, Rgb, Sheet
 Shown = Literal["sides", "colours"]
 """Whether trajectories are drawn by side, or in their colours."""
 
-EXTERIOR: Final[Rgb] = (0, 84, 200)
-INTERIOR: Final[Rgb] = (0, 150, 60)
+EXTERIOR: Final[Rgb] = (20, 110, 255)
+INTERIOR: Final[Rgb] = (0, 180, 60)
 GAP: Final[Rgb] = (220, 0, 160)
 
 THICK: Final = 0.45

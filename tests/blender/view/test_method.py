@@ -50,6 +50,25 @@ def test_trajectories_are_curves_in_their_layers(lines):
     assert np.ptp(shown_corners(build), axis=0)[0] == pytest.approx(SIDES[0], abs=2)
 
 
+def test_trajectories_lie_on_the_surface():
+    """In the place of the model, a Blender unit a mm, they are as wide and as deep as the mesh, at their heights."""
+    build = shown("trajectories", beside=False)
+    bpy.context.view_layer.update()
+    points = np.array(
+        [
+            curve.matrix_world @ point.co.to_3d()
+            for curve in line_objects(build)
+            for spline in curve.data.splines
+            for point in spline.points
+        ]
+    )
+    corners = draft().mesh.vertices / draft().scale
+    for low_or_high in (np.min, np.max):
+        np.testing.assert_allclose(low_or_high(points, axis=0)[:2], low_or_high(corners, axis=0)[:2], atol=0.5)
+    heights = np.unique(np.round(points[:, 2] * draft().scale, 3))
+    np.testing.assert_allclose(heights, draft().cut.slices.heights, atol=1e-2)
+
+
 def test_layers_hide_trajectories_too():
     """One layer alone shows its own curve and no other."""
     build = shown("trajectories")
