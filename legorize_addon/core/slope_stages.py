@@ -23,6 +23,7 @@ def find_slopes(run: Run, made: Draft) -> Bricks:
         run.parts.joining,
         price=settings.slope_price,
         plates=settings.plates != "none",
+        symmetric=settings.symmetric,
     )
 
 

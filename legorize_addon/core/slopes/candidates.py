@@ -36,7 +36,7 @@ class Candidates:
     place : (n,) int64 array
         Flat index of the corner in the site.
     score : (n,) float64 array
-        Volume gained less the price of the parts, in cells a plate high.
+        Volume gained less the price of the parts and of wrong colours, in cells a plate high.
     colour : (n,) int16 array
         LDraw code.
     """
@@ -52,7 +52,7 @@ class Candidates:
 
 
 def candidates(site: Site, among: tuple[Form, ...], catalogue: Catalogue, *, price: float) -> Candidates:
-    """List the places in which slopes pay.
+    """List the places in which slopes would pay if they had any colour.
 
     Parameters
     ----------
@@ -84,10 +84,10 @@ def _of_form(site: Site, number: int, form: Form, catalogue: Catalogue, price: f
     place, gain = place[pays], gain[pays]
     score = gain - price * (1 + _parts_more(site, form, place))
     code, wrong = _colours(site, form, place[:, None] + cells, catalogue)
-    score -= wrong
-    fits = score > 0
+    # its image may have a better colour
+    fits = (score > 0) & np.isfinite(wrong)
     place = place[fits]
-    return Candidates(np.full(len(place), number), place, score[fits], code[fits])
+    return Candidates(np.full(len(place), number), place, (score - wrong)[fits], code[fits])
 
 
 def _places(site: Site, form: Form, cells: Ints) -> Ints:

@@ -5,16 +5,25 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Ints, Mask
+from ..geometry import mirror_axis
 from ..mesh import TriangleMesh
 from ..model import Bricks, Catalogue, Role, UnitGrid
 from ..units import PLATES_PER_BRICK
 from .candidates import Candidates, candidates, rows
 from .forms import Form, slopes_of
+from .mirrored import in_pairs
 from .site import Site
 
 
 def choose_slopes(
-    mesh: TriangleMesh, grid: UnitGrid, shell: UnitGrid, catalogue: Catalogue, *, price: float, plates: bool
+    mesh: TriangleMesh,
+    grid: UnitGrid,
+    shell: UnitGrid,
+    catalogue: Catalogue,
+    *,
+    price: float,
+    plates: bool,
+    symmetric: bool = False,
 ) -> Bricks:
     """Choose the slopes of a model before its bricks are laid.
 
@@ -29,6 +38,8 @@ def choose_slopes(
         Volume that a part more has to save, in cells a plate high.
     plates : bool
         Whether plates may be laid around slopes.
+    symmetric : bool, optional
+        Whether a symmetric model gets each slope with its mirror image.
 
     Returns
     -------
@@ -38,11 +49,25 @@ def choose_slopes(
     among = slopes_of(catalogue, plates=plates)
     site = Site.of(mesh, grid, shell)
     found = candidates(site, among, catalogue, price=price)
-    return _table(site, among, found.take(best(site, among, found)))
+    axis = mirror_axis(grid.solid.reshape(-1, *grid.solid.shape[2:])) if symmetric else None
+    pair = np.arange(len(found.form))
+    if axis is not None and len(pair):
+        found, pair = in_pairs(site, among, found, axis)
+    pays = found.score > 0
+    found, pair = found.take(pays), pair[pays]
+    return _table(site, among, found.take(best(site, among, found, pair)))
 
 
-def best(site: Site, among: tuple[Form, ...], found: Candidates) -> Ints:
+def best(site: Site, among: tuple[Form, ...], found: Candidates, pair: Ints) -> Ints:
     """Choose candidates greedily: by score, none that claims what a better one claims or keeps free.
+
+    Parameters
+    ----------
+    site : Site
+    among : tuple of Form
+    found : Candidates
+    pair : (n,) int64 array
+        Of equally good ones those with the lowest number are the first, one after the other.
 
     Returns
     -------
@@ -50,7 +75,7 @@ def best(site: Site, among: tuple[Form, ...], found: Candidates) -> Ints:
         Rows, ascending.
     """
     rank = np.empty(len(found.form), np.int64)
-    rank[np.lexsort((found.place, found.form, -np.round(found.score, 6)))] = np.arange(len(rank))[::-1]
+    rank[np.lexsort((pair, -np.round(found.score, 6)))] = np.arange(len(rank))[::-1]
     left = [[which, claimed, kept] for which, claimed, kept in rows(site, among, found)]
     taken, closed = np.zeros((2, int(np.prod(site.shape))), bool)
     chosen: list[Ints] = []

@@ -58,7 +58,7 @@ def test_as_one_after_the_other(places):
             chosen.append(row)
             taken |= claims[row]
             closed |= keeps[row]
-    assert best(site, FORMS, found).tolist() == sorted(chosen)
+    assert best(site, FORMS, found, np.arange(len(form))).tolist() == sorted(chosen)
 
 
 def test_no_two_in_one_cell():
