@@ -125,7 +125,7 @@ class _Walked:
         self.steps, self.bricks, self.catalogue, self.contacts = steps, bricks, catalogue, contacts
         self.below, self.above = stacked(contacts.pairs, n)
         self.level = bricks.corner[:, 2].tolist()
-        self.floor = [steps.floor(each.number, bricks) for each in steps.submodels]
+        self.floor = [steps.floor(each.number, bricks, contacts.pairs) for each in steps.submodels]
         self.assembly = steps.submodel_of(n).astype(np.int64)
         self.placed = np.zeros(n, dtype=bool)
         self.skyline = Skyline(bricks, catalogue, len(steps.submodels))

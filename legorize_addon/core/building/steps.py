@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Ints
-from ..model import NOBODY, Bricks
+from ..model import NOBODY, Bricks, Rows
 from .moves import Action, Moves
 
 MAIN: Final = 0
@@ -151,12 +151,19 @@ class Steps:
         rows: Ints = np.concatenate([self.submodels[each].rows for each in sorted(inside)])
         return rows
 
-    def floor(self, number: int, bricks: Bricks) -> int:
-        """Return the plate on which a submodel stands while it is built: the lowest of its bricks."""
-        rows = self.all_rows(number)
+    def floor(self, number: int, bricks: Bricks, pairs: Rows) -> int:
+        """Return the plate on which a submodel stands while it is built: the lowest of its bricks.
+
+        Below the plate under the raised end of a curved slope its other end may reach farther down: a sub-assembly
+        of both stands on that plate. `pairs` are the lower and the upper brick of each contact.
+        """
+        rows, level = self.all_rows(number), bricks.corner[:, 2]
         # other pieces are put onto the first one, which stands by itself
         own = rows[bricks.piece[rows] == self.submodels[number].piece]
-        return int(bricks.corner[own, 2].min(initial=np.iinfo(np.int32).max))
+        if self.submodels[number].kind == Kind.SUBASSEMBLY:
+            raised = pairs[level[pairs[:, 0]] >= level[pairs[:, 1]]]
+            own = own[~np.isin(own, raised[np.isin(raised, own).all(axis=1), 1])]
+        return int(level[own].min(initial=np.iinfo(np.int32).max))
 
     def submodel_of(self, n_bricks: int) -> NDArray[np.int32]:
         """Return the submodel that each brick is placed into, (n_bricks,), ``NOBODY`` if it never is."""

@@ -90,7 +90,7 @@ class Planner:
         used, node = np.unique(node, return_inverse=True)
         node = node.reshape(-1)
         pieces = {int(np.searchsorted(used, first)): each for first, each in submodel.items()}
-        units = self._units(rows, node, own)
+        units = self._units(number, rows, node, own)
         of_unit = self._submodels(number, rows, node, units, pieces)
         steps, placed = self._grouped(
             rows, units, of_unit, progress, small=self.submodels[number].kind == Kind.SUBASSEMBLY
@@ -111,12 +111,16 @@ class Planner:
         self.shape[number] = self._shape(number)
 
     def _holds(self, order: list[int]) -> bool:
-        """Whether each of some bricks, from the lowest, stands on the table or on one before it."""
+        """Whether each of some bricks, from the lowest, stands on the table or on one before it, and under none."""
         there: set[int] = set()
+        later = set(order)
         for row in order:
-            if self.level[row] != self.level[order[0]] and there.isdisjoint(self.below[row]):
+            stands = self.level[row] == self.level[order[0]] or not there.isdisjoint(self.below[row])
+            # what fills the step under a slope may begin as low as that slope
+            if not stands or not later.isdisjoint(self.below[row]):
                 return False
             there.add(row)
+            later.discard(row)
         return True
 
     def all_rows(self, number: int) -> list[int]:
@@ -141,7 +145,7 @@ class Planner:
         what = (bricks.part[brick], bricks.turn[brick], bricks.colour[brick], bricks.role[brick])
         return (*map(int, what), *(bricks.corner[brick] - self.low[number]).tolist())
 
-    def _units(self, rows: Ints, node: Ints, own: Mask) -> Units:
+    def _units(self, number: int, rows: Ints, node: Ints, own: Mask) -> Units:
         """Return what goes on together on one table."""
         level = self.bricks.corner[rows, 2].astype(np.int64)
         local = np.full(len(self.bricks), NOBODY, dtype=np.int64)
@@ -149,12 +153,20 @@ class Planner:
         pairs = local[self.pairs]
         pairs = pairs[(pairs != NOBODY).all(axis=1)]
         below = column_pairs(self.bricks.take(rows), self.catalogue)
-        # a piece may stand beside the first one
-        ground = level == level[own].min(initial=np.iinfo(np.int64).max)
+        ground = self._ground(number, level, own, below)
         units = find_units(node, level, pairs, below, ground=ground, rank=self.rank[rows], piece=~own)
         image = np.where(own & (self.image[rows] != NOBODY), local[self.image[rows]], NOBODY)
         # what is built elsewhere is whole
         return match_halves(units, np.where(own[image], image, NOBODY), pairs)
+
+    def _ground(self, number: int, level: Ints, own: Mask, below: Rows) -> Mask:
+        """Return which bricks of a table stand on it; see :meth:`.Steps.floor`."""
+        if self.submodels[number].kind == Kind.SUBASSEMBLY:
+            raised = below[level[below[:, 0]] >= level[below[:, 1]]]
+            own = own & ~np.isin(np.arange(len(own)), raised[:, 1])
+        # a piece may stand beside the first one
+        ground: Mask = level == level[own].min(initial=np.iinfo(np.int64).max)
+        return ground
 
     def _submodels(self, number: int, rows: Ints, node: Ints, units: Units, pieces: dict[int, int]) -> dict[int, int]:
         """Return the submodel that each unit is, if it is one, and plan those that are new."""

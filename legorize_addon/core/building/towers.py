@@ -92,7 +92,7 @@ def tipping(
         together with one that falls is not named again.
     """
     arrivals = list(_arrivals(steps, table))
-    floor = steps.floor(table, assembly.bricks)
+    floor = steps.floor(table, assembly.bricks, pairs)
     return falling(arrivals, assembly, pairs, floor=floor, prop=prop, progress=progress)
 
 

@@ -156,7 +156,7 @@ class Plain:
         self.top = [low + part.height for low, part in zip(self.low, parts, strict=True)]
         for (x, y, _), part in zip(bricks.corner.tolist(), parts, strict=True):
             self.squares.append({(x + i, y + j) for i in range(part.length) for j in range(part.width)})
-        self.floor = [steps.floor(each.number, bricks) for each in steps.submodels]
+        self.floor = [steps.floor(each.number, bricks, pairs) for each in steps.submodels]
         self.pairs, self.placed = pairs.tolist(), set()
         self.faults = {name: [] for name in ("in_air", "squeezed", "covered", "cramped", "stuck", "loose_pieces")}
         self.bad = set()

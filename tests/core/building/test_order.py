@@ -213,3 +213,13 @@ def test_all_are_placed_joined_and_taken_out_once(seed):
     last = {int(number): int(moves.step[joined & (moves.submodel == number)][0]) for number in moves.submodel[joined]}
     for row in np.flatnonzero(placed | removed):
         assert moves.step[row] <= last.get(int(moves.submodel[row]), len(steps))
+
+
+def test_what_lies_under_the_step_of_a_slope_goes_under_it_first():
+    """A plate under the raised end of a curved slope stands on the table, though the slope reaches farther down."""
+    for column, plate in ((1, 3), (0, 4)):
+        bricks = table(("3001", 2, 0, 0), ("93606", 0, 0, 3), ("3023", column, 0, plate, 1), ("3001", 2, 2, 0))
+        steps, found = planned(bricks)
+        assert [each.kind for each in steps.submodels] == [Kind.MAIN, Kind.SUBASSEMBLY]
+        assert sequence(steps)[:2] == [("PLACE", 2, 1), ("PLACE", 1, 1)]
+        assert found.buildable

@@ -21,6 +21,8 @@ MAST = [("3003", 0, 0, 3 * k) for k in range(4)]
 NESTED = table(*MAST, ("3008", 0, 0, 12), ("3005", 7, 0, 9), ("3005", 7, 0, 6), ("3024", 4, 0, 11))
 """A mast, a beam on it, a long and a short thing under the beam."""
 
+NO_PAIRS = np.zeros((0, 2), np.int32)
+
 
 HOOK = (("3003", 0, 0, 0), ("3003", 0, 0, 3), ("3010", 0, 0, 6), ("3024", 3, 0, 5))
 """A mast with an arm, and a plate below its end."""
@@ -59,7 +61,7 @@ def test_submodels_nest():
     assert [each.name for each in steps.submodels] == ["model", "sub-1", "sub-2"]
     assert sorted([*outer.rows.tolist(), *inner.rows.tolist()]) == sorted(steps.all_rows(1).tolist()) == [4, 5, 6, 7]
     assert steps.outermost().tolist() == [0, 1, 1]
-    assert [steps.floor(number, NESTED) for number in range(3)] == [0, 6, 11]
+    assert [steps.floor(number, NESTED, NO_PAIRS) for number in range(3)] == [0, 6, 11]
 
 
 def test_bricks_of_a_piece_arrive_there_before_the_piece_does():
@@ -102,7 +104,7 @@ def test_arrivals_are_those_of_moving_every_brick(seed):
             assert sorted(came) == sorted(steps.all_rows(submodel).tolist())
             assert parent < submodel
             own = [int(bricks.corner[row, 2]) for row in came if bricks.piece[row] == steps.submodels[submodel].piece]
-            assert steps.floor(submodel, bricks) == min(own)
+            assert steps.floor(submodel, bricks, NO_PAIRS) == min(own)
         where.update(dict.fromkeys(came, submodel if action == Action.PLACE else parent))
         inside.update(dict.fromkeys(came, submodel) if action == Action.PLACE else {})
         for row in came:

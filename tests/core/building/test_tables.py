@@ -207,8 +207,9 @@ def test_a_piece_is_put_on_in_a_step_of_its_own(n):
 
 
 def test_what_holds_stands_on_the_table_or_on_what_is_there():
-    """Of bricks in an order, each above the lowest level needs one below it that came before."""
+    """Of bricks in an order, each above the lowest level needs one below it that came before, and none after."""
     below = {0: [], 1: [], 2: [0], 3: [2, 9], 4: [9]}
     planner = SimpleNamespace(level={0: 5, 1: 5, 2: 8, 3: 9, 4: 9}, below=below)
+    assert not Planner._holds(SimpleNamespace(level={0: 5, 1: 5}, below={0: [1], 1: []}), [0, 1])
     for order, holds in (([0, 1, 2, 3], True), ([0, 2, 1], True), ([0, 1, 4], False), ([1, 2], False), ([0, 3], False)):
         assert Planner._holds(planner, order) == holds
