@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import cache
 from typing import Final
 
 import bpy
@@ -86,13 +87,20 @@ def part_mesh(part: Part, detail: Detail) -> bpy.types.Mesh:
     for mesh in bpy.data.meshes:
         if mesh.get(MESH_KEY) == key:
             return mesh
-    loft = part_loft(part, detail)
+    loft, normals = _drawn(part, detail)
     mesh = _to_mesh(loft, f"Brick {key}")
-    if detail == "high":
+    if normals:
         mesh.polygons.foreach_set("use_smooth", np.ones(len(loft.starts), dtype=bool))
-        mesh.normals_split_custom_set(corner_normals(loft).tolist())
+        mesh.normals_split_custom_set(normals)
     mesh[MESH_KEY] = key
     return mesh
+
+
+@cache
+def _drawn(part: Part, detail: Detail) -> tuple[Loft, list[list[float]]]:
+    """Return the faces of a part and the normals of their corners, none in low detail: every update needs them anew."""
+    loft = part_loft(part, detail)
+    return loft, corner_normals(loft).tolist() if detail == "high" else []
 
 
 def parts_collection(
