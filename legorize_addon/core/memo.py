@@ -97,8 +97,10 @@ class Memo:
     def __init__(self, limit: int = LIMIT) -> None:
         self.limit = limit
         self._entries: tuple[Entry, ...] = ()
+        # by identity of an entry: looking through all of them takes as long as a small stage
+        self._weights: dict[int, Mapping[int, int]] = {}
         self.nbytes = 0
-        """Bytes that the entries take: arrays and tables that several of them share count once."""
+        """Bytes that the entries took when they were kept: arrays and tables that several of them share count once."""
 
     def __len__(self) -> int:
         """Return the number of results."""
@@ -127,22 +129,30 @@ class Memo:
         """Take over what a run has found, and forget what was used longest ago if that is too much."""
         recent = trial.entries
         known = set(map(id, recent))
-        self._entries, self.nbytes = _lightest(
-            [each for each in self._entries if id(each) not in known] + recent, self.limit
-        )
+        entries = [each for each in self._entries if id(each) not in known] + recent
+        weights = {id(each): self._weights.get(id(each)) or _weights(each) for each in entries}
+        self._entries, self.nbytes = _lightest(entries, weights, self.limit)
+        self._weights = {id(each): weights[id(each)] for each in self._entries}
 
     def clear(self) -> None:
         """Forget everything."""
-        self._entries, self.nbytes = (), 0
+        self._entries, self._weights, self.nbytes = (), {}, 0
 
 
-def _lightest(entries: Sequence[Entry], limit: int) -> tuple[tuple[Entry, ...], int]:
+def _weights(entry: Entry) -> dict[int, int]:
+    """Return how many bytes each object in an entry takes, by its identity."""
+    return {id(each): weight(each) for each in inner((entry.inputs, entry.asked, entry.output, entry.left))}
+
+
+def _lightest(
+    entries: Sequence[Entry], weights: Mapping[int, Mapping[int, int]], limit: int
+) -> tuple[tuple[Entry, ...], int]:
     """Return the last entries that take no more bytes than allowed, and how many these are."""
     kept: list[Entry] = []
     seen: set[int] = set()
     total = 0
     for entry in reversed(entries):
-        new = {id(each): weight(each) for each in inner((entry.inputs, entry.asked, entry.output, entry.left))}
+        new = weights[id(entry)]
         more = sum(size for key, size in new.items() if key not in seen)
         if total + more > limit:
             break

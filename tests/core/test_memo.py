@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from legorize_addon.core import memo as module
 from legorize_addon.core.memo import Memo, plainly, reached
 
 SIZE = 10_000
@@ -56,6 +57,23 @@ def test_memory_is_bounded_and_told():
         trial.call("share", (number,), lambda: shared)
     two.keep(trial)
     assert two.nbytes < 1.2 * SIZE * 8
+
+
+def test_a_result_is_weighed_once(monkeypatch):
+    """What was weighed when it was kept first counts as much later; one that went and comes back is weighed again."""
+    memo, weighed = Memo(limit=int(2.5 * SIZE * 8)), []
+    weigh = module._weights
+    monkeypatch.setattr(module, "_weights", lambda entry: weighed.append(entry.inputs[0]) or weigh(entry))
+    kept(memo, 1, 2)
+    before = memo.nbytes
+    kept(memo, 2, 1)
+    assert (weighed, memo.nbytes) == ([1, 2], before)
+    kept(memo, 3)
+    kept(memo, 2)
+    assert weighed == [1, 2, 3, 2]
+    memo.clear()
+    kept(memo, 3)
+    assert weighed[-1] == 3
 
 
 def test_a_result_larger_than_the_memory_is_not_kept():
