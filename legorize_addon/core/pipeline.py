@@ -66,7 +66,7 @@ from .strength import (
     tie_parts,
 )
 from .supports import AssemblyPlan
-from .tile_stages import smooth_surface
+from .tile_stages import smooth_surface, without_proof
 from .unit_bricks import remarks_on_dithering
 
 
@@ -142,7 +142,7 @@ def _legorize(
     return Build(
         settings=settings, mesh=made.mesh, repairs=made.repairs, scale=made.scale, turn=made.turn,
         surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
-        hollow=shell, wanted=made.wanted, edits=by_hand.edits, outcomes=outcomes, unedited=by_hand.before,
+        hollow=shell, wanted=made.wanted, edits=by_hand.edits, outcomes=outcomes, unedited=without_proof(run, by_hand),
         assembly=plan.final, stability=found, supports=plan, joints=joints, **run.parts.files, proof=proof,
         notes=notes, timings=run.timings, beyond=asdict(beyond) if beyond else {},
     )  # fmt: skip

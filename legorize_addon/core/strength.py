@@ -93,16 +93,15 @@ def take_fewer_lots(run: Run, assembly: Assembly, found: Stability) -> tuple[Ass
     other, sentence = run.parts.exchanged(assembly)
     if other is assembly:
         return assembly, found, ()
-    tested = like_before(run, other, found)
+    tested = like_before(run, other, found, Effort(programme=0))
     if weaker(tested, found):
         return assembly, found, ()
     return other, stability(other, clutch=run.settings.clutch, effort=Effort(near=tested)), (sentence,)
 
 
-def like_before(run: Run, other: Assembly, found: Stability, near: Stability | None = None) -> Stability:
-    """Test bricks that may lie in the place of others with as much to spare as these have, as far as is soon known."""
+def like_before(run: Run, other: Assembly, found: Stability, effort: Effort) -> Stability:
+    """Test bricks that may lie in the place of others with as much to spare as these have."""
     spare = run.settings.spare if found.stable and found.margin.min(initial=1.0) >= run.settings.spare else 0.0
-    effort = Effort(near=near, programme=0)
     return stability(other, clutch=(1 - spare) * run.settings.clutch, effort=effort, progress=run.progress)
 
 

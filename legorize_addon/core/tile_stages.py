@@ -7,9 +7,10 @@ from typing import Final
 import numpy as np
 
 from .arrays import Ints, Mask
+from .by_hand import ByHand
 from .edits import Edit, ruled
 from .layout import Smoothed, smooth_tops
-from .model import Assembly
+from .model import Assembly, Bricks
 from .run import Run
 from .statics import Effort, Stability, stability
 from .strength import like_before, weaker
@@ -38,16 +39,25 @@ def smooth_surface(
         if len(made.bricks) == len(assembly):
             break
         other = Assembly(made.bricks, run.catalogue)
-        tested = like_before(run, other, found)
+        # what is not soon known to stand is laid otherwise
+        effort = Effort(near=found, programme=0, neighbours=not found.stable, rounds=0)
+        tested = like_before(run, other, found, effort)
         if not weaker(tested, found):
             return other, _again(run, other, tested), (_told(made, len(assembly)),)
         may &= ~_weak(other, tested, made.origin, len(assembly))
     made = _tiled(run, assembly, may, np.inf)
     other = Assembly(made.bricks, run.catalogue)
-    tested = like_before(run, other, found, near=found)
+    tested = like_before(run, other, found, Effort(near=found, programme=0, neighbours=not found.stable))
     if made.seen == made.left or weaker(tested, found):
         return assembly, found, ()
     return other, _again(run, other, tested), (_told(made, len(assembly)),)
+
+
+def without_proof(run: Run, by_hand: ByHand) -> Bricks:
+    """Return a layout as it was before edits, with tiles if there may be any: what is left when all are taken back."""
+    if not run.settings.smooth or not by_hand.made:
+        return by_hand.before
+    return _tiled(run, Assembly(by_hand.before, run.catalogue), np.ones(len(by_hand.before), bool)).bricks
 
 
 def _tiled(run: Run, assembly: Assembly, may: Mask, price: float | None = None) -> Smoothed:
@@ -62,7 +72,7 @@ def _tiled(run: Run, assembly: Assembly, may: Mask, price: float | None = None) 
 
 def _weak(other: Assembly, tested: Stability, origin: Ints, n: int) -> Mask:
     """Return which of `n` bricks became too weak, or lie on or under what did."""
-    weak = tested.margin < 0
+    weak = (tested.margin < 0) | tested.moves
     lower, upper = other.graph.pairs.T
     near = weak.copy()
     near[upper[weak[lower]]] = True

@@ -190,8 +190,8 @@ class LEGORIZE_OT_edit(Editing, bpy.types.Operator):
 
 @cache
 def _listed() -> list[tuple[str, str, str]]:
-    """Return the parts that models are laid of; kept, since Blender needs the texts to stay alive."""
-    return [(part.number, part.title, "") for part in load_catalogue().parts if part.use == "model"]
+    """Return the parts that can be laid by hand; kept, since Blender needs the texts to stay alive."""
+    return [(part.number, part.title, "") for part in load_catalogue().parts if part.use in ("model", "tiles")]
 
 
 def _part_items(self: Any, context: bpy.types.Context) -> list[tuple[str, str, str]]:

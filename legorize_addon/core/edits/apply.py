@@ -8,8 +8,10 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Ints
-from ..model import SUPPORTS, Bricks, Catalogue
+from ..layout import smooth_tops
+from ..model import SUPPORTS, Bricks, Catalogue, column_facts, stud_columns
 from .edit import LAYS, Cell, Edit
+from .outcomes import ruled
 from .rules import Rule, rules_of
 from .workpiece import Workpiece
 
@@ -49,7 +51,21 @@ def apply_edits(
         reason = "" if rule.by >= 0 else _made(work, rule)
         if reason:
             refused[number] = reason
-    return work.bricks, refused
+    return (bricks if work.bricks is bricks else _tiled_again(work.bricks, bricks, catalogue, edits)), refused
+
+
+def _tiled_again(bricks: Bricks, before: Bricks, catalogue: Catalogue, edits: Sequence[Edit]) -> Bricks:
+    """Lay tiles where some lay before, as far as nothing needs the studs that windows have brought."""
+    brick, columns = stud_columns(before, catalogue)
+    tile = np.array([part.profile == "tile" for part in catalogue.parts])
+    there = set(map(tuple, columns[tile[before.part[brick]]].tolist()))
+    if not there:
+        return bricks
+    brick, columns = stud_columns(bricks, catalogue)
+    columns[:, 2] += column_facts(bricks, catalogue).high - 1 - column_facts(bricks, catalogue).low
+    may = np.zeros(len(bricks), dtype=bool)
+    may[brick[[tuple(each) in there for each in columns.tolist()]]] = True
+    return smooth_tops(bricks, catalogue, price=0.0, may=may & ~ruled(bricks, catalogue, edits)).bricks
 
 
 def _made(work: Workpiece, rule: Rule) -> str:

@@ -140,7 +140,7 @@ def check_edit(edit: Edit, catalogue: Catalogue) -> None:
         The catalogue does not have the part or the colour.
     """
     part, row = edit.part_of(catalogue), catalogue.colour_row(edit.colour)
-    if edit.kind in LAYS and part.use != "model":
-        raise EditError(f"{part.title} is not laid in models: choose a brick or a plate.")
+    if edit.kind in LAYS and part.use not in ("model", "tiles"):
+        raise EditError(f"{part.title} is not laid by hand: choose a brick, a plate or a tile.")
     if edit.kind in LAYS and not catalogue.exists[catalogue.part_row(edit.part), row]:
         raise EditError(f"{part.title} is not made in {catalogue.colours[row].name}: choose another colour or part.")

@@ -81,7 +81,7 @@ class Workpiece:
         self.owner = np.full(self.shape, NOBODY, dtype=np.int32)
         n_z, n_y, n_x = graph.owner.shape
         self.owner[:n_z, :n_y, :n_x] = graph.owner
-        self._laid_for_model = self.catalogue.used_for("model")[bricks.part]
+        self._laid_for_model = (self.catalogue.used_for("model") | self.catalogue.used_for("tiles"))[bricks.part]
         self._laid_for_model &= ~np.isin(bricks.role, SUPPORTS)
 
     def inside(self, cells: Set[Cell]) -> list[Cell]:
@@ -101,7 +101,7 @@ class Workpiece:
         return [cell for cell, is_filled in zip(cells, there.tolist(), strict=True) if is_filled]
 
     def may_change(self, rows: Ints) -> bool:
-        """Tell whether no edit put one of these bricks there, and none is a support or a part of mosaics."""
+        """Tell whether no edit put one of these bricks there, and none is a support or of a base."""
         return not self.fixed[rows].any() and bool(self._laid_for_model[rows].all())
 
     def fix(self, row: int) -> None:

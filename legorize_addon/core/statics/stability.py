@@ -16,7 +16,7 @@ from typing import Final
 
 import numpy as np
 
-from ..arrays import Floats, Ints
+from ..arrays import Floats, Ints, Mask
 from ..model import NOBODY, Assembly
 from ..model import UNSUPPORTED as UNSUPPORTED
 from ..model import Verdict as Verdict
@@ -115,12 +115,17 @@ class Stability:
         return self.verdict in (Verdict.STABLE, Verdict.WEDGED)
 
     @property
+    def moves(self) -> Mask:
+        """Which bricks move in the motion that studs alone stop least, (n,)."""
+        moving: Mask = (np.abs(self.yielding) > MOVING).any(axis=1)
+        return moving
+
+    @property
     def margin_by_studs(self) -> Floats:
         """Margin of each brick, (n,), but 0 where nothing but its neighbours holds it."""
         if self.standing is not Verdict.WEDGED:
             return self.margin
-        held = (np.abs(self.yielding) > MOVING).any(axis=1)
-        return np.where(held, np.minimum(self.margin, 0.0), self.margin)
+        return np.where(self.moves, np.minimum(self.margin, 0.0), self.margin)
 
     @property
     def motion(self) -> Floats:

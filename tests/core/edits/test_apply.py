@@ -181,3 +181,41 @@ def test_supports_stay():
         assert "support" in refusal(bricks, edit(kind, BRICK_2X2, (8, 0, 0), WHITE))
     found = made(bricks, edit("force", BRICK_2X4, (3, 0, 0)))
     assert (found.role == Role.SUPPORT_KEPT).sum() == 1
+
+
+def roof():
+    """Return a wall with a tile of 2 x 4, one of 2 x 2 and a plate on top."""
+    tops = [("87079", 0, 0), ("3068b", 4, 0), ("3022", 6, 0)]
+    bricks = wall()
+    more = table([(ROW(part), x, y, 9, 0, RED, 0, 0, 3) for part, x, y in tops])
+    return concatenate([bricks, more])
+
+
+def tops_of(bricks):
+    """Return whether there is a tile on each stud square of the top plate."""
+    graph = contact_graph(bricks, CATALOGUE)
+    tile = np.array([part.profile == "tile" for part in CATALOGUE.parts])
+    return np.where(graph.owner[9] >= 0, np.append(tile[bricks.part], False)[graph.owner[9]], False)
+
+
+def test_tiles_change_as_plates_do_and_are_tiles_again():
+    """Half of a tile is recoloured: bricks are laid anew there, and the top is as smooth as before."""
+    bricks = roof()
+    found = made(bricks, edit("recolour", "3022", (0, 0, 9), WHITE))
+    assert (tops_of(found) == tops_of(bricks)).all()
+    assert (colours(found)[9, :, :2] == WHITE).all()
+
+
+def test_a_brick_on_a_tile():
+    """What is laid on a tile by force has studs below it, and the rest is smooth again."""
+    bricks = roof()
+    found = made(bricks, edit("force", "3022", (0, 0, 9), RED), edit("force", "3022", (0, 0, 10), RED))
+    assert not tops_of(found)[:, :2].any()
+    assert tops_of(found)[:, 2:6].all()
+    assert contact_graph(found, CATALOGUE).n_components == 1
+
+
+def test_a_tile_by_force():
+    """A plate becomes a tile where that is wanted."""
+    found = made(roof(), edit("force", "3068b", (6, 0, 9)))
+    assert tops_of(found)[:, :8].all()

@@ -49,7 +49,7 @@ def test_words():
 
 
 def test_what_cannot_be_laid():
-    """A part of mosaics, a part in a colour that it is not made in, and unknown parts and colours are refused."""
+    """A base of mosaics, a part in a colour that it is not made in, and unknown parts and colours are refused."""
     part, colour = next(
         (part, colour)
         for row, part in enumerate(CATALOGUE.parts)
@@ -58,11 +58,11 @@ def test_what_cannot_be_laid():
     )
     with pytest.raises(EditError, match=f"{part.title} is not made in {colour.name}"):
         check_edit(edit("force", part.number, (0, 0, 0), colour.code), CATALOGUE)
-    tile = next(part for part in CATALOGUE.parts if part.use == "tiles")
-    with pytest.raises(EditError, match="not laid in models"):
-        check_edit(edit("lock", tile.number, (0, 0, 0)), CATALOGUE)
+    base = next(part for part in CATALOGUE.parts if part.use == "base")
+    with pytest.raises(EditError, match="not laid by hand"):
+        check_edit(edit("lock", base.number, (0, 0, 0)), CATALOGUE)
     with pytest.raises(BuildError, match="Part nothing"):
         check_edit(edit("delete", "nothing", (0, 0, 0)), CATALOGUE)
     with pytest.raises(BuildError, match="Colour 12345"):
         check_edit(edit("recolour", BRICK_2X4, (0, 0, 0), 12345), CATALOGUE)
-    check_edit(edit("forbid", tile.number, (0, 0, 0)), CATALOGUE)
+    check_edit(edit("forbid", base.number, (0, 0, 0)), CATALOGUE)
