@@ -50,14 +50,16 @@ def masks_of_trajectories(draft: Draft, shape: tuple[int, int, int]) -> tuple[Ma
     heights = draft.cut.slices.heights
     material = covered_shares(draft, *shape[1:], finer=FINER) >= 0.5
     filled = np.array([binary_fill_holes(each) for each in material]).reshape(material.shape)
-    outlined = filled.reshape(len(heights), shape[1], FINER, shape[2], FINER).mean(axis=(2, 4)) >= 0.5
-    valid = covered_shares(draft, *shape[1:], finer=1) >= 0.5
+    hole = (filled & ~material).reshape(len(heights), shape[1], FINER, shape[2], FINER).mean(axis=(2, 4))
+    # by exact areas, as the squares round the outer edge
+    share = covered_shares(draft, *shape[1:], finer=1)
+    outlined, valid = share + hole >= 0.5, share >= 0.5
     layer = np.floor((heights - draft.grid.origin[2]) / BRICK).astype(np.int32)
     levels = levels_of(heights, layer, draft.cut.plate, Grid(draft.grid.origin, *shape, height=PLATE))
     # what sticks out below the ground has no cells
     there = levels.level >= 0
     masks = []
-    for slices in (outlined | valid, valid):
+    for slices in (outlined, valid):
         mask = np.zeros(shape, dtype=bool)
         mask[levels.level[there]] = slices[levels.slice[there]]
         masks.append(mask)
