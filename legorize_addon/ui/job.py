@@ -1,7 +1,8 @@
 """A computation in a worker thread: progress comes out, a request to stop goes in.
 
-This is the only module that knows of the thread. It needs no Blender, and the
-work that it runs must not touch Blender either.
+This is the only module that knows of this thread; previews have one of their own,
+in :mod:`.live`. It needs no Blender, and the work that it runs must not touch
+Blender either.
 """
 
 from __future__ import annotations
