@@ -186,7 +186,7 @@ class Planner:
         loose = np.zeros(n, dtype=bool)
         loose[units.unit[units.loose]] = True
         first = np.unique(units.unit, return_index=True)[1]
-        items = self._items(rows, units, of_unit)
+        items = self._items(rows, units, of_unit, small=small)
         if small and len(rows) <= MOST:
             below, _ = stacked(units.before, n)
             steps = [in_turn(range(n), below, items.box, items.level)]
@@ -205,7 +205,7 @@ class Planner:
         ]
         return puts, np.array([put.brick for step in puts for put in step if put.brick != NOBODY], dtype=np.int64)
 
-    def _items(self, rows: Ints, units: Units, of_unit: dict[int, int]) -> Items:
+    def _items(self, rows: Ints, units: Units, of_unit: dict[int, int], *, small: bool) -> Items:
         """Return the units of a table as what is put on."""
         unit = units.unit
         n = int(unit.max(initial=NOBODY)) + 1
@@ -231,7 +231,8 @@ class Planner:
             lot=lot,
             temporary=self.temporary[rows[first]],
             image=self._images(rows, unit, n),
-            tile=tiles_of(box, level),
+            # the wide floor of a model is no picture
+            tile=np.zeros(n, dtype=np.int64) if small else tiles_of(box, level),
         )
 
     def _images(self, rows: Ints, unit: Ints, n: int) -> Ints:

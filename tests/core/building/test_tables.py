@@ -213,3 +213,13 @@ def test_what_holds_stands_on_the_table_or_on_what_is_there():
     assert not Planner._holds(SimpleNamespace(level={0: 5, 1: 5}, below={0: [1], 1: []}), [0, 1])
     for order, holds in (([0, 1, 2, 3], True), ([0, 2, 1], True), ([0, 1, 4], False), ([1, 2], False), ([0, 3], False)):
         assert Planner._holds(planner, order) == holds
+
+
+@pytest.mark.parametrize("small", [False, True])
+def test_the_wide_floor_of_a_sub_assembly_is_no_picture(small):
+    """What lies flat by itself is built tile by tile; what is put onto a model has steps like all of it."""
+    bricks = table(*(("3460", x, y, 0) for x in (0, 8, 16) for y in range(17)))
+    planner, _ = planned(bricks)
+    rows = np.arange(len(bricks))
+    units = planner._units(0, rows, rows, np.ones(len(rows), dtype=bool))
+    assert planner._items(rows, units, {}, small=small).tile.any() != small
