@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints, Mask
 from ..colours import ciede2000, lab_from_srgb
@@ -94,10 +95,11 @@ def _places(site: Site, form: Form, cells: Ints) -> Ints:
     """Return the corners, ascending, of which a cell that the slope fills in part lies on the surface."""
     share = form.fill.mean(axis=1)
     falling = cells[(share > 0) & (share < 1)]
-    place = np.unique(site.mixed[:, None] - falling)
-    z, y, x = np.unravel_index(np.maximum(place, 0), site.shape)
+    place = site.mixed[:, None] - falling
+    place = _once(place[place >= 0], len(site.solid))
+    z, y, x = np.unravel_index(place, site.shape)
     # what is as high as bricks keeps to their layers
-    fits = (place >= 0) & ((z % PLATES_PER_BRICK == 0) | (form.height % PLATES_PER_BRICK != 0))
+    fits = (z % PLATES_PER_BRICK == 0) | (form.height % PLATES_PER_BRICK != 0)
     far = form.cells.max(axis=0)
     fits &= (y >= MARGIN) & (x >= MARGIN) & (z + far[0] + 1 < site.shape[0])
     fits &= (y + far[1] < site.shape[1] - MARGIN) & (x + far[2] < site.shape[2] - MARGIN)
@@ -122,7 +124,7 @@ def _may_stand(site: Site, form: Form, place: Ints) -> Mask:
 def _gain(site: Site, form: Form, cells: Ints) -> Floats:
     """Return the volume that is filled wrongly as it is, less that with the slope."""
     row = site.row[cells]
-    used = np.unique(row)
+    used = _once(row, len(site.gain))
     # sums of single precision would differ between machines
     of_cell = site.gain[used].astype(np.float64)
     filled = of_cell @ form.fill.T / form.fill.shape[1]
@@ -130,6 +132,13 @@ def _gain(site: Site, form: Form, cells: Ints) -> Floats:
     at = np.searchsorted(used, row)
     gain: Floats = (np.where(site.solid[cells], whole[at], 0) - filled[at, np.arange(cells.shape[1])]).sum(axis=1)
     return gain
+
+
+def _once(numbers: Ints | NDArray[np.int32], end: int) -> Ints:
+    """Return each of some numbers from 0 to before an end once, ascending: without sorting them."""
+    there = np.zeros(end, bool)
+    there[numbers] = True
+    return np.flatnonzero(there)
 
 
 def _parts_more(site: Site, form: Form, place: Ints) -> Floats:
