@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -34,20 +35,22 @@ def smooth_surface(
     if not run.settings.smooth:
         return assembly, found, ()
     may = ~ruled(assembly.bricks, run.catalogue, edits)
+    effort = Effort(near=found, programme=0, neighbours=not found.stable)
     for _ in range(_ROUNDS):
         made = _tiled(run, assembly, may)
         if len(made.bricks) == len(assembly):
             break
         other = Assembly(made.bricks, run.catalogue)
-        # what is not soon known to stand is laid otherwise
-        effort = Effort(near=found, programme=0, neighbours=not found.stable, rounds=0)
-        tested = like_before(run, other, found, effort)
+        tested = like_before(run, other, found, replace(effort, rounds=0))
+        if weaker(tested, found) and not _weak(other, tested, made.origin, len(assembly)).any():
+            # nobody knows yet what would have to be laid otherwise
+            tested = like_before(run, other, found, effort)
         if not weaker(tested, found):
             return other, _again(run, other, tested), (_told(made, len(assembly)),)
         may &= ~_weak(other, tested, made.origin, len(assembly))
     made = _tiled(run, assembly, may, np.inf)
     other = Assembly(made.bricks, run.catalogue)
-    tested = like_before(run, other, found, Effort(near=found, programme=0, neighbours=not found.stable))
+    tested = like_before(run, other, found, effort)
     if made.seen == made.left or weaker(tested, found):
         return assembly, found, ()
     return other, _again(run, other, tested), (_told(made, len(assembly)),)
