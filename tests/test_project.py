@@ -30,7 +30,7 @@ READERS = (
         "build",
         "estimate",
     ),
-    *("part_choice", "limits", "fitting", "shortage", "settings_file"),
+    *("part_choice", "limits", "fitting", "shortage", "half_stages", "settings_file"),
 )
 """Modules of the core that know the settings."""
 PACKAGE = sorted((ROOT / "legorize_addon").rglob("*.py"))

@@ -9,6 +9,7 @@ from .build import Cut, Draft
 from .colours import SurfaceColours
 from .errors import SettingsError, enough_memory
 from .estimate import COUNTED, estimate
+from .half_stages import find_planes
 from .limits import check_limits
 from .mesh import Repairs, TriangleMesh
 from .model import UnitGrid
@@ -70,7 +71,7 @@ def _draft_model(mesh: TriangleMesh, settings: Settings, seconds: dict[str, floa
     return made
 
 
-def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
+def drafted(run: Run, given: TriangleMesh, barred: tuple[int, ...] = ()) -> tuple[Draft, tuple[str, ...]]:
     """Go through the stages of a run before its layout.
 
     Parameters
@@ -78,6 +79,8 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
     run : Run
     given : TriangleMesh
         As read, in world mm.
+    barred : tuple of int, optional
+        Levels at which nothing may lie half a stud further on.
 
     Returns
     -------
@@ -88,6 +91,7 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
     with run.stage("mesh"):
         mesh, repairs, turn, scale, unseen = run.once(prepare_mesh, given)
         mesh, scale, frame, sized = run.once(place_grid, mesh, scale)
+        mesh, frame, planes = run.once(find_planes, mesh, frame, barred)
     with run.stage("colours"):
         surface = run.once(find_colours, mesh, given)
     cut, trajectories, grid, feet = gridded(run, mesh, repairs, surface, frame)
@@ -95,7 +99,7 @@ def drafted(run: Run, given: TriangleMesh) -> tuple[Draft, tuple[str, ...]]:
     grid, offsets, shell = hollowed(run, grid)
     made = Draft(
         mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut, trajectories=trajectories,
-        offsets=offsets, grid=grid, hollow=shell, wanted=wanted,
+        offsets=offsets, grid=grid, hollow=shell, wanted=wanted, planes=planes,
     )  # fmt: skip
     return made, (*unseen, *sized, *feet)
 

@@ -281,7 +281,7 @@ def _stages(build: _Features, settings: Settings) -> dict[str, float]:
     """Return the expected CPU seconds of the stages."""
     seconds = {name: cost.of(build) for name, cost in _SECONDS.items()}
     seconds["layout"] *= TIERS[settings.layout]
-    if settings.surface != "slopes":
+    if settings.surface != "slopes" and not settings.half_studs:
         del seconds["surface"]
     if settings.smooth:
         seconds["pieces"] += _TOPS.of(build)

@@ -77,19 +77,23 @@ def without_overlaps(bricks: Bricks, catalogue: Catalogue) -> tuple[Bricks, tupl
             taken.update(cells)
         else:
             dropped.append(row)
+    if not dropped:
+        # studs alone that stand in what lies half a stud off: no contact counts there
+        return bricks, ()
     kept = np.setdiff1d(np.arange(len(bricks)), dropped)
     what = "1 brick lies" if len(dropped) == 1 else f"{len(dropped)} bricks lie"
     return bricks.take(kept), (f"{what} in others, left out.",)
 
 
 def _cells(bricks: Bricks, catalogue: Catalogue) -> Sequence[list[tuple[int, int, int]]]:
-    """Return the cells of each brick."""
+    """Return the cells of each brick; quarters of them, as something may lie half a stud further on."""
     brick, columns = stud_columns(bricks, catalogue)
     facts = column_facts(bricks, catalogue)
     height = (facts.high - facts.low).tolist()
     found: list[list[tuple[int, int, int]]] = [[] for _ in range(len(bricks))]
-    for row, (x, y, z), high in zip(brick.tolist(), columns.tolist(), height, strict=True):
-        found[row] += [(x, y, z + level) for level in range(high)]
+    places = (2 * (columns + bricks.shift[brick])).astype(np.int64)
+    for row, (x, y, _), z, high in zip(brick.tolist(), places.tolist(), columns[:, 2].tolist(), height, strict=True):
+        found[row] += [(x + u, y + v, z + level) for level in range(high) for u in (0, 1) for v in (0, 1)]
     return found
 
 
@@ -100,6 +104,8 @@ def laid_again(run: Run, given: Bricks) -> tuple[Bricks, tuple[str, ...]]:
     """
     given = given.take(given.role != Role.SUPPORT_OUTSIDE)
     given = replace(given, piece=np.zeros_like(given.piece))
+    if given.halved:
+        return given, ("Bricks half a stud off each other cannot be laid again: the model stays as it is.",)
     with run.stage("layout"):
         laid = lay_again(given, run.catalogue, partial(lay_freely, run), run.parts.burden)
     if laid is given:

@@ -13,7 +13,7 @@ from .building import Proof
 from .by_hand import ByHand, edit_bricks
 from .drafting import drafted, stand_up
 from .edits import NO_EDITS, Edits
-from .errors import enough_memory
+from .errors import SettingsError, enough_memory
 from .estimate import COUNTED, estimate
 from .existing import (
     EXPECTED,
@@ -26,6 +26,7 @@ from .existing import (
     without_overlaps,
 )
 from .fitting import fit
+from .half_stages import Levels, given_bricks, lie_apart, remarks_on_half_studs, with_half_studs
 from .limits import check_limits, check_size
 from .memo import Trial
 from .mesh import TriangleMesh
@@ -49,7 +50,7 @@ from .report import (
 from .run import Run
 from .settings import Settings
 from .shortage import with_enough_parts
-from .slope_stages import find_slopes, lay_with_slopes
+from .slope_stages import lay_with_slopes
 from .stages import cut_pieces, hollow_by, make_plan
 from .statics import Stability
 from .stock import Owned
@@ -103,39 +104,41 @@ def legorize(
     LegorizeError
         The mesh or the settings cannot be used, in one sentence.
     """
-    make = partial(with_enough_parts, partial(_legorize, edits, trial=trial))
+    if settings.half_studs and edits.edits:
+        raise SettingsError("half_studs is on, but there are edits by hand, which need one grid: turn half_studs off.")
+    make = partial(with_enough_parts, partial(with_half_studs, partial(_legorize, edits, trial)))
     if settings.size_by in COUNTED:
         return watched(partial(fit, mesh, settings, make), progress)
     return watched(partial(make, mesh, settings), progress)
 
 
 def _legorize(
-    edits: Edits, mesh: TriangleMesh, settings: Settings, progress: Progress, trial: Trial | None = None
+    edits: Edits, trial: Trial | None, barred: Levels, mesh: TriangleMesh, settings: Settings, progress: Progress
 ) -> Build:
-    """Go through the stages."""
+    """Go through the stages; nothing lies half a stud further on from barred levels on."""
     check_limits(expected := estimate(mesh, settings), settings)
     run = Run.of(settings, Overall(expected.stages, progress), trial)
-    made, told = drafted(run, mesh)
-    slopes = None
-    if settings.surface == "slopes":
-        with run.stage("surface"):
-            slopes = run.once(find_slopes, made)
-    assembly, shell, found, by_hand = _put_up(run, made.hollow, edits, made.scale, slopes)
+    made, told = drafted(run, mesh, barred)
+    made, given = given_bricks(run, made)
+    assembly, shell, found, by_hand = _put_up(run, made.hollow, edits, made.scale, given)
     with run.stage("pieces"):
         assembly, found, exchanged = run.once(take_fewer_lots, assembly, found)
         assembly, found, smoothed = run.once(smooth_surface, assembly, found, by_hand.made)
         assembly, joints = run.once(cut_pieces, assembly)
     with run.stage("supports"):
         plan = run.once(make_plan, assembly)
-    if len(plan.final) > len(assembly):
+    if made.planes or len(plan.final) > len(assembly):
         with run.stage("stability again"):
             found = run.once(check_final, plan.final)
+            if made.planes:
+                plan, found = run.once(lie_apart, plan, made.planes, found)
     proof = _prove(run, plan)
     beyond = _beyond_paper(run, made, plan)
     run.progress.finish()
     notes = (
         *made.repairs.sentences(), *told, *remarks_on_dithering(made.mesh, settings.dithering), *run.learning,
         *((beyond.sentence(),) if beyond else ()), *exchanged, *smoothed,
+        *remarks_on_half_studs(made.planes, plan.final.bricks, run.catalogue),
         *remarks_on_edits(outcomes := by_hand.outcomes(plan.final), run.catalogue),
         *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
     )  # fmt: skip
@@ -144,7 +147,7 @@ def _legorize(
         surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
         hollow=shell, wanted=made.wanted, edits=by_hand.edits, outcomes=outcomes, unedited=without_proof(run, by_hand),
         assembly=plan.final, stability=found, supports=plan, joints=joints, **run.parts.files, proof=proof,
-        notes=notes, timings=run.timings, beyond=asdict(beyond) if beyond else {},
+        notes=notes, timings=run.timings, beyond=asdict(beyond) if beyond else {}, planes=made.planes,
     )  # fmt: skip
 
 

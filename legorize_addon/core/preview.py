@@ -30,6 +30,7 @@ QUICK: Final[dict[str, Any]] = {
     "layout": "fast",
     "learned_from": "",
     "surface": "studs",
+    "half_studs": False,
     "fine_texture": "texels",
     "sampling": "surface",
     "grid_fit": "none",

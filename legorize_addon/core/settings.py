@@ -12,7 +12,7 @@ from dataclasses import Field, dataclass, fields
 from functools import cache
 from typing import Any, Literal, get_type_hints
 
-from .errors import SettingsError
+from .exclusions import refuse_excluding
 from .setting import check_value, setting
 
 
@@ -123,6 +123,9 @@ class Settings:
             "none": "in its middle, or as in the paper", "shifts": "where it fits best, by quarters of a stud; a "
             "symmetric model stays so", "sizes": "the same, also of a size up to 3 % smaller or larger if it is set in "
             "studs, bricks or cm"})
+    half_studs: bool = setting(
+        False, "Half studs", "Shift all above a plane by half a stud, on jumper plates, where that comes closer to the "
+        "shape: it must save as much for each part as slopes.", group="Shape")
     superposition: Literal["median", "middle"] = setting(
         "median", "Ends of plates", "Where a brick ends if its three plates end at different places.", group="Shape",
         words={"median": "between the two others, which keeps its volume",
@@ -261,27 +264,7 @@ class Settings:
         """Refuse values of a wrong type or out of range, and settings that exclude each other."""
         for entry in fields(self):
             check_value(entry, setting_type(entry), getattr(self, entry.name))
-        if self.open_bottom and not self.hollow:
-            raise SettingsError(
-                "open_bottom is on but hollow is off: a solid model has no open bottom; turn hollow on or "
-                "open_bottom off."
-            )
-        if self.dithering != "none" and (self.one_to_one or self.cell_colour == "longest"):
-            other = "one_to_one is on" if self.one_to_one else "cell_colour is 'longest'"
-            raise SettingsError(
-                f"dithering is {self.dithering!r} but {other}: they exclude each other; change one of them."
-            )
-        if self.surface == "slopes" and self.layout == "learned":
-            raise SettingsError(
-                "surface is 'slopes' but layout is 'learned', which lays nothing around slopes: choose another layout."
-            )
-        if self.surface == "tiles" and not self.smooth:
-            other = "plates is 'none'" if self.plates == "none" else "tops is 'studs'"
-            raise SettingsError(
-                f"surface is 'tiles' but {other}, which leaves no place for tiles: change one of the two."
-            )
-        if self.hollow_rule == "upper" and not self.hollow:
-            raise SettingsError("hollow_rule is 'upper' but hollow is off: turn hollow on, or set the rule to 'both'.")
+        refuse_excluding(self)
 
     @property
     def smooth(self) -> bool:

@@ -174,7 +174,7 @@ def make_unit_grid(
     lattice = frame.plates() if _in_plates(settings) else frame
     facing = facing_of(mesh, surface) if settings.backing else None
     rules = Rules(
-        symmetric=settings.symmetric,
+        symmetric=settings.symmetric and not frame.drawn_together,
         keep_thin=settings.keep_thin,
         longest=settings.cell_colour == "longest",
         closed=repairs.watertight,

@@ -20,6 +20,9 @@ from ..core.units import PLATE
 Rows = NDArray[np.integer]
 
 COLUMNS: Final = ("part", "turn", "colour", "role", "piece", "step")
+HALVES: Final = ("half_x", "half_y")
+"""Attributes of models that know half studs."""
+
 VARIANT: Final = "variant"
 """Attribute that chooses the instanced object."""
 
@@ -81,7 +84,7 @@ def positions(bricks: Bricks, catalogue: Catalogue) -> Floats:
     (n, 3) float64 array
         Points in model mm.
     """
-    return (bricks.corner + _half(sizes(bricks.part, bricks.turn, catalogue))) * CELL_SIZE
+    return (bricks.corner + bricks.shift + _half(sizes(bricks.part, bricks.turn, catalogue))) * CELL_SIZE
 
 
 def middles(bricks: Bricks, catalogue: Catalogue) -> Floats:
@@ -111,7 +114,7 @@ def box_corners(bricks: Bricks, catalogue: Catalogue) -> Floats:
     """
     size = np.column_stack([sizes(bricks.part, bricks.turn, catalogue), heights(bricks, catalogue)])
     unit = np.stack(np.meshgrid([0, 1], [0, 1], [0, 1]), axis=-1).reshape(-1, 3)
-    return ((bricks.corner[:, None] + unit * size[:, None]) * CELL_SIZE).reshape(-1, 3)
+    return (((bricks.corner + bricks.shift)[:, None] + unit * size[:, None]) * CELL_SIZE).reshape(-1, 3)
 
 
 def points_mesh(
@@ -144,6 +147,8 @@ def points_mesh(
     columns = {column: getattr(bricks, column) for column in COLUMNS}
     columns |= {VARIANT: variant, ROW: row, HEIGHT: heights(bricks, catalogue)}
     columns |= {BUILT_AT: positions(bricks, catalogue), **more}
+    if bricks.half is not None:
+        columns |= dict(zip(HALVES, bricks.half.T, strict=True))
     for key, values in columns.items():
         _write(mesh, key, values)
     return mesh
@@ -182,14 +187,18 @@ def read_points(meshes: Sequence[bpy.types.Mesh], part_numbers: Sequence[str], c
     order = _order(meshes)
     part = np.array([catalogue.part_row(number) for number in part_numbers], dtype=np.int16)[part]
     position = read_positions(meshes)[order]
+    known = all(name in mesh.attributes for mesh in meshes for name in HALVES)
+    half = np.stack(list(read_columns(meshes, HALVES).values()), axis=1).astype(np.uint8) if known else None
+    beyond = np.zeros((len(part), 3)) if half is None else np.insert(half / 2, 2, 0.0, axis=1)
     return Bricks(
         part=part,
-        corner=np.rint(position / CELL_SIZE - _half(sizes(part, turn, catalogue))).astype(np.int32),
+        corner=np.rint(position / CELL_SIZE - beyond - _half(sizes(part, turn, catalogue))).astype(np.int32),
         turn=turn.astype(np.uint8),
         colour=colour.astype(np.int16),
         role=role.astype(np.uint8),
         piece=piece.astype(np.int16),
         step=step,
+        half=half,
     )
 
 

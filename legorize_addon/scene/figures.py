@@ -55,8 +55,8 @@ def summary(assembly: Assembly) -> dict[str, int | float]:
     bricks, catalogue = assembly.bricks, assembly.catalogue
     finished = bricks.role != Role.SUPPORT_OUTSIDE
     bricks = bricks.take(finished) if finished.any() else bricks
-    low = bricks.corner[:, :2]
-    studs = (low + sizes(bricks.part, bricks.turn, catalogue)).max(axis=0) - low.min(axis=0)
+    low = (bricks.corner + bricks.shift)[:, :2]
+    studs = np.ceil((low + sizes(bricks.part, bricks.turn, catalogue)).max(axis=0) - low.min(axis=0))
     return {
         "bricks": len(bricks),
         "parts": len(np.unique(bricks.part)),

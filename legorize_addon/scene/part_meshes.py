@@ -244,12 +244,17 @@ def _roof(part: Part, height: float, centre: Floats) -> float:
 
 def _stud_centres(part: Part) -> Floats:
     """Return the middles of the studs in mm from the box's corner, shape (n, 2); none for a tile."""
+    if part.jumper:
+        return np.array([[part.length, part.width]]) * STUD / 2
     found = columns(part, 0)
     return (found.xy[found.stud] + 0.5) * STUD
 
 
 def _tube_centres(part: Part) -> Floats:
     """Return the middles of the tubes (wide parts) or pins (narrow ones) in mm, shape (n, 2)."""
+    if part.jumper and part.width == 1:
+        # what lies on a jumper's stud has no room for a pin
+        return np.zeros((0, 2))
     across = np.arange(1, part.width) if part.width > 1 else np.array([0.5])
     y, x = (each.ravel() for each in np.meshgrid(across, np.arange(1, part.length), indexing="ij"))
     centres = np.stack([x, y], axis=1)

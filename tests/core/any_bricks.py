@@ -46,8 +46,9 @@ def everything():
 
 
 def multiset(bricks, *, steps=True):
-    """Return the bricks as sorted rows, turns reduced by the parts' symmetry."""
-    turns = np.array([part.turns for part in CATALOGUE.parts])[bricks.part]
+    """Return the bricks as sorted rows, turns reduced by the parts' symmetry; those of jumpers by how they look."""
+    looks = [1 + (part.length != part.width) if part.jumper else part.turns for part in CATALOGUE.parts]
+    turns = np.array(looks)[bricks.part]
     columns = [bricks.part, bricks.corner, bricks.turn % turns, bricks.colour, bricks.role, bricks.piece]
     rows = np.column_stack([*columns, bricks.step] if steps else columns)
     return sorted(map(tuple, rows.tolist()))

@@ -7,7 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from ..model import Bricks, Catalogue, column_facts, stud_columns
+from ..arrays import Ints
+from ..model import Bricks, Catalogue, Rows, column_facts, stud_columns
 
 _NOTHING: Final = np.iinfo(np.int32).min
 
@@ -27,15 +28,22 @@ class Skyline:
         """
         brick, columns = stud_columns(bricks, catalogue)
         squares = columns[:, :2].astype(np.int64)
+        facts = column_facts(bricks, catalogue)
+        top = columns[:, 2] + facts.high - facts.low
+        bottom = columns[:, 2]
+        if bricks.halved:
+            # half a stud further on, what comes from above must come over halves of squares
+            squares, brick, bottom, top = (
+                _quarters(squares, bricks, brick),
+                *(np.repeat(each, 4) for each in (brick, bottom, top)),
+            )
         low, high = (squares.min(axis=0), squares.max(axis=0)) if len(squares) else (np.zeros(2), np.zeros(2))
         wide = int(high[0] - low[0]) + 1
         self._n = wide * (int(high[1] - low[1]) + 1)
         flat = (squares[:, 0] - low[0]) + wide * (squares[:, 1] - low[1])
-        facts = column_facts(bricks, catalogue)
         ends = np.searchsorted(brick, np.arange(1, len(bricks)))
         self._squares = np.split(flat.astype(np.int64), ends)
-        self._bottom = np.split(columns[:, 2], ends)
-        self._top = np.split(columns[:, 2] + facts.high - facts.low, ends)
+        self._bottom, self._top = np.split(bottom, ends), np.split(top, ends)
         self._tops: list[np.ndarray | None] = [None] * n_tables
 
     def covers(self, brick: int, table: int) -> bool:
@@ -56,3 +64,10 @@ class Skyline:
         self._tops[table] = None
         for brick in bricks:
             self.add(int(brick), table)
+
+
+def _quarters(squares: Ints, bricks: Bricks, brick: Rows) -> Ints:
+    """Return the quarters of stud squares, four each, of bricks that may lie half a stud beyond their corners."""
+    moved = 2 * (squares + bricks.shift[brick, :2])
+    quarters: Ints = (moved[:, None] + np.array([(0, 0), (1, 0), (0, 1), (1, 1)])).astype(np.int64).reshape(-1, 2)
+    return quarters

@@ -150,7 +150,9 @@ def _places(bricks: Bricks, catalogue: Catalogue) -> tuple[NDArray[np.uint8], ND
     origin = np.array([[part_origin(part, quarter) for quarter in range(4)] for part in catalogue.parts])[
         bricks.part, turn
     ]
-    return turn, origin + bricks.corner[:, [0, 2, 1]] * np.array((STUD_LDU, -PLATE_LDU, STUD_LDU))
+    # half a stud is a whole number of LDU
+    moved = (bricks.shift[:, [0, 2, 1]] * STUD_LDU).astype(np.int64)
+    return turn, origin + moved + bricks.corner[:, [0, 2, 1]] * np.array((STUD_LDU, -PLATE_LDU, STUD_LDU))
 
 
 def matrix_of(part: Part, turn: int) -> int:

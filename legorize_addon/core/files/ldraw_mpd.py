@@ -124,11 +124,12 @@ class _Document:
         """Return the line that puts a submodel where it belongs, wherever the one that is written stands."""
         first = self.steps.submodels[number].like
         x, y, z = (self._low(number) - self._low(first)).tolist() if first != number else (0, 0, 0)
-        place = f"{x * STUD_LDU} {-z * PLATE_LDU} {y * STUD_LDU}"
+        place = f"{round(x * STUD_LDU)} {round(-z * PLATE_LDU)} {round(y * STUD_LDU)}"
         return f"1 {MAIN_COLOUR} {place} {MATRICES[0]} {self.steps.submodels[first].name}.ldr"
 
     def _low(self, number: int) -> np.ndarray:
-        low: np.ndarray = self.bricks.corner[self.steps.all_rows(number)].min(axis=0)
+        rows = self.steps.all_rows(number)
+        low: np.ndarray = (self.bricks.corner[rows] + self.bricks.shift[rows]).min(axis=0)
         return low
 
 

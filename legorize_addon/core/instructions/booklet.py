@@ -73,7 +73,8 @@ class Booklet:
         tables = [getattr(table, name) for table in (bricks, moves) for name in table.__slots__]
         submodels = [(each.number, each.kind, each.parent, each.piece, each.like) for each in self._steps.submodels]
         rows = [each.rows for each in self._steps.submodels]
-        arrays = [np.ascontiguousarray(each) for each in (*tables, *rows, self._temporary, *shape)]
+        half = () if bricks.half is None else (bricks.half,)
+        arrays = [np.ascontiguousarray(each) for each in (*tables, *half, *rows, self._temporary, *shape)]
         found = hashlib.sha256(
             repr((title.text, self._paper, self._remarks, submodels, [each.shape for each in arrays])).encode()
         )

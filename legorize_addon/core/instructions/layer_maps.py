@@ -270,7 +270,8 @@ def _marks(bricks: Bricks, lot: Ints, catalogue: Catalogue, frame: Frame) -> Ite
     first, columns = stud_columns(bricks, catalogue)
     _, rows = np.unique(first, return_index=True)
     dark = [brightness(tuple(row)) < 0.5 for row in rgb_of(bricks, catalogue).tolist()]
-    for (x, y, _), one, on_dark in zip(columns[rows].tolist(), lot.tolist(), dark, strict=True):
+    places = columns[rows] + bricks.shift
+    for (x, y, _), one, on_dark in zip(places.tolist(), lot.tolist(), dark, strict=True):
         across, down = frame.at(x + 0.5, y + 0.5)
         letters = lettered(one)
         high = size / max(1, 0.7 * len(letters))

@@ -79,7 +79,7 @@ class Frame(NamedTuple):
     def _around(
         cls, points: Floats, legend: float, paper: Paper, *, actual_size: bool, turned: bool | None = None
     ) -> Frame:
-        low, high = points.min(axis=0).astype(np.int64), points.max(axis=0).astype(np.int64)
+        low, high = (np.floor(points.min(axis=0)).astype(np.int64), np.ceil(points.max(axis=0)).astype(np.int64))
         if turned is None:
             turned = bool((high - low)[1] > (high - low)[0]) and not actual_size
         across, up = (high - low)[:: -1 if turned else 1].tolist()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -13,6 +14,7 @@ from ..model import NOBODY, Bricks, Catalogue
 from ..progress import Progress, silent
 from .canvas import Item, Paint, Path, Rgb
 from .closeup import Window, cut, framed, grown, locator, window_of
+from .half_slabs import slabs_of
 from .lattice import FRONT, Sight, View
 from .lots import rgb_of, shown_rgb
 from .picture import Look, Picture, at, extent
@@ -158,15 +160,13 @@ class Panels:
             window = grown(panel.window, sight, np.array(room))
             sight = cut(sight, window)
         made = draw_all(sight, Look(colour, new, studs=not panel.view.below, smooth=self._smooth))
-        ghosts = [_outline(self.stage.sight(panel.left_out, panel.view))] if len(panel.left_out) else []
+        ghosts = list(_outlines(self.stage.sight(panel.left_out, panel.view))) if len(panel.left_out) else []
         if window is not None:
             return Picture(framed((*made.items, *ghosts), window), *window)
         if not ghosts:
             return made
-        [ghost] = ghosts
-        low = np.minimum(made.low, ghost.points.min(axis=0))
-        high = np.maximum(made.high, ghost.points.max(axis=0))
-        return Picture((*made.items, ghost), low, high)
+        points = np.concatenate([np.stack([made.low, made.high]), *(ghost.points.astype(float) for ghost in ghosts)])
+        return Picture((*made.items, *ghosts), points.min(axis=0), points.max(axis=0))
 
     def locator(self, panel: Panel, picture: Picture) -> list[Item]:
         """Draw the small picture of the whole that says which part a picture shows; nothing if it shows all."""
@@ -188,10 +188,11 @@ def _rgb(row: Ints) -> Rgb:
     return red, green, blue
 
 
-def _outline(sight: Sight) -> Path:
-    region = np.where(sight.bricks == NOBODY, NOBODY, 0)
-    loops = outlines(region, sight.low)
-    return Path(at(loops.points), loops.count, True, (_GHOST,))
+def _outlines(sight: Sight) -> Iterator[Path]:
+    for slab in slabs_of(sight):
+        region = np.where(slab.sight.bricks == NOBODY, NOBODY, 0)
+        loops = outlines(region, slab.sight.low)
+        yield Path(at(loops.points) + slab.by, loops.count, True, (_GHOST,))
 
 
 def submodel_names(steps: Steps) -> dict[int, str]:

@@ -209,15 +209,16 @@ def _stud_items(sight: Sight, styles: Ints, style: Ints, look: Look) -> Iterator
         yield Group(tuple(_stud_paths(sight, partly[level[partly] == number], styles, style, look.studs)), clip=clip)
 
 
-def stud_paths(tops: Ints, rgb: Rgb, new: bool, studs: bool) -> Iterator[Item]:
+def stud_paths(tops: Ints | Floats, rgb: Rgb, new: bool, studs: bool) -> Iterator[Item]:
     """Yield the studs, or sockets, of one colour on cells, (n, 3)."""
     yield Group(tuple(_studs(_feet(tops), rgb, new) if studs else _sockets(_feet(tops), rgb)), _STUD_MATRIX)
 
 
-def _feet(tops: Ints) -> Ints:
+def _feet(tops: Ints | Floats) -> Ints:
     """Return the middles of the tops of cells, shifted along the diagonal by the height of the level."""
     x, y, z = tops.T
-    return np.stack([_STUD_UNITS * each + _STUD_UNITS // 2 - 2 * (z + 1) for each in (x, y)], axis=1)
+    feet = np.stack([_STUD_UNITS * each + _STUD_UNITS // 2 - 2 * (z + 1) for each in (x, y)], axis=1)
+    return feet.astype(np.int64)
 
 
 def _stud_paths(sight: Sight, tops: Ints, styles: Ints, style: Ints, studs: bool) -> Iterator[Item]:

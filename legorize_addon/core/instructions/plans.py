@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..model import Bricks, Catalogue, column_facts, stud_columns
+from ..model import Bricks, Catalogue, column_facts, stud_middles
 from .canvas import Group, Item, Paint, Path, Rgb, lines
 
 STUD: Final = 0.6
@@ -49,12 +49,12 @@ def plan_outlines(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
         found.append(_CORNERS[turn] if part.corner else ((0, 0), (x, 0), (x, y), (0, y)))
     count = np.array([len(corners) for corners in found], dtype=np.int64)
     shape = np.array([corner for corners in found for corner in corners], dtype=np.float64).reshape(-1, 2)
-    return shape + np.repeat(bricks.corner[:, :2], count, axis=0), count
+    return shape + np.repeat((bricks.corner + bricks.shift)[:, :2], count, axis=0), count
 
 
 def plan_studs(bricks: Bricks, catalogue: Catalogue, *paints: Paint) -> Path:
     """Return the studs of bricks as dots; the paints' lines are as wide as the dots."""
-    middle = stud_columns(bricks, catalogue)[1][column_facts(bricks, catalogue).stud, :2] + 0.5
+    middle = stud_middles(bricks, catalogue)[column_facts(bricks, catalogue).stud]
     dots = np.stack([middle, middle], axis=1)
     # a line without any length is not drawn everywhere
     dots[:, 1, 0] += 0.001

@@ -1,4 +1,4 @@
-"""Slopes in pictures: their true faces, drawn over all that has only right angles.
+"""Slopes and jumpers in pictures: their true faces and studs, drawn over all that has right angles and studs all over.
 
 What falls has no place on the lattice of :mod:`.lattice`. So everything else is drawn first, as if no slope were there,
 and then the slopes, from the farthest to the nearest, each within the pieces of its cells that nothing else hides.
@@ -16,8 +16,9 @@ import numpy as np
 
 from ..arrays import Floats, Ints, Mask
 from ..model import NOBODY, Part, columns, lines, turned
-from .canvas import Group, Item, Paint, Path, Rgb
+from .canvas import Group, Item, Paint, Path, Rgb, moved
 from .canvas import lines as segments
+from .half_slabs import slabs_of
 from .lattice import Cells, Sight, View, look
 from .lattice import turned as seen_from
 from .picture import ACROSS, DOWN, STROKES, Look, Picture, at, draw, extent, stud_paths
@@ -47,7 +48,7 @@ class _Shape:
         Pieces of the plane that its cells cover: square and half.
     depth : (n,) int64 array
         How near each is: the sum of the places of its cell.
-    knobs : (k, 3) int64 array
+    knobs : (k, 3) float64 array
         Cells under its studs; from below those over its sockets.
     """
 
@@ -57,11 +58,11 @@ class _Shape:
     creases: Floats
     pieces: Ints
     depth: Ints
-    knobs: Ints
+    knobs: Floats
 
 
 def draw_all(sight: Sight, looks: Look) -> Picture:
-    """Draw what is seen, slopes as slopes.
+    """Draw what is seen, slopes as slopes, and what lies half a stud off the rest in its place.
 
     Parameters
     ----------
@@ -73,11 +74,21 @@ def draw_all(sight: Sight, looks: Look) -> Picture:
     -------
     Picture
     """
+    found = [(_draw_slab(slab.sight, looks), slab.by) for slab in slabs_of(sight)]
+    if len(found) == 1 and not found[0][1].any():
+        return found[0][0]
+    items = tuple(moved(picture.items, *by.tolist()) for picture, by in found)
+    low = np.stack([picture.low + by for picture, by in found]).min(axis=0)
+    return Picture(items, low, np.stack([picture.high + by for picture, by in found]).max(axis=0))
+
+
+def _draw_slab(sight: Sight, looks: Look) -> Picture:
+    """Draw what is seen of bricks that are no half studs off each other."""
     cells = sight.cells
     if cells is None or cells.model is None or not len(sight.faces):
         return draw(sight, looks)
     parts = cells.model.catalogue.parts
-    sloped = np.array([part.sloped for part in parts])[cells.model.bricks.part]
+    sloped = np.array([part.sloped or part.jumper for part in parts])[cells.model.bricks.part]
     seen = np.flatnonzero(sloped & (sight.shares > 0))
     if not len(seen):
         return draw(sight, looks)
@@ -178,9 +189,12 @@ def _shape(part: Part, turn: int, view: View) -> _Shape:
     near = np.flatnonzero((normal @ _TOWARDS > 1e-6) & (view.below | ~_steps(part)))
     near = near[np.argsort([solid[row].mean(axis=0) @ (1, 1, 1) for row in near.tolist()], kind="stable")]
     rims, creases = _edges([solid[row] for row in near.tolist()], normal[near])
-    knob = found.xy[found.socket if view.below else found.stud]
+    knob = found.xy[found.socket if view.below else found.stud].astype(np.float64)
     level = found.low[found.socket] if view.below else found.high[found.stud] - 1
-    knobs = seen_from(np.column_stack([knob, level]).astype(np.int64), view) - corner
+    if part.jumper and not view.below:
+        # a place between two squares is a whole number of the units of studs
+        knob = (found.xy.max(axis=0) / 2)[None]
+    knobs = (seen_from(np.column_stack([knob, level]), view) - corner).astype(np.float64)
     return _Shape(
         tuple(_flat(solid[row]) for row in near.tolist()), _light(normal[near]), rims, creases, pieces, depth, knobs
     )

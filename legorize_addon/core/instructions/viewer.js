@@ -17,8 +17,8 @@
     const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
     return new kind(bytes.buffer);
   }
-  const boxes = decoded(data.boxes, Int16Array); // x y z, studs across, studs deep, plates, brick
-  const studs = decoded(data.studs, Int16Array); // x y z, brick
+  const boxes = decoded(data.boxes, Float32Array); // x y z, studs across, studs deep, plates, brick
+  const studs = decoded(data.studs, Float32Array); // x y z, brick
   const colour = decoded(data.colour, Uint8Array); // red, green, blue of each brick
   const placed = decoded(data.placed, Uint16Array);
   const removed = decoded(data.removed, Uint16Array);

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints, Mask
 from ..building import Action, Steps
-from ..model import NOBODY, Bricks, Catalogue, Part, column_facts, lines, stud_columns, turned
+from ..model import NOBODY, Bricks, Catalogue, Part, column_facts, lines, stud_columns, stud_middles, turned
 from .lots import shown_rgb
 
 NEVER: Final = 0xFFFF
@@ -72,8 +72,8 @@ def viewer_data(
     joins = moves.action == Action.JOIN
     joined[moves.submodel[joins]] = moves.step[joins]
     content: dict[str, Any] = {
-        "boxes": _packed(boxes, "<i2"),
-        "studs": _packed(studs, "<i2"),
+        "boxes": _packed(boxes, "<f4"),
+        "studs": _packed(studs, "<f4"),
         "ramps": _packed(ramps, "<f4"),
         "brick": _packed(np.concatenate([box_brick, stud_brick, ramp_brick]), "<u4"),
         "colour": _packed(colour, "u1"),
@@ -97,19 +97,19 @@ def _packed(numbers: Ints | Floats, kind: str) -> str:
     return b64encode(np.ascontiguousarray(numbers).astype(kind).tobytes()).decode()
 
 
-def _studs(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:
+def _studs(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
     """Return where the studs begin, (n, 3) cells; and the brick of each."""
     brick, columns = stud_columns(bricks, catalogue)
     facts = column_facts(bricks, catalogue)
-    tops = columns.astype(np.int64)
-    tops[:, 2] += facts.high - facts.low
+    # from the corner of a cell as large as a stud's square
+    tops = np.column_stack([stud_middles(bricks, catalogue) - 0.5, columns[:, 2] + facts.high - facts.low])
     return tops[facts.stud], brick[facts.stud].astype(np.int64)
 
 
-def _boxes(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:
+def _boxes(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
     """Return the boxes that bricks consist of, (n, 6): lowest corner and size in cells; and the brick of each."""
     boxes, owner = [], []
-    rows = zip(bricks.part.tolist(), (bricks.turn % 4).tolist(), bricks.corner.tolist(), strict=True)
+    rows = zip(bricks.part.tolist(), (bricks.turn % 4).tolist(), _corners(bricks).tolist(), strict=True)
     for row, (number, turn, (x, y, z)) in enumerate(rows):
         part = catalogue.parts[number]
         if part.sloped:
@@ -118,7 +118,13 @@ def _boxes(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:
         for u, v, wide, long in _CORNER_BOXES[turn] if part.corner else ((0, 0, across, deep),):
             boxes.append((x + u, y + v, z, wide, long, part.height))
             owner.append(row)
-    return np.array(boxes, dtype=np.int64).reshape(-1, 6), np.array(owner, dtype=np.int64)
+    return np.array(boxes, dtype=np.float64).reshape(-1, 6), np.array(owner, dtype=np.int64)
+
+
+def _corners(bricks: Bricks) -> Floats:
+    """Return the lowest corners of bricks in cells, (n, 3)."""
+    corners: Floats = bricks.corner + bricks.shift
+    return corners
 
 
 def _ramps(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
@@ -129,9 +135,10 @@ def _ramps(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
     """
     found, owner = [], []
     sloped = np.flatnonzero(np.array([part.sloped for part in catalogue.parts])[bricks.part])
+    corners = _corners(bricks)
     for row in sloped.tolist():
         pieces = _pieces(catalogue.parts[bricks.part[row]], int(bricks.turn[row]) % 4)
-        found += [(*(piece[:3] + bricks.corner[row]), *piece[3:]) for piece in pieces]
+        found += [(*(piece[:3] + corners[row]), *piece[3:]) for piece in pieces]
         owner += [row] * len(pieces)
     return np.array(found, dtype=np.float64).reshape(-1, 11), np.array(owner, dtype=np.int64)
 

@@ -57,8 +57,8 @@ def _boxes(bricks: Bricks, catalogue: Catalogue) -> tuple[Ints, Ints]:
     """Return the lower and the upper corners of bricks in studs, (n, 2) each."""
     points, count = plan_outlines(bricks, catalogue)
     starts = np.cumsum(count) - count
-    low, high = (each.reduceat(points, starts).astype(np.int64) for each in (np.minimum, np.maximum))
-    return low, high
+    low, high = (each.reduceat(points, starts) for each in (np.minimum, np.maximum))
+    return np.floor(low).astype(np.int64), np.ceil(high).astype(np.int64)
 
 
 def _parts(
@@ -122,8 +122,10 @@ def locator(layer: Layer, bricks: Bricks, catalogue: Catalogue, whole: Frame, si
 
 def _spots(bricks: Bricks, catalogue: Catalogue, frame: Frame, colour: Rgb) -> Path:
     """Return where bricks lie, row by row, as few boxes."""
-    _, columns = stud_columns(bricks, catalogue)
-    cells = np.unique(columns[:, 1::-1].astype(np.int64), axis=0)
+    brick, columns = stud_columns(bricks, catalogue)
+    # which stud squares are covered, in whole or by half
+    moved = columns[:, :2] + bricks.shift[brick, :2]
+    cells = np.unique(np.concatenate([np.floor(moved), np.ceil(moved)])[:, ::-1].astype(np.int64), axis=0)
     ends = np.flatnonzero((np.diff(cells[:, 0]) != 0) | (np.diff(cells[:, 1]) != 1))
     first, last = cells[np.concatenate([[0], ends + 1])], cells[np.concatenate([ends, [len(cells) - 1]])]
     boxes = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .again import as_good, cells_of, lay_again
 from .alike import Alike
 from .around import lay_around
-from .fixed import owners_of
+from .fixed import owners_of, with_fixed
 from .lay import FILLER, Manner, lay, lay_fixed, lay_unjoined
 from .lay_learned import lay_learned
 from .recolour import recolour_visible
@@ -29,4 +29,5 @@ __all__ = [
     "owners_of",
     "recolour_visible",
     "smooth_tops",
+    "with_fixed",
 ]

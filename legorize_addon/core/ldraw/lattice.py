@@ -20,6 +20,9 @@ SNAP: Final = 0.1
 PITCH: Final = np.array([STUD_LDU, PLATE_LDU, STUD_LDU])
 """Size of a cell in LDU along the axes of LDraw."""
 
+_HALVED: Final = PITCH / (2, 1, 2)
+"""The same with half studs, on which jumpers hold what lies there."""
+
 _ACROSS: Final = np.diag((-1, 1, 1))
 _DIAGONAL: Final = np.array([[0, 0, 1], [0, 1, 0], [1, 0, 0]])
 """Mirrors that leave a box, and a corner part, as it is."""
@@ -58,8 +61,8 @@ def quarter_turns(matrix: Floats, corner: Mask) -> tuple[Ints, Mask]:
     return turn, mirrored
 
 
-def cells(place: Floats, part: Ints, turn: Ints, catalogue: Catalogue) -> tuple[Ints, Mask]:
-    """Return the lowest corners of parts on the lattice that most of them lie on.
+def cells(place: Floats, part: Ints, turn: Ints, catalogue: Catalogue) -> tuple[Ints, Ints, Mask]:
+    """Return the lowest corners of parts on the lattice of most of them, or half a stud off it if there are jumpers.
 
     Parameters
     ----------
@@ -75,16 +78,22 @@ def cells(place: Floats, part: Ints, turn: Ints, catalogue: Catalogue) -> tuple[
     -------
     corner : (n, 3) int64 array
         x and y in studs, z in plates, z up.
+    half : (n, 2) int64 array
+        Half studs, 0 or 1, by which they lie beyond their corners along x and y.
     on : (n,) bool array
-        Which parts lie on that lattice; corners of others mean nothing.
+        Which parts lie there; corners of others mean nothing.
     """
     reduced = turn % np.array([each.turns for each in catalogue.parts])[part]
     own = np.array([[part_origin(each, quarter) for quarter in range(4)] for each in catalogue.parts])[part, reduced]
     corner = place - own
     corner = corner - _phase(corner)
-    cell = np.rint(corner / PITCH)
-    on: Mask = (np.abs(corner - cell * PITCH) <= SNAP).all(axis=1)
-    return cell[:, [0, 2, 1]].astype(np.int64) * (1, 1, -1), on
+    # without jumpers nothing holds what lies half a stud off
+    jumpers = np.array([each.jumper for each in catalogue.parts])[part].any()
+    halves = np.rint(corner / _HALVED) if jumpers else np.rint(corner / PITCH) * (2, 1, 2)
+    on: Mask = (np.abs(corner - halves * _HALVED) <= SNAP).all(axis=1)
+    doubled = halves[:, [0, 2, 1]].astype(np.int64) * (1, 1, -1)
+    cell = np.column_stack([doubled[:, :2] // 2, doubled[:, 2]])
+    return cell, doubled[:, :2] % 2, on
 
 
 def _phase(corner: Floats) -> Floats:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Ints, Mask
 from ..errors import BuildError
 from ..files import MAIN_COLOUR
-from ..model import Bricks, Catalogue
+from ..model import Bricks, Catalogue, jumper_turn
 from .colours import Replaced, brick_colours
 from .flatten import EDGE_COLOUR, Parts, flatten
 from .lattice import cells, quarter_turns
@@ -119,11 +119,12 @@ def read_ldraw(text: str, catalogue: Catalogue, *, beside: Callable[[str], str |
     # far away by calls within calls, or nowhere
     near: Mask = (np.abs(parts.place) < FARTHEST).all(axis=1)
     upright = known & near & (turn >= 0)
-    corner, on = cells(parts.place[upright], part[upright], turn[upright], catalogue)
+    corner, half, on = cells(parts.place[upright], part[upright], turn[upright], catalogue)
     seated = np.flatnonzero(upright)[on]
     colours, replaced = brick_colours(parts.colour[seated], catalogue, document.colours)
     read = parts.take(seated)
     bricks = _bricks(read, part[seated], corner[on], turn[seated], colours, catalogue)
+    bricks = _with_halves(bricks, half[on], catalogue)
     remarks = (
         *_on_lines(document),
         *_on_parts(left_out),
@@ -152,6 +153,17 @@ def _bricks(parts: Parts, part: Ints, corner: Ints, turn: Ints, colour: Ints, ca
         piece=parts.piece.astype(np.int16),
         step=step.astype(np.int32),
     )
+
+
+def _with_halves(bricks: Bricks, half: Ints, catalogue: Catalogue) -> Bricks:
+    """Return bricks with the half studs that they lie beyond their corners; jumpers hold what lies otherwise."""
+    jumpers = np.array([each.jumper for each in catalogue.parts])[bricks.part]
+    if not half.any() and not jumpers.any():
+        return bricks
+    turn = bricks.turn.copy()
+    for row in np.flatnonzero(jumpers).tolist():
+        turn[row] = jumper_turn(catalogue.parts[bricks.part[row]], int(turn[row]), *half[row].tolist())
+    return replace(bricks, turn=turn, half=half.astype(np.uint8))
 
 
 def _number(name: str) -> str:

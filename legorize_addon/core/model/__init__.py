@@ -9,7 +9,7 @@ from .brick_columns import Touching, agree, brick_columns, every_plate
 from .bricks import NOBODY, SUPPORTS, Bricks, Role, concatenate
 from .catalogue import ASSETS, Catalogue, Colour, load_catalogue
 from .parts import MISSING_CELL, Part, Use, footprint
-from .profiles import columns, lines, solid, turned
+from .profiles import columns, jumper_turn, lines, solid, turned
 from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
 from .verdict import UNSUPPORTED, Verdict
 
@@ -20,12 +20,14 @@ if TYPE_CHECKING:
         Rows,
         centres,
         clutches,
+        collisions_between_grids,
         column_facts,
         components,
         contact_graph,
         middles,
         stacked,
         stud_columns,
+        stud_middles,
     )
 else:
     # the graphs of scipy
@@ -37,12 +39,14 @@ else:
             "Rows",
             "centres",
             "clutches",
+            "collisions_between_grids",
             "column_facts",
             "components",
             "contact_graph",
             "middles",
             "stacked",
             "stud_columns",
+            "stud_middles",
         ),
     )
 
@@ -72,6 +76,7 @@ __all__ = [
     "brick_columns",
     "centres",
     "clutches",
+    "collisions_between_grids",
     "column_facts",
     "columns",
     "components",
@@ -80,11 +85,13 @@ __all__ = [
     "every_plate",
     "footprint",
     "ground_of",
+    "jumper_turn",
     "lines",
     "load_catalogue",
     "middles",
     "solid",
     "stacked",
     "stud_columns",
+    "stud_middles",
     "turned",
 ]

@@ -36,8 +36,15 @@ SUPPORTS: Final = (Role.SUPPORT_OUTSIDE, Role.SUPPORT_INSIDE, Role.SUPPORT_KEPT)
 """Roles of supports."""
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Apart:
+    """What tables may know besides their columns."""
+
+    half: NDArray[np.uint8] | None = None
+
+
 @dataclass(frozen=True, slots=True, eq=False)
-class Bricks:
+class Bricks(_Apart):
     """A table of bricks, one row each, on the grid of a :class:`UnitGrid`.
 
     Attributes
@@ -57,6 +64,9 @@ class Bricks:
         Number of the split piece, 0 for a model in one piece.
     step : (n,) int32 array
         Building step, from 0.
+    half : (n, 2) uint8 array, optional
+        Half studs, 0 or 1, by which the brick lies beyond its corner along x and y, on jumpers. Without it the bricks
+        lie on one grid, or they are drawn together onto one while they are laid (see ``half_studs``).
     """
 
     part: NDArray[np.int16]
@@ -73,9 +83,32 @@ class Bricks:
 
     def take(self, rows: NDArray[np.integer] | Mask) -> Bricks:
         """Return the given rows as a table of their own."""
-        return Bricks(*(getattr(self, name)[rows] for name in self.__slots__))
+        columns = {name: getattr(self, name)[rows] for name in self.__slots__}
+        return Bricks(**columns, half=None if self.half is None else self.half[rows])
+
+    @property
+    def shift(self) -> NDArray[np.float64]:
+        """Studs by which each brick lies beyond its corner, x, y and z, (n, 3): 0 or a half along x and y."""
+        moved = np.zeros((len(self), 3))
+        if self.half is not None:
+            moved[:, :2] = self.half / 2
+        return moved
+
+    @property
+    def halved(self) -> bool:
+        """Whether any brick lies half a stud beyond its corner."""
+        return self.half is not None and bool(self.half.any())
 
 
 def concatenate(tables: Sequence[Bricks]) -> Bricks:
-    """Concatenate tables, at least one."""
-    return Bricks(*(np.concatenate([getattr(each, name) for each in tables]) for name in Bricks.__slots__))
+    """Concatenate tables, at least one; if any knows half studs, those of the others are 0."""
+    half = None
+    if any(each.half is not None for each in tables):
+        half = np.concatenate([_halves(each) for each in tables])
+    return Bricks(
+        **{name: np.concatenate([getattr(each, name) for each in tables]) for name in Bricks.__slots__}, half=half
+    )
+
+
+def _halves(bricks: Bricks) -> NDArray[np.uint8]:
+    return np.zeros((len(bricks), 2), np.uint8) if bricks.half is None else bricks.half

@@ -21,9 +21,12 @@ from .bricks import NOBODY as NOBODY
 from .bricks import Bricks
 from .catalogue import Catalogue
 from .parts import Part
-from .profiles import Columns, centre, columns
-
-Rows = NDArray[np.int32]
+from .profiles import centre
+from .squares import Rows as Rows
+from .squares import column_facts as column_facts
+from .squares import off_square, oriented
+from .squares import stud_columns as stud_columns
+from .squares import stud_middles as stud_middles
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,7 +42,8 @@ class ContactGraph:
         Cell of the grid (x, y, z) that is ``owner[0, 0, 0]``; zero unless a
         brick lies at negative coordinates.
     collisions : int
-        Cells that more than one brick fills.
+        Cells that more than one brick fills; of bricks half a stud off each other quarters of cells, and the studs of
+        one that the other stands on.
     pairs : (n_pairs, 2) int32 array
         Lower and upper brick of each contact, sorted, each pair once.
     studs : (n_pairs,) int32 array
@@ -92,6 +96,8 @@ def contact_graph(bricks: Bricks, catalogue: Catalogue) -> ContactGraph:
     tops[:, 2] += facts.high - facts.low
     above = owner[tops[:, 2], tops[:, 1], tops[:, 0]]
     held = clutches(bricks, catalogue, brick, above, squares[:, :2])
+    if bricks.halved:
+        collisions = collisions_between_grids(bricks, catalogue)
     pairs, studs = _contacts(brick, np.where(held, above, NOBODY), len(bricks))
     component = components(pairs, len(bricks))
     return ContactGraph(
@@ -103,51 +109,6 @@ def contact_graph(bricks: Bricks, catalogue: Catalogue) -> ContactGraph:
         component,
         _grounded(component, brick[facts.foot], squares[facts.foot, 2]),
     )
-
-
-def stud_columns(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, Rows]:
-    """List the stud squares that the bricks cover.
-
-    Parameters
-    ----------
-    bricks : Bricks
-        The model.
-    catalogue : Catalogue
-        Whose parts the bricks are.
-
-    Returns
-    -------
-    brick : (n_columns,) int32 array
-        Row of the brick, ascending: a 2 x 4 brick appears eight times.
-    columns : (n_columns, 3) int32 array
-        Stud square (x, y) and lowest plate z of the brick there.
-    """
-    brick, kind, nth = _each(bricks, catalogue)
-    table = _tables(catalogue.parts)
-    squares = bricks.corner[brick]
-    squares[:, :2] += table.xy[kind, nth]
-    squares[:, 2] += table.low[kind, nth]
-    return brick, squares
-
-
-def column_facts(bricks: Bricks, catalogue: Catalogue) -> Columns:
-    """Return what the bricks are in the stud squares that :func:`stud_columns` lists, in its order.
-
-    Parameters
-    ----------
-    bricks : Bricks
-        The model.
-    catalogue : Catalogue
-        Whose parts the bricks are.
-
-    Returns
-    -------
-    Columns
-        All counted from the corner of each brick; arrays of length n_columns.
-    """
-    _, kind, nth = _each(bricks, catalogue)
-    table = _tables(catalogue.parts)
-    return Columns(*(getattr(table, name)[kind, nth] for name in Columns.__slots__))
 
 
 def clutches(bricks: Bricks, catalogue: Catalogue, lower: Rows, upper: Rows, squares: Rows) -> Mask:
@@ -179,7 +140,35 @@ def clutches(bricks: Bricks, catalogue: Catalogue, lower: Rows, upper: Rows, squ
         start, wide, deep = place[kind].T
         within = (x >= 0) & (x < wide) & (y >= 0) & (y < deep)
         held &= there[np.where(within, start + x * deep + y, 0)] & within
+    if bricks.half is not None:
+        beyond = (
+            bricks.half[lower].astype(np.int64) + off_square(catalogue.parts)[bricks.part[lower], bricks.turn[lower]]
+        )
+        held &= (beyond == bricks.half[upper]).all(axis=1)
     return held
+
+
+def collisions_between_grids(bricks: Bricks, catalogue: Catalogue) -> int:
+    """Count the quarters of cells that more than one brick fills, and the studs that stand in a brick of another grid.
+
+    A brick half a stud beyond its corner fills halves of the cells of those that are not.
+    """
+    brick, squares = stud_columns(bricks, catalogue)
+    facts, half = column_facts(bricks, catalogue), bricks.shift[:, :2] * 2
+    quarters = 2 * squares[:, None].astype(np.int32)
+    quarters = np.repeat(quarters, 4, axis=1)
+    quarters[..., :2] += np.array([(0, 0), (1, 0), (0, 1), (1, 1)]) + half[brick].astype(np.int32)[:, None]
+    quarters[..., 2] //= 2
+    fine = quarters.reshape(-1, 3)
+    low = fine.min(axis=0, initial=0)
+    owner, collisions = _owners(np.repeat(brick, 4), fine - low, np.repeat(facts.high - facts.low, 4))
+    tops = quarters - low
+    tops[..., 2] += (facts.high - facts.low)[:, None]
+    above = owner[tops[..., 2], tops[..., 1], tops[..., 0]]
+    # under the middle of a jumper's stud all is as it should be: its square alone does not say where that is
+    plain = facts.stud & ~np.array([part.jumper for part in catalogue.parts])[bricks.part[brick]]
+    other = (above != NOBODY) & (half[np.maximum(above, 0)] != half[brick][:, None]).any(axis=2)
+    return collisions + int(np.count_nonzero(other.any(axis=1) & plain))
 
 
 def middles(bricks: Bricks, catalogue: Catalogue) -> Floats:
@@ -189,7 +178,7 @@ def middles(bricks: Bricks, catalogue: Catalogue) -> Floats:
 
 def centres(bricks: Bricks, catalogue: Catalogue) -> Floats:
     """Return the centre of mass of each brick, x and y in studs and z in plates, (n, 3) float64."""
-    return bricks.corner + _centres(catalogue.parts)[bricks.part, bricks.turn]
+    return bricks.corner + bricks.shift + _centres(catalogue.parts)[bricks.part, bricks.turn]
 
 
 @lru_cache
@@ -198,48 +187,13 @@ def _centres(parts: tuple[Part, ...]) -> Floats:
     return np.array([[centre(part, turn) for turn in range(4)] for part in parts])
 
 
-def _each(bricks: Bricks, catalogue: Catalogue) -> tuple[Rows, NDArray[np.intp], NDArray[np.intp]]:
-    """Return the brick, the oriented part, and the number within it of each stud square."""
-    kind = bricks.part.astype(np.intp) * 4 + bricks.turn
-    count = _sizes(catalogue.parts)[kind]
-    brick = np.repeat(np.arange(len(bricks), dtype=np.int32), count)
-    nth = np.arange(len(brick)) - np.repeat(np.cumsum(count) - count, count)
-    return brick, kind[brick], nth
-
-
-@lru_cache
-def _oriented(parts: tuple[Part, ...]) -> tuple[Columns, ...]:
-    """Return the columns of every part at every turn."""
-    return tuple(columns(part, turn) for part in parts for turn in range(4))
-
-
-@lru_cache
-def _sizes(parts: tuple[Part, ...]) -> NDArray[np.intp]:
-    """Return how many stud squares every part has at every turn, (4 n_parts,)."""
-    return np.array([len(each.xy) for each in _oriented(parts)])
-
-
-@lru_cache
-def _tables(parts: tuple[Part, ...]) -> Columns:
-    """Return the columns of every part at every turn, arrays of (4 n_parts, most)."""
-    found, most = _oriented(parts), _sizes(parts).max()
-    made = []
-    for name in Columns.__slots__:
-        first = getattr(found[0], name)
-        table = np.zeros((len(found), most, *first.shape[1:]), first.dtype)
-        for row, each in enumerate(found):
-            table[row, : len(each.xy)] = getattr(each, name)
-        made.append(table)
-    return Columns(*made)
-
-
 @lru_cache
 def _places(parts: tuple[Part, ...]) -> tuple[Mask, Mask, NDArray[np.intp]]:
     """Return studs and sockets by place in the boxes of oriented parts, one by one; start and sides of each."""
     studs: list[Mask] = []
     sockets: list[Mask] = []
     place, start = [], 0
-    for each in _oriented(parts):
+    for each in oriented(parts):
         wide, deep = (each.xy.max(axis=0) + 1).tolist()
         for made, there in ((studs, each.stud), (sockets, each.socket)):
             box = np.zeros((wide, deep), bool)

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 MISSING_CELL: Final = ((1, 1), (0, 1), (0, 0), (1, 0))
 """Cell (x, y) of the 2 x 2 bounding box that a corner part leaves free, by quarter turn."""
 
-Profile = Literal["box", "corner", "tile", "baseplate", "slope", "cheese", "inverted", "curved", "bow"]
+Profile = Literal["box", "corner", "tile", "baseplate", "slope", "cheese", "inverted", "curved", "bow", "jumper"]
 """What a part looks like: a box with studs on top; the same as a 2 x 2 corner, which lacks one cell of its bounding
-box; smooth on top; flat below and half as thick as a plate, in the upper half of its cells; or falling along its
-length: from a row of studs, from a sharp edge, upside down under a top full of studs, or as a curve, elliptical or
-circular, over an underside in steps (see ``profiles``)."""
+box; smooth on top; flat below and half as thick as a plate, in the upper half of its cells; falling along its length:
+from a row of studs, from a sharp edge, upside down under a top full of studs, or as a curve, elliptical or circular,
+over an underside in steps (see ``profiles``); or smooth on top but for one stud in the middle."""
 
 SLOPED: Final = ("slope", "cheese", "inverted", "curved", "bow")
 """Profiles that fall along the length: their high or deep end is at low x at turn 0."""
@@ -39,7 +39,7 @@ class Part:
         Studs along x and y at turn 0; the length is the longer side, and that of a slope the one along which it falls.
     height : int
         Plates: 1 a plate, 3 a brick, 9 a tall brick.
-    profile : {"box", "corner", "tile", "baseplate", "slope", "cheese", "inverted", "curved", "bow"}
+    profile : {"box", "corner", "tile", "baseplate", "slope", "cheese", "inverted", "curved", "bow", "jumper"}
         See ``Profile``.
     use : {"model", "tiles", "plates", "base", "surface"}
         See ``Use``.
@@ -68,6 +68,11 @@ class Part:
         return self.profile == "corner"
 
     @property
+    def jumper(self) -> bool:
+        """Whether it has one stud in its middle: its turns say which of its squares that counts to."""
+        return self.profile == "jumper"
+
+    @property
     def studs(self) -> bool:
         """Whether it has any studs on top, for other parts to clutch."""
         return self.profile not in ("tile", "cheese", "curved", "bow")
@@ -85,7 +90,7 @@ class Part:
     @property
     def turns(self) -> int:
         """Number of different orientations: 1, 2 or 4 quarter turns."""
-        if self.corner or self.sloped:
+        if self.corner or self.sloped or self.jumper:
             return 4
         return 1 if self.length == self.width else 2
 

@@ -118,13 +118,17 @@ def columns(part: Part, turn: int) -> Columns:
         In the order of :func:`footprint`.
     """
     xy = footprint(part, turn)
-    start = np.floor(_unturned(part, turn, _middles(xy))[:, 0])
+    place = np.floor(_unturned(part, turn, _middles(xy)))
+    start = place[:, 0]
     top, bottom = (_extremes(line, start) for line in lines(part))
     # baseplates fill the upper half of their plate
     low = np.floor(bottom[0]).astype(np.int32)
     high = np.ceil(top[1]).astype(np.int32)
     foot = (bottom[0] == bottom[1]) | (not part.sloped)
     stud = (top[0] == top[1]) & part.studs
+    if part.jumper:
+        # what lies half a stud beyond its corner has the stud over its lowest square
+        stud &= (place == 0).all(axis=1)
     return Columns(xy, low, high, stud, foot & part.sockets, foot)
 
 
@@ -195,6 +199,29 @@ def turned(part: Part, turn: int, places: Floats) -> Floats:
     long, wide = part.length, part.width
     ways = ((x, y), (wide - y, x), (long - x, wide - y), (y, long - x))
     return np.stack(ways[turn % 4], axis=-1)
+
+
+def jumper_turn(part: Part, turn: int, half_x: int, half_y: int) -> int:
+    """Return the turn of a jumper, which looks the same, in which its stud counts to the square of what lies on it.
+
+    Parameters
+    ----------
+    part : Part
+        A jumper.
+    turn : int
+        One that looks right.
+    half_x, half_y : int
+        Half studs, 0 or 1, by which it lies beyond its corner; what lies on its stud has the other number of them along
+        its length, or along both sides if it is square.
+
+    Returns
+    -------
+    int
+    """
+    if part.length == part.width:
+        # 0 and 0, 1 and 0, 1 and 1, 0 and 1: the squares of the stud, turn by turn
+        return ((0, 3), (1, 2))[half_x][half_y]
+    return turn % 2 + 2 * (half_y if turn % 2 else half_x)
 
 
 def _level(line: Line, along: Floats) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil
 from typing import Final
 
 import numpy as np
@@ -105,5 +106,5 @@ def extent(assembly: Assembly) -> tuple[int, int, int]:
         [[footprint(part, turn).max(axis=0) + 1 for turn in range(2)] for part in assembly.catalogue.parts]
     )
     top = bricks.corner + np.column_stack([sides[bricks.part, bricks.turn % 2], assembly.height])
-    x, y, plates = (top.max(axis=0) - bricks.corner.min(axis=0)).tolist()
-    return x, y, plates
+    x, y, plates = ((top + bricks.shift).max(axis=0) - (bricks.corner + bricks.shift).min(axis=0)).tolist()
+    return ceil(x), ceil(y), int(plates)

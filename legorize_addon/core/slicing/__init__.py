@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from .coverage import Pieces, covered_area_shares, cut_at_grid
+from .coverage import Pieces, covered_area, covered_area_shares, cut_at_grid
 from .fine_cut import ACROSS, UP, fine_shares
 from .grid_search import LEEWAY, best_grid
 from .lattice import ALPHA, Grid, fit_grid
 from .layer_differences import Marks, differing_layers
 from .levels import Levels, levels_of
 from .slices import Slices, adaptive_heights, slice_mesh
-from .trajectories import Trajectories, link_loops
+from .trajectories import Trajectories, link_loops, linked
 
 __all__ = [
     "ACROSS",
@@ -24,6 +24,7 @@ __all__ = [
     "Trajectories",
     "adaptive_heights",
     "best_grid",
+    "covered_area",
     "covered_area_shares",
     "cut_at_grid",
     "differing_layers",
@@ -31,5 +32,6 @@ __all__ = [
     "fit_grid",
     "levels_of",
     "link_loops",
+    "linked",
     "slice_mesh",
 ]

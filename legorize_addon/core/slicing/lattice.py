@@ -40,6 +40,8 @@ class Grid:
         Layers, and cells along y and x.
     height : float
         Height of a layer in mm: that of a brick or of a plate.
+    drawn_together : bool
+        Whether parts of what lies in it were moved by half a stud, so that it is no image of itself.
     """
 
     origin: Floats
@@ -47,6 +49,7 @@ class Grid:
     n_y: int
     n_x: int
     height: float = BRICK
+    drawn_together: bool = False
 
     @property
     def shape(self) -> tuple[int, int, int]:

@@ -165,10 +165,10 @@ def statics(
     narrow = np.array([part.width < 2 for part in assembly.catalogue.parts])[assembly.bricks.part]
     foot = column_facts(assembly.bricks, assembly.catalogue).foot
     standing = foot & (squares[1][:, 2] == squares[1][foot, 2].min(initial=np.iinfo(np.int32).max))
-    feet = squares[0][standing], squares[1][standing]
+    feet = squares[0][standing], _moved(squares[1], assembly.bricks, squares[0])[standing]
     contacts = _joined(
         _studs(assembly, *squares, narrow, clutch),
-        *(_sides(assembly.graph) if neighbours else ()),
+        *(_sides(assembly.graph, assembly.bricks.shift) if neighbours else ()),
         (_table(*feet) if ground is Ground.TABLE else _baseplate(*feet, narrow, clutch)),
     )
     contacts = _among(contacts, rows, len(assembly.bricks))
@@ -195,10 +195,15 @@ def _studs(assembly: Assembly, brick: Rows, columns: Rows, narrow: Mask, clutch:
         & (lower != brick)
         & clutches(assembly.bricks, assembly.catalogue, lower, brick, columns[:, :2])
     )
-    return _grips(brick[held], lower[held], columns[held], narrow, clutch)
+    return _grips(brick[held], lower[held], _moved(columns, assembly.bricks, brick)[held], narrow, clutch)
 
 
-def _grips(brick: Rows, lower: Rows, columns: Rows, narrow: Mask, clutch: float) -> ContactForces:
+def _moved(columns: Rows, bricks: Bricks, brick: Rows) -> Rows | Floats:
+    """Return where stud squares of bricks are that may lie half a stud beyond their corners."""
+    return columns + bricks.shift[brick] if bricks.halved else columns
+
+
+def _grips(brick: Rows, lower: Rows, columns: Rows | Floats, narrow: Mask, clutch: float) -> ContactForces:
     """Return the forces at the contact points round studs under narrow and wide bricks."""
     made = []
     for which, grips in ((narrow[brick], GRIPS_NARROW), (~narrow[brick], GRIPS_WIDE)):
@@ -214,7 +219,7 @@ def _grips(brick: Rows, lower: Rows, columns: Rows, narrow: Mask, clutch: float)
     return _joined(*made)
 
 
-def _sides(graph: ContactGraph) -> tuple[ContactForces, ...]:
+def _sides(graph: ContactGraph, shift: Floats) -> tuple[ContactForces, ...]:
     """Return two pushes for each pair of bricks side by side: where they touch, at the bottom as in StableLego.
 
     One is at each end of the face, so that together they push anywhere along it.
@@ -229,7 +234,7 @@ def _sides(graph: ContactGraph) -> tuple[ContactForces, ...]:
         z, y, x = np.unravel_index(cells, shape)
         cells = np.ravel_multi_index((z, y, x), owner.shape)
         first, second = owner.reshape(-1)[cells], owner.reshape(-1)[cells + stride]
-        touching = (second != NOBODY) & (first != second)
+        touching = (second != NOBODY) & (first != second) & (shift[first] == shift[second]).all(axis=1)
         pairs = first[touching].astype(np.int64) * (owner.max(initial=0) + 1) + second[touching]
         # cells run upwards, so the first of a pair is its lowest
         _, lowest, pair = np.unique(pairs, return_index=True, return_inverse=True)
@@ -239,11 +244,11 @@ def _sides(graph: ContactGraph) -> tuple[ContactForces, ...]:
         np.maximum.at(ends[:, 1, at], pair, across[touching] + graph.low[at] + 1)
         on, by = (np.repeat(each[touching][lowest], 2) for each in (second, first))
         directions = np.tile(np.array(direction, dtype=np.float64), (2 * len(lowest), 1, 1))
-        made.append(_forces(on, by, ends.reshape(-1, 3) * (1, 1, PLATE / STUD), directions, 0.0))
+        made.append(_forces(on, by, (ends.reshape(-1, 3) + shift[on]) * (1, 1, PLATE / STUD), directions, 0.0))
     return tuple(made)
 
 
-def _table(brick: Rows, columns: Rows) -> ContactForces:
+def _table(brick: Rows, columns: Rows | Floats) -> ContactForces:
     """Return the pushes at the corners of the lowest bricks, each leaning four ways as far as friction goes."""
     around = np.array([(0, 0), (0, 1), (1, 0), (1, 1)])
     corners = np.column_stack([np.repeat(brick, 4), (columns[:, None, :2] + around).reshape(-1, 2)])
@@ -256,7 +261,7 @@ def _table(brick: Rows, columns: Rows) -> ContactForces:
     return _forces(corners[:, 0], np.full(len(corners), NOBODY), points, directions, 0.0)
 
 
-def _baseplate(brick: Rows, columns: Rows, narrow: Mask, clutch: float) -> ContactForces:
+def _baseplate(brick: Rows, columns: Rows | Floats, narrow: Mask, clutch: float) -> ContactForces:
     """Return the forces between the lowest bricks and the studs of a plate that never moves."""
     return _grips(brick, np.full(len(brick), NOBODY), columns, narrow, clutch)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .assembly_plan import KINDS, AssemblyPlan, Wish, plan_as_given, plan_assembly
+from .assembly_plan import KINDS, AssemblyPlan, Wish, plan_as_given, plan_assembly, walk_apart
 from .boxes import INSIDE_COLOUR, of_the_paper
 from .bracing import add_bracing
 from .demand import parts_of_supports
@@ -28,4 +28,5 @@ __all__ = [
     "segment",
     "slim_stacks",
     "strengthen",
+    "walk_apart",
 ]

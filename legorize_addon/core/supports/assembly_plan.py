@@ -256,6 +256,12 @@ def plan_as_given(
     return AssemblyPlan(planned, contacts, tuple(pieces), steps, found, _unsteady(steps, planned, contacts))
 
 
+def walk_apart(plan: AssemblyPlan, apart: Assembly) -> AssemblyPlan:
+    """Return a plan of bricks that lie half studs off the places that they were planned for, its order checked anew."""
+    found = walk(plan.steps, apart, plan.contacts, temporary=plan.temporary)
+    return replace(plan, assembly=apart, walk=found, unsteady=_unsteady(plan.steps, apart, plan.contacts))
+
+
 def _steps_known(pieces: Sequence[Piece], bricks: Bricks) -> Steps | None:
     """Return the steps of a model that is its first piece, planned with just its supports; None of any other."""
     taken_out = np.count_nonzero(bricks.role == Role.SUPPORT_OUTSIDE)

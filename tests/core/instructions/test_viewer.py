@@ -25,7 +25,7 @@ def data_of(plan):
         names=submodel_names(plan.steps), pages={number: number // 2 * 2 for number in range(len(plan.steps))},
     )  # fmt: skip
     found = json.loads(text)
-    kinds = {"boxes": "<i2", "studs": "<i2", "brick": "<u4", "colour": "u1"}
+    kinds = {"boxes": "<f4", "studs": "<f4", "brick": "<u4", "colour": "u1"}
     kinds |= {"placed": "<u2", "removed": "<u2", "owner": "<u2"}
     return found, {name: np.frombuffer(b64decode(found[name]), kind) for name, kind in kinds.items()}
 
@@ -68,8 +68,8 @@ def test_parts_become_boxes():
         cells = {
             (x + i - bricks.corner[row, 0], y + j - bricks.corner[row, 1])
             for x, y, _, wide, long, _ in boxes[owner == row].tolist()
-            for i in range(wide)
-            for j in range(long)
+            for i in range(int(wide))
+            for j in range(int(long))
         }
         assert cells == {tuple(cell) for cell in footprint(part, int(bricks.turn[row])).tolist()}
         assert (boxes[owner == row, 5] == part.height).all()

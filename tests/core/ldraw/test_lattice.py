@@ -68,11 +68,17 @@ def places(shift, rows):
 
 @pytest.mark.parametrize("shift", [(0, 0, 0), (10, 0, 10), (7, -3, 1.5), (1999.96, 0, 0.04), (-0.03, 0.02, 20.01)])
 def test_lattice_is_that_of_most_parts(shift):
-    """Wherever a model lies, its parts are in neighbouring cells; only what is off their lattice is not."""
+    """Wherever a model lies, its parts are in neighbouring cells; half a stud off is told, less is no place."""
     found = places(shift, [(0, 0), (1, 0), (2, 0), (0, 5)])
-    found = np.vstack([found, found[:1] + np.array((10, 0, 0))])
-    corner, on = cells(found, np.full(5, ONE), np.zeros(5, int), CATALOGUE)
-    assert on.tolist() == [True] * 4 + [False]
+    # a jumper lies two squares long
+    found = np.vstack([found, found[:1] + np.array([(5, 0, 0), (10, 0, 0), (20, 16, 10)])])
+    part = np.array([ONE] * 6 + [CATALOGUE.part_row("15573")])
+    assert not cells(found[:6], part[:6], np.zeros(6, int), CATALOGUE)[2][5]
+    corner, half, on = cells(found, part, np.zeros(7, int), CATALOGUE)
+    assert on[:6].tolist() == [True] * 4 + [False, True]
+    assert half[:4].tolist() == [[0, 0]] * 4
+    assert half[5].tolist() == [1, 0]
+    assert corner[5].tolist() == corner[0].tolist()
     assert (corner[:4] - corner[0]).tolist() == [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 5, 0]]
 
 
@@ -80,7 +86,7 @@ def test_parts_on_the_lattice_of_our_own_files_stay_where_they_are():
     """Each part in each orientation, put as we put it, is in the cell that it came from."""
     part, turn = np.array(ORIENTATIONS).T
     origin = np.array([part_origin(CATALOGUE.parts[row], quarter) for row, quarter in ORIENTATIONS])
-    corner, on = cells(origin + np.array((60.0, -16.0, -40.0)), part, turn, CATALOGUE)
+    corner, _, on = cells(origin + np.array((60.0, -16.0, -40.0)), part, turn, CATALOGUE)
     assert on.all()
     assert (corner == (3, -2, 2)).all()
 
@@ -90,5 +96,5 @@ def test_how_far_off_is_off(off, ok):
     """A tenth of a unit is rounding; more is not."""
     found = places((0, 0, 0), [(0, 0), (1, 0), (2, 0)])
     found[2, 0] += off
-    _, on = cells(found, np.full(3, ONE), np.zeros(3, int), CATALOGUE)
+    *_, on = cells(found, np.full(3, ONE), np.zeros(3, int), CATALOGUE)
     assert on.tolist() == [True, True, ok]

@@ -87,7 +87,7 @@ def test_unknown_parts_are_counted_by_number():
     ("line", "remark", "stays"),
     [
         ("1 4 30 -24 10 1 0 0 0 -1 0 0 0 -1 3005.dat", "1 part does not stand upright, left out (line 2).", False),
-        (f"1 4 40 -24 20 {UPRIGHT} 3005.dat", "1 part lies between the cells of the grid, left out (line 2).", False),
+        (f"1 4 35 -24 20 {UPRIGHT} 3005.dat", "1 part lies between the cells of the grid, left out (line 2).", False),
         (
             "1 4 30 -24 10 -1 0 0 0 1 0 0 0 1 3005.dat",
             "1 part is mirrored, read as the same part unmirrored (line 2).",

@@ -17,7 +17,7 @@ def bricks(n: int) -> Bricks:
              "piece": np.int16, "step": np.int32}  # fmt: skip
     columns = {name: row.astype(kind) for name, kind in kinds.items()}
     columns["corner"] = np.column_stack([row, row, row]).astype(np.int32)
-    return Bricks(**columns)
+    return Bricks(**columns, half=np.column_stack([row % 2, row // 2 % 2]).astype(np.uint8))
 
 
 @pytest.mark.parametrize("rows", [np.array([3, 0, 3]), np.array([True, False, True, False, True]), np.zeros(0, int)])

@@ -22,6 +22,8 @@ SLOPES = [
     "11477", "15068", "50950", "24309", "61678", "93606",
 ]  # fmt: skip
 
+JUMPERS = ["15573", "87580"]
+
 TABLES = ("parts.csv", "colours.csv", "availability.csv")
 
 
@@ -35,7 +37,9 @@ def copied_assets(tmp_path):
 
 def test_parts_are_the_bricks_the_plates_and_the_tall_ones():
     """The catalogue lists 12 bricks, 12 plates of the same footprints and 4 tall bricks, in this order; then others."""
-    assert [part.number for part in CATALOGUE.parts] == (BRICKS + PLATES + TALL + TILES + LARGE_PLATES + BASES + SLOPES)
+    assert [part.number for part in CATALOGUE.parts] == (
+        BRICKS + PLATES + TALL + TILES + LARGE_PLATES + BASES + SLOPES + JUMPERS
+    )
     assert [part.height for part in CATALOGUE.parts][:47] == [3] * 12 + [1] * 12 + [9] * 4 + [1] * 19
     for brick, plate in zip(CATALOGUE.parts[:12], CATALOGUE.parts[12:24], strict=True):
         assert (brick.length, brick.width, brick.corner) == (plate.length, plate.width, plate.corner)
@@ -48,7 +52,7 @@ def test_what_parts_are_laid_for():
     assert number[CATALOGUE.used_for("tiles")].tolist() == TILES
     assert number[CATALOGUE.used_for("plates")].tolist() == LARGE_PLATES
     assert number[CATALOGUE.used_for("base")].tolist() == BASES
-    assert number[CATALOGUE.used_for("surface")].tolist() == TILES + SLOPES
+    assert number[CATALOGUE.used_for("surface")].tolist() == TILES + SLOPES + JUMPERS
     assert CATALOGUE.exists.any(axis=1).all()
 
 
@@ -74,7 +78,7 @@ def test_footprint_areas_follow_from_the_titles():
         assert part.corner == part.title.endswith("Corner")
         brick = 3 * (sides[2] if len(sides) > 2 else 1)
         assert part.height == (brick if part.title.startswith("Brick") else 1)
-        words = {"tile": "Tile", "baseplate": "Baseplate"}
+        words = {"tile": "Tile", "baseplate": "Baseplate", "jumper": "Jumper"}
         assert part.title.split()[0] in words.get(part.profile, "Brick Plate")
 
 

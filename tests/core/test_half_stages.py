@@ -1,0 +1,101 @@
+"""What the setting of half studs does: a tower between the studs of its block stands where it is, and all holds."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from legorize_addon.core.edits import Edit, Edits
+from legorize_addon.core.errors import SettingsError
+from legorize_addon.core.files.ldraw import write_ldr
+from legorize_addon.core.half_stages import with_half_studs
+from legorize_addon.core.half_studs import Plane
+from legorize_addon.core.half_studs.truth import HalfStudsError
+from legorize_addon.core.ldraw.reader import read_ldraw
+from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.pipeline import legorize
+from legorize_addon.core.settings import Settings
+from legorize_addon.core.shopping.shopping_list import extent
+from tests.core.half_studs.tower import BLOCK, tower
+
+SETTINGS = Settings(width=6, half_studs=True, hollow=False)
+
+
+@pytest.fixture(scope="module", params=[(0.5, 0.0), (0.5, 0.5)], ids=["along x", "both ways"])
+def build(request):
+    """Build a tower off the studs."""
+    return request.param, legorize(tower(*request.param), SETTINGS)
+
+
+def test_the_tower_stands_where_it_is(build):
+    """Its bricks fill 3 x 3 studs at the place in the mesh, on jumpers, in one component that is proven to stand."""
+    off, found = build
+    assert found.planes == (Plane(3 * BLOCK, tuple(int(2 * each) for each in off)),)
+    bricks = found.bricks
+    above = bricks.corner[:, 2] >= 3 * BLOCK
+    low = (bricks.corner + bricks.shift)[:, :2]
+    # where the block begins, the mesh does
+    assert (low[above].min(axis=0) - low.min(axis=0)).tolist() == [1 + off[0], 1 + off[1]]
+    assert extent(found.assembly.take(above)) == (3, 3, 12)
+    assert found.graph.collisions == 0
+    assert found.graph.n_components == 1
+    assert found.stability.stable
+    assert found.supports.walk.buildable
+    jumpers = np.array([part.jumper for part in found.assembly.catalogue.parts])[bricks.part]
+    assert set(bricks.corner[jumpers, 2].tolist()) == {3 * BLOCK - 1}
+    assert any(f"on {jumpers.sum()} jumpers" in note for note in found.notes)
+
+
+def test_its_file_is_read_back(build):
+    """Contacts, places and half studs come back; the file has places between those of studs."""
+    _, found = build
+    catalogue = found.assembly.catalogue
+    read = read_ldraw(write_ldr(found.assembly, name="tower.ldr", title="tower"), catalogue).bricks
+    assert len(read) == len(found.bricks)
+    links = contact_graph(read, catalogue)
+    assert links.collisions == 0
+    assert sorted(links.studs.tolist()) == sorted(found.graph.studs.tolist())
+    places = [each.corner + each.shift for each in (found.bricks, read)]
+    ours, theirs = (each[np.lexsort(each.T)] - each.min(axis=0) for each in places)
+    assert ours.tolist() == theirs.tolist()
+
+
+def test_none_by_default():
+    """Without the setting all lies on one grid, and bricks know of no half studs."""
+    found = legorize(tower(), replace(SETTINGS, half_studs=False))
+    assert found.planes == ()
+    assert found.bricks.half is None
+
+
+@pytest.mark.parametrize("other", [{"plates": "none"}, {"layout": "learned"}])
+def test_what_it_excludes_is_refused(other):
+    """Jumpers need plates around them, and a layout that lays around what is there."""
+    with pytest.raises(SettingsError, match="half_studs is on but"):
+        replace(SETTINGS, **other)
+
+
+def test_edits_by_hand_are_refused():
+    """They are made in windows of one grid."""
+    edits = Edits((Edit("delete", "3005", 0, (1, 1, 1), 4),), scale=10.0)
+    with pytest.raises(SettingsError, match="edits by hand"):
+        legorize(tower(), SETTINGS, edits=edits)
+
+
+def test_planes_that_do_not_hold_are_given_up(build):
+    """They are barred and the model is made anew, until it holds; the layers are told."""
+    tried = []
+
+    def make(barred, mesh, settings, progress):
+        tried.append(barred)
+        progress("layout", 0.5)
+        if len(tried) < 3:
+            raise HalfStudsError((9 * len(tried),))
+        return build[1]
+
+    told = []
+    found = with_half_studs(make, None, SETTINGS, lambda stage, share: told.append(share))
+    assert tried == [(), (9,), (9, 18)]
+    assert "above layer 3, 6" in found.notes[-1]
+    assert told == sorted(told)
