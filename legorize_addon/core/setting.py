@@ -24,6 +24,8 @@ class Rare(TypedDict, total=False):
     needs : tuple of str
         Another setting, and its words with which this one has an effect; a
         setting alone must be on, above 0 or not empty.
+    also : str
+        A switch that gives it an effect as well.
     was : str
         Name that it had in an earlier version: still read from scenes and the
         command line, with a remark.
@@ -32,6 +34,7 @@ class Rare(TypedDict, total=False):
     """
 
     needs: tuple[str, ...]
+    also: str
     was: str
     files: int
 
@@ -72,7 +75,7 @@ def setting(
     """
     low, high = limits or (None, None)
     metadata: dict[str, Any] = {"name": name, "text": text, "group": group, "low": low, "high": high}
-    metadata |= {"words": words or {}, "needs": (), "was": "", "files": 0, **rare}
+    metadata |= {"words": words or {}, "needs": (), "also": "", "was": "", "files": 0, **rare}
     return field(default=default, metadata=metadata)
 
 

@@ -96,8 +96,8 @@ class Settings:
         words={"studs": "none", "smooth": "those of whole plates, and others where a few parts more hide many",
                "all": "all that can be seen, however many parts that takes"}, needs=("surface", "tiles", "slopes"))
     slope_price: float = setting(
-        1.0, "Price of slopes", "Volume that slopes must save for each part that they add, in studs a plate high.",
-        group="Shape", limits=(0.0, 10.0), needs=("surface", "slopes"))
+        1.0, "Price of slopes", "Volume that slopes, or half studs, must save for each part that they add, in "
+        "studs a plate high.", group="Shape", limits=(0.0, 10.0), needs=("surface", "slopes"), also="half_studs")
     plate_gain: float = setting(
         0.2, "Gain of plates", "Error that plates must save to pay, as a share of a brick's volume or of a clear "
         "colour difference on its faces.", group="Shape", limits=(0.0, 1.0), needs=("plates", "pays"))
@@ -305,5 +305,5 @@ def has_effect(entry: Field[Any], values: Any) -> bool:
     if not entry.metadata["needs"]:
         return True
     name, *words = entry.metadata["needs"]
-    value = getattr(values, name)
-    return value in words if words else bool(value)
+    value, also = getattr(values, name), entry.metadata["also"]
+    return (value in words if words else bool(value)) or bool(also and getattr(values, also))

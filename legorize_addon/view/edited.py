@@ -101,7 +101,7 @@ def change(build: bpy.types.Collection, new: Sequence[Edit]) -> Changed:
     Raises
     ------
     EditError
-        None of them can be made.
+        None of them can be made, or the model has half studs.
     BuildError
         The build is damaged.
     """
@@ -109,6 +109,10 @@ def change(build: bpy.types.Collection, new: Sequence[Edit]) -> Changed:
 
     check_whole(build)
     catalogue, bricks, (edits, unedited) = load_catalogue(), _final(build), _kept(build)
+    if bricks.half is not None:
+        raise EditError(
+            "This model has half studs, but changes by hand need one grid: turn Half studs off and legorize it again."
+        )
     rules = rules_of([*edits.edits, *new], catalogue)
     earlier = [each for each, rule in zip(edits.edits, rules, strict=False) if rule.by < len(edits)]
     made, refused = apply_edits(bricks, catalogue, [*earlier, *new])

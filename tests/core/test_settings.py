@@ -121,6 +121,9 @@ def test_a_setting_waits_for_the_one_that_it_needs():
     assert not has_effect(ENTRIES["shell"], Settings(hollow=False))
     assert has_effect(ENTRIES["goal"], Settings(prices="prices.csv"))
     assert not has_effect(ENTRIES["goal"], Settings())
+    assert not has_effect(ENTRIES["slope_price"], Settings())
+    assert has_effect(ENTRIES["slope_price"], Settings(surface="slopes"))
+    assert has_effect(ENTRIES["slope_price"], Settings(half_studs=True))
 
 
 NEEDY = [name for name, entry in ENTRIES.items() if entry.metadata["needs"]]
@@ -141,6 +144,8 @@ def test_what_a_setting_needs_is_another_one(name):
     assert other in ENTRIES
     assert other != name
     assert set(words) <= set(choices(ENTRIES[other]))
+    also = ENTRIES[name].metadata["also"]
+    assert not also or setting_type(ENTRIES[also]) is bool
 
 
 SHAPED = ["plate_gain", "fewer_parts", "layer_difference", "shell", "ceilings", "learned"]

@@ -118,6 +118,8 @@ def usable(catalogue: Catalogue, count: Ints) -> Mask:
 
     Without them there might be no layout at all, and nobody could say what is missing.
     """
-    single = np.array([part.length == 1 and part.height <= PLATES_PER_BRICK for part in catalogue.parts])
+    single = np.array(
+        [part.length == 1 and part.height <= PLATES_PER_BRICK and part.use == "model" for part in catalogue.parts]
+    )
     there: Mask = count.any(axis=1) | single
     return there

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
+import numpy as np
 import pytest
 
 from legorize_addon.core.edits import edit_of, outcomes_of, read_edits
@@ -74,6 +77,18 @@ def test_nothing_is_picked(build):
         with pytest.raises(RuntimeError, match="Nothing is picked"):
             attempt()
     assert multiset(read_bricks(now())) == before
+
+
+def test_models_with_half_studs_are_left_alone(build, monkeypatch):
+    """One sentence says why, and nothing changes."""
+    bricks = read_bricks(build)
+    apart = replace(bricks, half=np.ones((len(bricks), 2), np.uint8))
+    monkeypatch.setattr("legorize_addon.view.edited.read_bricks", lambda build: apart)
+    pick(3)
+    with pytest.raises(RuntimeError, match="has half studs"):
+        bpy.ops.legorize.edit(kind="lock")
+    monkeypatch.undo()
+    assert multiset(read_bricks(now())) == multiset(bricks)
 
 
 def test_recoloured_and_taken_back(build):

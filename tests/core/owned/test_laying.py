@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from legorize_addon.core.layout.lay import lay_unjoined
-from legorize_addon.core.owned.laying import ROUNDS, lay_owned
+from legorize_addon.core.owned.laying import ROUNDS, lay_owned, usable
 from tests.core.any_bricks import CATALOGUE
 from tests.core.layout.cells import RED, brick_grid
 from tests.core.owned_box import owning
@@ -43,3 +43,9 @@ def test_owned_parts_come_first():
     """Two owned 2 x 4 are better than a 2 x 8 that has to be bought; what nobody owns is bought as one part."""
     assert laid({("3001", 4): 2}, only=False) in (["3001", "3001"], ["3007"])
     assert laid({("3005", 0): 1}, only=False) == ["3007"]
+
+
+def test_single_parts_that_fit_anywhere_are_plain():
+    """A 1 x 1 brick and plate may be laid although they are missing; tiles and small slopes of that size may not."""
+    there = usable(CATALOGUE, np.zeros(CATALOGUE.exists.shape, np.int64))
+    assert {CATALOGUE.parts[row].number for row in np.flatnonzero(there)} == {"3005", "3024"}
