@@ -102,10 +102,10 @@ def laid_again(run: Run, given: Bricks) -> tuple[Bricks, tuple[str, ...]]:
 
     Better is what the settings ask for: fewer bricks, cheaper ones, or lighter ones.
     """
-    given = given.take(given.role != Role.SUPPORT_OUTSIDE)
-    given = replace(given, piece=np.zeros_like(given.piece))
     if given.halved:
         return given, ("Bricks half a stud off each other cannot be laid again: the model stays as it is.",)
+    given = given.take(given.role != Role.SUPPORT_OUTSIDE)
+    given = replace(given, piece=np.zeros_like(given.piece))
     with run.stage("layout"):
         laid = lay_again(given, run.catalogue, partial(lay_freely, run), run.parts.burden)
     if laid is given:
@@ -127,12 +127,23 @@ def plan_existing(run: Run, assembly: Assembly, *, own_steps: bool, planned: boo
     settings, bricks = run.settings, assembly.bricks
     outside = bricks.role == Role.SUPPORT_OUTSIDE
     as_given = partial(plan_as_given, assembly, deepest=settings.hanging, clutch=settings.clutch, progress=run.progress)
-    if not planned and outside.any():
+    if outside.any() and (bricks.halved or not planned):
         # our own: its steps follow from its bricks
         return as_given(own_steps=False)
     if own_steps and not bricks.piece.any():
         return as_given(own_steps=True)
+    # supports are planned on one grid of studs alone
+    wish = "none" if bricks.halved else settings.supports
     return plan_assembly(
-        assembly.take(~outside), wish=settings.supports, deepest=settings.hanging, clutch=settings.clutch,
-        progress=run.progress,
-    )  # fmt: skip
+        assembly.take(~outside), wish=wish, deepest=settings.hanging, clutch=settings.clutch, progress=run.progress
+    )
+
+
+def remarks_on_plan(bricks: Bricks, final: Bricks, *, own_steps: bool) -> tuple[str, ...]:
+    """Say what a plan has that nobody asked for, or lacks."""
+    lasting, told = np.count_nonzero(bricks.role != Role.SUPPORT_OUTSIDE), []
+    if bricks.halved and not own_steps and lasting == len(bricks):
+        told.append("No supports are planned for bricks half a stud off each other.")
+    if len(final) > lasting:
+        told.append("Pillars that stay were added, without which the model cannot be built.")
+    return tuple(told)

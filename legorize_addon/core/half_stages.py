@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from .build import Build, Draft
-from .half_studs import HalfStudsError, Plane, choose_planes, draw_together, lay_jumpers, set_apart
+from .errors import SettingsError
+from .half_studs import NEEDED, HalfStudsError, Plane, choose_planes, draw_together, lay_jumpers, set_apart
 from .layout import with_fixed
 from .mesh import TriangleMesh
 from .model import Bricks, Catalogue, UnitGrid, concatenate
@@ -33,6 +34,12 @@ def find_planes(
     settings = run.settings
     if not settings.half_studs:
         return mesh, frame, ()
+    parts = run.parts.joining
+    if not all(parts.exists[parts.part_row(number)].any() for number in NEEDED):
+        raise SettingsError(
+            f"half_studs is on, but the parts that may be laid do not have all of {', '.join(NEEDED)}: turn half_studs "
+            "off, or allow other parts."
+        )
     planes = choose_planes(mesh, frame, price=settings.slope_price, barred=barred)
     if not planes:
         return mesh, frame, ()
@@ -64,7 +71,11 @@ def given_bricks(run: Run, made: Draft) -> tuple[Draft, Bricks | None]:
 
 def _find_jumpers(run: Run, made: Draft) -> tuple[Bricks, UnitGrid]:
     """Lay the jumpers of a model; return its cells as well."""
-    jumpers, cells = lay_jumpers(made.hollow, made.planes, run.parts.joining, filler=run.filler)
+    parts = run.parts.joining
+    # in colours that the model has, where there are such
+    known = parts.exists & np.isin(parts.codes, [*run.palette.tolist(), *np.unique(made.hollow.colour).tolist()])
+    parts = replace(parts, exists=np.where(known.any(axis=1)[:, None], known, parts.exists))
+    jumpers, cells = lay_jumpers(made.hollow, made.planes, parts, filler=run.filler)
     return jumpers, with_fixed(cells, jumpers, run.catalogue)
 
 

@@ -23,6 +23,7 @@ from .existing import (
     laid_again,
     moved_up,
     plan_existing,
+    remarks_on_plan,
     without_overlaps,
 )
 from .fitting import fit
@@ -30,7 +31,7 @@ from .half_stages import Levels, given_bricks, lie_apart, remarks_on_half_studs,
 from .limits import check_limits, check_size
 from .memo import Trial
 from .mesh import TriangleMesh
-from .model import Assembly, Bricks, Role, UnitGrid
+from .model import Assembly, Bricks, UnitGrid
 from .mosaic import Covered, Picture
 from .mosaic_estimate import estimate_mosaic
 from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic, wall_cells
@@ -300,8 +301,7 @@ def _judge(
         own = steps == "file" and given.has_steps and not again
         plan = plan_existing(run, assembly, own_steps=own, planned=again or steps == "new")
     final = plan.final
-    if len(final) > len(assembly.take(bricks.role != Role.SUPPORT_OUTSIDE)):
-        notes += ("Pillars that stay were added, without which the model cannot be built.",)
+    notes += remarks_on_plan(bricks, final.bricks, own_steps=own)
     with run.stage("stability"):
         found = check_final(run, final)
     proof = _prove(run, plan)

@@ -70,6 +70,12 @@ def _with_fewer_plates(settings: Settings) -> Iterator[tuple[Settings, str]]:
                 "(plate_gain).",
             )
     yield (
-        replace(settings, plates="none"),
+        # neither tiles nor jumpers are there without plates
+        replace(
+            settings,
+            plates="none",
+            half_studs=False,
+            surface="studs" if settings.surface == "tiles" else settings.surface,
+        ),
         "The owned parts do not suffice with plates: the model was built of bricks alone.",
     )

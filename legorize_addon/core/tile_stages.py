@@ -47,7 +47,10 @@ def smooth_surface(
             tested = like_before(run, other, found, effort)
         if not weaker(tested, found):
             return other, _again(run, other, tested), (_told(made, len(assembly)),)
-        may &= ~_weak(other, tested, made.origin, len(assembly))
+        weak = _weak(other, tested, made.origin, len(assembly))
+        if not weak.any():
+            break
+        may &= ~weak
     made = _tiled(run, assembly, may, np.inf)
     other = Assembly(made.bricks, run.catalogue)
     tested = like_before(run, other, found, effort)

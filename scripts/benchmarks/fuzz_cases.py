@@ -277,6 +277,8 @@ def _settings(rng: np.random.Generator) -> Settings:
         chosen["dithering"] = "none"
     if chosen.get("layout") == "learned":
         chosen["surface"] = "studs"
+    if chosen.get("layout") == "learned" or chosen.get("plates") == "none":
+        chosen["half_studs"] = False
     if chosen.get("surface") == "tiles" and (chosen.get("tops") == "studs" or chosen.get("plates") == "none"):
         chosen |= {"tops": "smooth", "plates": "pays"}
     return Settings(**chosen)

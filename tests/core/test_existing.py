@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.existing import Existing, moved_up, without_overlaps
+from legorize_addon.core.files.ldraw import write_ldr
 from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.pipeline import judge, legorize
@@ -22,6 +23,7 @@ from legorize_addon.core.report.summary import summary
 from legorize_addon.core.settings import Settings
 from tests.core.any_bricks import CATALOGUE, multiset, table
 from tests.core.foreign import FILES, along
+from tests.core.half_studs.tower import tower
 from tests.core.layout.test_again import shown
 from tests.core.textured import painted
 from tests.core.textured import table as table_mesh
@@ -130,6 +132,16 @@ def test_lists_of_our_own_model_are_its_bricks(own):
     check_sums(files)
     removed = csv.DictReader(io.StringIO(files["support-parts.csv"]))
     assert sum(int(row["count"]) for row in removed) == len(build.supports.removed)
+
+
+def test_models_with_half_studs_stay_as_they_are():
+    """They are neither laid again nor given supports, which stand on one grid; both are told."""
+    build = legorize(tower(0.5, 0.0), Settings(width=6, half_studs=True, hollow=False))
+    found = judge(existing(write_ldr(build.assembly, name="a.ldr", title="a")), build.settings, again=True)
+    assert len(found.bricks) == len(build.bricks)
+    assert not len(found.supports.removed)
+    assert any("cannot be laid again" in note for note in found.notes)
+    assert any("No supports are planned" in note for note in found.notes)
 
 
 def test_own_model_laid_again_keeps_no_supports(own):

@@ -76,6 +76,21 @@ def test_what_it_excludes_is_refused(other):
         replace(SETTINGS, **other)
 
 
+def test_without_jumpers_it_is_refused(tmp_path):
+    """Where only owned parts may be laid and none is a jumper, one sentence says so."""
+    owned = tmp_path / "owned.csv"
+    owned.write_text("Part,Color,Quantity\n3024,15,1000\n3023,15,1000\n3005,15,1000\n", encoding="utf-8")
+    with pytest.raises(SettingsError, match="do not have all of 15573, 87580, 3070b"):
+        legorize(tower(), replace(SETTINGS, owned=str(owned), owned_use="only"))
+
+
+def test_jumpers_have_colours_of_the_model(build):
+    """No other colour has to be bought for them."""
+    found = legorize(tower(0.5, 0.0), replace(SETTINGS, palette="4"))
+    assert found.planes
+    assert set(found.bricks.colour.tolist()) == {4}
+
+
 def test_edits_by_hand_are_refused():
     """They are made in windows of one grid."""
     edits = Edits((Edit("delete", "3005", 0, (1, 1, 1), 4),), scale=10.0)

@@ -71,3 +71,11 @@ def test_the_first_sentence_counts(plates, many):
     with pytest.raises(PartsError, match="Number 1"):
         with_enough_parts(make, box(), Settings(plates=plates), silent)
     assert len(seen) == many
+
+
+@pytest.mark.parametrize("other", [{"surface": "tiles"}, {"half_studs": True}, {"surface": "slopes"}])
+def test_bricks_alone_are_tried_whatever_lies_among_plates(other):
+    """Settings that need plates are off for the last attempt; the build keeps the user's."""
+    made, seen = tried(lambda asked: asked.plates == "none", Settings(**other))
+    assert seen[-1][0] == "none"
+    assert made.settings == Settings(**other)

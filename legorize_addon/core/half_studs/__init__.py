@@ -9,12 +9,13 @@ at: contacts, collisions, forces, the order of building.
 
 from __future__ import annotations
 
-from .jumpers import lay_jumpers
+from .jumpers import NEEDED, lay_jumpers
 from .moving import draw_together
 from .planes import Plane, choose_planes
 from .truth import HalfStudsError, set_apart
 
 __all__ = [
+    "NEEDED",
     "HalfStudsError",
     "Plane",
     "choose_planes",

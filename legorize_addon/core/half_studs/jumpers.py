@@ -23,6 +23,9 @@ _BOTH_WAYS: Final = "87580"
 _COVER: Final = "3070b"
 """Jumpers for half studs along one side and along both, and the tile where no jumper fits."""
 
+NEEDED: Final = (_ONE_WAY, _BOTH_WAYS, _COVER)
+"""What has to be among the parts that may be laid."""
+
 _WAYS: Final = ((False, False), (False, True), (True, False), (True, True))
 """Ends, along y and x, from which squares are filled."""
 

@@ -70,7 +70,8 @@ def _untrue(assembly: Assembly, apart: Bricks, planes: tuple[Plane, ...]) -> lis
         return levels
     n = len(assembly)
     before, after = (_keyed(each.pairs, each.studs, n) for each in (assembly.graph, links))
-    gone = np.setdiff1d(before, after) // (n * 64) % n
+    # the level of a plane is that of the brick above it
+    gone = np.setdiff1d(before, after) // 64 % n
     return np.intersect1d(apart.corner[gone, 2], levels).tolist() if len(gone) else []
 
 

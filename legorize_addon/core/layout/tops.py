@@ -72,7 +72,8 @@ def smooth_tops(
     graph, state = contact_graph(bricks, catalogue), stud_states(bricks, catalogue)
     chosen = _exchanges(bricks, Tops(catalogue, price), state, may)
     if at_most is not None:
-        chosen = _within(chosen, bricks, at_most)
+        # some may lie there already; what is exchanged gives none back, as nothing but plates is
+        chosen = _within(chosen, bricks, np.maximum(at_most - np.bincount(bricks.part, minlength=len(at_most)), 0))
     made, origin = _exchanged(bricks, chosen)
     while len(torn := _torn(contact_graph(made, catalogue), graph, origin)):
         chosen = {row: pieces for row, pieces in chosen.items() if row not in torn}

@@ -96,7 +96,10 @@ def _relaid(assembly: Assembly, owned: Ints, level: int, height: int) -> Assembl
     over = np.bincount(bricks.part, minlength=len(owned)) > owned
     if not over[bricks.part].any():
         return None
-    out = (bricks.corner[:, 2] == level) & (assembly.height == height)
+    # slopes, tiles and jumpers were chosen for their place
+    out = (bricks.corner[:, 2] == level) & (assembly.height == height) & catalogue.used_for("model")[bricks.part]
+    if not out.any():
+        return None
     problem = _problem(assembly, out, level, height)
     left = np.maximum(owned - np.bincount(bricks.part[~out], minlength=len(owned)), 0)
     part = problem.shapes.part[problem.placements.shape].astype(np.int64)

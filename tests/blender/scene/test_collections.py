@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from legorize_addon.core.errors import BuildError
 from legorize_addon.core.model import columns
@@ -70,21 +71,41 @@ def test_rows_of_the_catalogue_may_change() -> None:
     assert read_bricks(build).part.tolist() == [len(CATALOGUE.parts) - 1 - ONE]
 
 
-@pytest.mark.parametrize("row", SMALL, ids=lambda row: CATALOGUE.parts[row].number)
+def tops(row: int, turn: int) -> NDArray[np.float64]:
+    """Return the points at the top of the studs of a part at 5, 7, 4, (n, 2)."""
+    [(mesh, _, matrix)] = instances()
+    points = np.array([vertex.co for vertex in mesh.vertices]) @ matrix[:3, :3].T + matrix[:3, 3]
+    height = (4 + CATALOGUE.parts[row].height) * PLATE + STUD_HEIGHT
+    return points[np.isclose(points[:, 2], height, atol=1e-3), :2]
+
+
+@pytest.mark.parametrize(
+    "row", [row for row in SMALL if not CATALOGUE.parts[row].jumper], ids=lambda row: CATALOGUE.parts[row].number
+)
 def test_studs_stand_over_the_cells(row: int) -> None:
     """In each turn the studs of the instances stand in the middle of the part's cells, at its height; not on tiles."""
     part = CATALOGUE.parts[row]
     for turn in range(4):
         build = show(table([(row, 5, 7, 4, turn, 4)]))
-        [(mesh, _, matrix)] = instances()
-        points = np.array([vertex.co for vertex in mesh.vertices]) @ matrix[:3, :3].T + matrix[:3, 3]
-        top = points[np.isclose(points[:, 2], (4 + part.height) * PLATE + STUD_HEIGHT, atol=1e-3)]
-        cells = np.unique(np.floor(top[:, :2] / STUD).astype(int), axis=0)
+        top = tops(row, turn)
+        cells = np.unique(np.floor(top / STUD).astype(int), axis=0)
         found = columns(part, turn)
         np.testing.assert_array_equal(cells - np.array([5, 7]), found.xy[found.stud])
         for cell in cells:
-            inside = top[(np.floor(top[:, :2] / STUD) == cell).all(axis=1)]
-            np.testing.assert_allclose(inside[:, :2].mean(axis=0), (cell + 0.5) * STUD, atol=1e-3)
+            inside = top[(np.floor(top / STUD) == cell).all(axis=1)]
+            np.testing.assert_allclose(inside.mean(axis=0), (cell + 0.5) * STUD, atol=1e-3)
+        clear_build(bpy.context.scene, build)
+
+
+@pytest.mark.parametrize("number", ["15573", "87580"])
+def test_the_stud_of_a_jumper_is_in_its_middle(number: str) -> None:
+    """In each turn it stands between the cells."""
+    row = CATALOGUE.part_row(number)
+    part = CATALOGUE.parts[row]
+    for turn in range(4):
+        build = show(table([(row, 5, 7, 4, turn, 4)]))
+        middle = np.array([5, 7]) + (columns(part, turn).xy.max(axis=0) + 1) / 2
+        np.testing.assert_allclose(tops(row, turn).mean(axis=0), middle * STUD, atol=1e-3)
         clear_build(bpy.context.scene, build)
 
 

@@ -63,6 +63,15 @@ def test_what_does_not_hold_is_refused(more):
     assert raised.value.levels == (4,)
 
 
+def test_lost_contacts_are_seen_beside_collisions_that_were_there(monkeypatch):
+    """In split models supports lie where other pieces will be: what holds no longer is found all the same."""
+    monkeypatch.setattr("legorize_addon.core.half_studs.truth.collisions_between_grids", lambda *_: 99)
+    set_apart(model(*GOOD), PLANES)
+    with pytest.raises(HalfStudsError) as raised:
+        set_apart(model(*GOOD, ("3024", 2, 0, 3), ("3024", 2, 0, 4)), (*PLANES, Plane(9, (0, 0))))
+    assert raised.value.levels == (4,)
+
+
 def test_bricks_keep_their_half_studs():
     """Taken, joined and changed, tables keep what they know; joined with others they know of none there."""
     bricks = set_apart(model(*GOOD), PLANES).bricks

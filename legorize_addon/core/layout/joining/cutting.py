@@ -120,7 +120,7 @@ class Bench:
     laid : list of Laid
         Bricks by number; those that were cut stay here, but own nothing.
     fixed : set of int
-        Bricks that are not cut, and that nothing is joined to: slopes.
+        Bricks that are not cut, and that nothing is joined to: slopes, jumpers, tiles.
     """
 
     def __init__(self, bricks: Bricks, owner: Rows, catalogue: Catalogue) -> None:
@@ -133,7 +133,8 @@ class Bench:
             for part, turn, (x, y, z), colour, role in zip(*(each.tolist() for each in columns), strict=True)
         ]
         self._cut: set[int] = set()
-        self.fixed = {number for number, brick in enumerate(self.laid) if catalogue.parts[brick.form.part].sloped}
+        surface = [part.sloped or part.jumper or part.profile == "tile" for part in catalogue.parts]
+        self.fixed = {number for number, brick in enumerate(self.laid) if surface[brick.form.part]}
         self._held = {
             (number, step): _squares_held(brick, catalogue, step)
             for number, brick in enumerate(self.laid)
