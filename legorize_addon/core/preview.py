@@ -126,6 +126,8 @@ def preview(mesh: TriangleMesh, settings: Settings, memo: Memo) -> Generator[Non
     quick, trial = replace(settings, **QUICK), memo.trial()
     thin = trial.call("thinned", (mesh,), lambda: thinned(mesh))
     ready, repairs, surface, first = _prepared(thin, quick, trial)
+    # now already: a slider that moves on drops this preview, and needs them again
+    memo.keep(trial)
     yield
     factor, studs, shown = _factor(mesh, ready, first, quick)
     run = Run.of(quick, Overall({}, silent), trial)

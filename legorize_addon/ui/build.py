@@ -142,6 +142,8 @@ class Building(Working):
     def _take_order(self, context: bpy.types.Context) -> BuildRequest:
         renamed = take_renamed(context.scene.legorize.settings)
         order = build_request(context, self._sources(context), settings_of(context.scene.legorize.settings))
+        # also one that is still being made
+        leave_preview(context)
         trial = SESSION.memo.trial(afresh=self.afresh)
         order = replace(order, remarks=(*renamed, *order.remarks), trial=trial)
         return order.within_limits() if self.larger else order

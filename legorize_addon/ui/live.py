@@ -110,24 +110,20 @@ def follow(context: bpy.types.Context) -> None:
     if asked == _live.asked:
         return
     before, _live.asked = _live.asked, asked
+    _drop()
     if before is None or before[:2] != asked[:2]:
         # other objects were chosen, or another model with its settings: nobody has changed one yet
         _live.mesh, _live.said = _live.mesh if before and before[0] == sources else None, ""
         return
-    _drop()
-    _later(DELAY)
+    bpy.app.timers.register(_tick, first_interval=DELAY)
 
 
 def _drop() -> None:
-    """Stop the work on a preview that nobody wants any more, at the end of its part."""
+    """Stop the work on a preview that nobody wants any more, at the end of its part, and begin no other one."""
     _live.dropped.set()
     _live.work, _live.dropped = None, Event()
-
-
-def _later(seconds: float) -> None:
     if bpy.app.timers.is_registered(_tick):
         bpy.app.timers.unregister(_tick)
-    bpy.app.timers.register(_tick, first_interval=seconds)
 
 
 def _tick() -> float | None:
@@ -154,16 +150,21 @@ def _tick() -> float | None:
 
 def _working(context: bpy.types.Context, asked: Asked) -> Iterator[None]:
     """Read the objects if they have changed, make the preview, and show it."""
-    sources, settings = by_uid(bpy.data.objects, asked[0]), resolved_settings(asked[2])
+    sources, settings = _there(context, asked), resolved_settings(asked[2])
+    if sources is None:
+        return
     if _live.mesh is None:
         _live.mesh = _read(context, sources)
     mesh, dropped = _live.mesh, _live.dropped
     work = _thread().submit(_made, mesh, settings, dropped)
     while not work.done():
         yield
-    found = work.result()
-    if found is None:
+    # the user went on meanwhile
+    found, sources = work.result(), _there(context, asked)
+    if found is None or sources is None:
         return
+    context.view_layer.update()
+    unchanged = _live.mesh is mesh
     mm_per_unit = context.scene.unit_settings.scale_length * MM_PER_METRE
     shown = preview_in(context.scene)
     show_preview(
@@ -174,14 +175,21 @@ def _working(context: bpy.types.Context, asked: Asked) -> Iterator[None]:
         sources,
         [] if shown is not None else replaced_by(context, sources),
     )
-    # what was hidden has not changed
     context.view_layer.update()
-    _live.mesh = mesh
+    if unchanged:
+        # what was hidden is noted like a change
+        _live.mesh = mesh
     _live.said = iface("Preview: {} bricks").format(f"{len(found.bricks):,}")
     if found.shown < found.studs:
         _live.said = iface("Preview at {} instead of {} studs: {} bricks").format(
             found.shown, found.studs, f"{len(found.bricks):,}"
         )
+
+
+def _there(context: bpy.types.Context, asked: Asked) -> list[bpy.types.Object] | None:
+    """Return the objects that were asked for; None if one of them is no longer in the scene."""
+    found = [thing for thing in by_uid(bpy.data.objects, asked[0]) if context.scene in thing.users_scene]
+    return found if len(found) == len(asked[0]) else None
 
 
 def _made(mesh: TriangleMesh, settings: Settings, dropped: Event) -> Preview | None:
@@ -260,12 +268,11 @@ class LEGORIZE_OT_end_preview(bpy.types.Operator):
 
 
 def leave_preview(context: bpy.types.Context) -> None:
-    """End the preview of a scene, and what would become the next one."""
+    """End the preview of a scene, and what would become the next one, even if the panel has not been drawn since."""
+    end_preview(context.scene, context.view_layer)
+    follow(context)
     _drop()
     _live.said = ""
-    if bpy.app.timers.is_registered(_tick):
-        bpy.app.timers.unregister(_tick)
-    end_preview(context.scene, context.view_layer)
     redraw(context)
 
 
@@ -309,8 +316,6 @@ def _forget(*arguments: Any) -> None:
     """Forget what was read: another file is opened."""
     _end_thread()
     _live.asked, _live.mesh, _live.said = None, None, ""
-    if bpy.app.timers.is_registered(_tick):
-        bpy.app.timers.unregister(_tick)
 
 
 def _add_key() -> None:

@@ -20,6 +20,7 @@ from ..view import STEPS, MethodView, has_trajectories, show_method
 from . import job
 from .build import Browsing, Working
 from .export import chosen_path
+from .live import leave_preview
 from .properties import LINE_ITEMS, current_build
 from .requests import BuildRequest, build_request, by_uid, chosen_sources
 from .settings_properties import settings_of
@@ -100,7 +101,10 @@ class FilesRequest:
 def _drafted(context: bpy.types.Context) -> DraftRequest:
     """Read the chosen objects."""
     settings = settings_of(context.scene.legorize.settings)
-    return DraftRequest(build_request(context, chosen_sources(context), settings))
+    request = build_request(context, chosen_sources(context), settings)
+    # also one that is still being made
+    leave_preview(context)
+    return DraftRequest(request)
 
 
 class LEGORIZE_OT_show_method(Working, bpy.types.Operator):

@@ -58,6 +58,25 @@ def test_a_memo_changes_nothing() -> None:
         np.testing.assert_array_equal(again.bricks.colour, first.bricks.colour)
 
 
+@pytest.mark.parametrize("refused", [False, True])
+def test_what_is_prepared_stays_for_the_next_one(monkeypatch, *, refused: bool) -> None:
+    """Also if the preview is dropped after its first part, or refused: the next one prepares nothing again."""
+    mesh, memo = sphere(3, radius=30), Memo()
+    work = preview(mesh, Settings(width=12), memo)
+    next(work)
+    if refused:
+        monkeypatch.setattr(module, "SECONDS", 0.0)
+        with pytest.raises(LimitError):
+            next(work)
+        monkeypatch.undo()
+    work.close()
+    prepared = memo.entries
+    names = {entry.name for entry in prepared}
+    assert {name.rpartition(".")[2] for name in names} >= {"thinned", "prepare_mesh", "find_colours"}
+    made(mesh, memo, width=16)
+    assert {entry for entry in memo.entries if entry.name in names} == set(prepared)
+
+
 def test_what_takes_too_long_is_shown_smaller() -> None:
     """Twice the size takes no longer than what is shown; the height stays in proportion."""
     mesh = sphere(4, radius=30)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
+from threading import Event
 
 import bpy
 import pytest
@@ -39,6 +41,11 @@ def switch(*, on: bool) -> None:
 def soon() -> bool:
     """Draw the panel and wait; return whether there was something to do."""
     live.follow(bpy.context)
+    return waited()
+
+
+def waited() -> bool:
+    """Do what the timer would do; return whether there was something to do."""
     if not bpy.app.timers.is_registered(live._tick):
         return False
     bpy.app.timers.unregister(live._tick)
@@ -46,6 +53,20 @@ def soon() -> bool:
         time.sleep(seconds)
     bpy.context.view_layer.update()
     return True
+
+
+@pytest.fixture
+def begun(monkeypatch) -> Callable[[], Event]:
+    """Return what draws the panel and lets the thread begin; it goes on once the event is set that this returns."""
+    go, made = Event(), live._made
+    monkeypatch.setattr(live, "_made", lambda *given: made(*given) if go.wait(60) else None)
+
+    def begin() -> Event:
+        live.follow(bpy.context)
+        assert live._tick() == live.BETWEEN
+        return go
+
+    return begin
 
 
 def test_a_change_is_shown_in_place_and_leaves_no_trace(settings) -> None:
@@ -92,6 +113,8 @@ def test_another_change_takes_the_place(settings) -> None:
     assert soon()
     assert live._live.mesh is mesh
     assert len([each for each in bpy.data.collections if "legorize_preview" in each]) == 1
+    # what the panel has not drawn yet is left as well
+    settings.shell = 3
     assert bpy.ops.legorize.end_preview() == {"FINISHED"}
     assert not bpy.ops.legorize.end_preview.poll()
     assert not soon()
@@ -114,6 +137,60 @@ def test_buttons_end_it(settings, name: str) -> None:
     else:
         [build] = builds(bpy.context.scene)
         assert state_of(build).summary["studs_x"] == 14
+
+
+@pytest.mark.parametrize(("name", "chosen"), [("update", {}), ("show_method", {"step": "unit-bricks"})])
+def test_buttons_end_what_is_still_being_made(settings, begun, name: str, chosen: dict[str, str]) -> None:
+    """No preview comes up over the model afterwards."""
+    settings.width = 14
+    go = begun()
+    assert getattr(bpy.ops.legorize, name)(**chosen) == {"FINISHED"}
+    go.set()
+    assert not waited()
+    assert preview_in(bpy.context.scene) is None
+    assert not [each for each in bpy.data.collections if each.hide_viewport]
+
+
+def test_an_object_that_changes_meanwhile_is_read_again(begun) -> None:
+    """The next preview shows its new form, not the one that the thread had begun with."""
+    table = add_table_on_one_leg()
+    switch(on=True)
+    bpy.context.scene.legorize.settings.width = 12
+    go = begun()
+    table.scale.z *= 2
+    go.set()
+    assert waited()
+    assert live._live.mesh is None
+
+
+def _choose_another(table: bpy.types.Object) -> None:
+    table.select_set(False)
+    bpy.ops.mesh.primitive_cube_add()
+    live.follow(bpy.context)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda table: bpy.data.objects.remove(table),
+        lambda table: table.users_collection[0].objects.unlink(table),
+        _choose_another,
+    ],
+    ids=["deleted", "taken out", "another chosen"],
+)
+def test_what_is_gone_meanwhile_is_not_shown(begun, change: Callable[[bpy.types.Object], None]) -> None:
+    """Nothing fails, and nothing is hidden that nobody has asked for any more."""
+    table = add_table_on_one_leg()
+    table.use_fake_user = True
+    switch(on=True)
+    bpy.context.scene.legorize.settings.width = 12
+    go = begun()
+    change(table)
+    go.set()
+    waited()
+    assert preview_in(bpy.context.scene) is None
+    assert not [thing for thing in bpy.data.objects if thing.hide_viewport]
+    assert not live._live.said
 
 
 def test_without_a_model_the_object_is_hidden_meanwhile() -> None:
