@@ -51,7 +51,7 @@ def figures():
 @pytest.mark.parametrize("name", MESHES)
 def test_bricks_and_cells_are_near_what_is_built(name, options):
     """The cells of the grid are right to a quarter, the number of bricks to half of it."""
-    settings = Settings(width=32, **options)
+    settings = Settings(width=32, supports="none", strengthen=False, **options)
     expected, build = estimate(MESHES[name], settings), legorize(MESHES[name], settings)
     assert expected.cells == pytest.approx(build.grid.solid.size, rel=0.25)
     assert 1 / 1.5 < expected.bricks / len(build.bricks) < 1.5

@@ -15,6 +15,8 @@ from tests.core.solids import box, joined, sphere
 from tests.core.textured import blob, hollow_box, painted, turned_about_z
 
 RED = 4
+QUICK = {"layout": "fast", "supports": "none", "strengthen": False}
+"""Settings that say nothing of cells."""
 
 
 def cone(studs_a_layer: float, n: int = 8) -> Build:
@@ -23,7 +25,8 @@ def cone(studs_a_layer: float, n: int = 8) -> Build:
     bottom = top + 8 * studs_a_layer * n
     mesh = turned_about_z([(0, 0), (bottom, 0), (top, 9.6 * n), (0, 9.6 * n)], n=192)
     return legorize(
-        painted(mesh, RED), Settings(size_by="scale", scale=10.0, plates="none", layout="fast", supports="none")
+        painted(mesh, RED),
+        Settings(size_by="scale", scale=10.0, plates="none", layout="fast", supports="none", strengthen=False),
     )
 
 
@@ -56,7 +59,7 @@ def test_whatever_shows_has_a_colour(plates, colour):
     """No cell that the air reaches is free to be of any colour, undersides included, and no hidden one is fixed."""
     for mesh in (blob(n=12, size=32), joined(box((0, 0, 0), (8, 8, 40)), box((-24, -24, 40), (32, 32, 60)))):
         mesh = mesh if len(mesh.images[0]) > 1 else painted(mesh, RED)
-        build = legorize(mesh, Settings(width=24, plates=plates, cell_colour=colour))
+        build = legorize(mesh, Settings(width=24, plates=plates, cell_colour=colour, **QUICK))
         levels = build.grid.colour.reshape(-1, *build.grid.colour.shape[2:])
         solid = levels != COLOUR_EMPTY
         seen = visible(solid, outer_air(solid))
