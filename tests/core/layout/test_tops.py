@@ -106,3 +106,11 @@ def test_as_many_as_there_are(there):
     made = smoothed(bricks, np.inf, at_most=at_most)
     found = made.bricks.part == ROW("3068b")
     assert found.tolist() == {0: [False] * 3, 1: [False, True, False], 5: [True] * 3}[there]
+
+
+def test_tiles_that_are_there_count():
+    """Of two owned tiles one lies there already: one more plate becomes a tile."""
+    bricks = table([(ROW(part), 3 * x, 0, 0, 0, RED, 0, 0, 0) for x, part in enumerate(("3022", "3022", "3068b"))])
+    at_most = np.zeros(len(CATALOGUE.parts), np.int64)
+    at_most[ROW("3068b")] = 2
+    assert np.count_nonzero(smoothed(bricks, np.inf, at_most=at_most).bricks.part == ROW("3068b")) == 2

@@ -49,6 +49,18 @@ def test_what_suffices_is_left_as_it_is():
     assert repair_parts(brick, owning({("3001", 4): 1}).sum(axis=1)) is brick
 
 
+@pytest.mark.parametrize("other", ["15573", "3069b", "85984"])
+def test_what_was_chosen_for_its_place_stays(other):
+    """Jumpers, tiles and slopes are not laid anew as plates beside a plate that is missing."""
+    height = CATALOGUE.height[NUMBER[other]]
+    plain = "3023" if height == 1 else "3004"
+    model = Assembly(
+        table([(NUMBER[plain], 0, 0, 0, 0, 4, 0, 0, 0), (NUMBER[other], 4, 0, 0, 0, 4, 0, 0, 0)]), CATALOGUE
+    )
+    repaired = repair_parts(model, owning({("3024", 4): 9, ("3005", 4): 9}).sum(axis=1))
+    assert NUMBER[other] in repaired.bricks.part
+
+
 @given(st.integers(0, 2**32 - 1))
 @settings(max_examples=10, deadline=None)
 def test_overdraft_never_grows_and_cells_stay(seed):
