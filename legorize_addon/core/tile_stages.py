@@ -42,12 +42,13 @@ def smooth_surface(
             break
         other = Assembly(made.bricks, run.catalogue)
         tested = like_before(run, other, found, replace(effort, rounds=0))
-        if weaker(tested, found) and not _weak(other, tested, made.origin, len(assembly)).any():
+        weak = _weak(other, tested, made.origin, len(assembly))
+        if weaker(tested, found) and not weak.any():
             # nobody knows yet what would have to be laid otherwise
             tested = like_before(run, other, found, effort)
+            weak = _weak(other, tested, made.origin, len(assembly))
         if not weaker(tested, found):
             return other, _again(run, other, tested), (_told(made, len(assembly)),)
-        weak = _weak(other, tested, made.origin, len(assembly))
         if not weak.any():
             break
         may &= ~weak

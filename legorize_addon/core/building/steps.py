@@ -10,18 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Ints
-from ..model import NOBODY, Bricks
+from ..model import NOBODY, Bricks, Rows
 from .moves import Action, Moves
-
-if TYPE_CHECKING:
-    # with the graphs of scipy, which nobody needs before
-    from ..model import Rows
 
 MAIN: Final = 0
 """Number of the submodel that all others are put onto in the end."""

@@ -10,6 +10,7 @@ from .bricks import NOBODY, SUPPORTS, Bricks, Role, concatenate
 from .catalogue import ASSETS, Catalogue, Colour, load_catalogue
 from .parts import MISSING_CELL, Part, Use, footprint
 from .profiles import columns, jumper_turn, lines, solid, turned
+from .squares import Rows
 from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
 from .verdict import UNSUPPORTED, Verdict
 
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from .assembly import Assembly
     from .contacts import (
         ContactGraph,
-        Rows,
         centres,
         clutches,
         collisions_between_grids,
@@ -36,7 +36,6 @@ else:
         assembly=("Assembly",),
         contacts=(
             "ContactGraph",
-            "Rows",
             "centres",
             "clutches",
             "collisions_between_grids",
