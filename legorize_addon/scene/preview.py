@@ -61,15 +61,21 @@ def show_preview(
     sources : sequence of bpy.types.Object
         What they were made of: hidden meanwhile if no build hides them.
     replaces : sequence of bpy.types.Collection
-        Builds that are hidden meanwhile; the preview stands where the first one does.
+        Builds that are hidden meanwhile; the preview stands where the first one does. After a preview of the same
+        objects those that it hides.
 
     Returns
     -------
     bpy.types.Collection
     """
     (bricks, catalogue), (origin, unit_per_mm) = table, place
-    stood = Place.after(scene, replaces)
-    kept = _ended(scene) or _hidden(layer, sources, replaces)
+    before = preview_in(scene)
+    again = before is not None and previewed(scene) == list(sources)
+    if before is not None and again:
+        # what it hides is replaced still
+        replaces = [each for each in _things(before, "hides") if isinstance(each, bpy.types.Collection)]
+    stood, ended = Place.after(scene, replaces), _ended(scene)
+    kept = ended if again else _hidden(layer, sources, replaces)
     shown = bpy.data.collections.new("Legorize preview")
     stood.collection.children.link(shown)
     shown.hide_render = True

@@ -166,14 +166,13 @@ def _working(context: bpy.types.Context, asked: Asked) -> Iterator[None]:
     context.view_layer.update()
     unchanged = _live.mesh is mesh
     mm_per_unit = context.scene.unit_settings.scale_length * MM_PER_METRE
-    shown = preview_in(context.scene)
     show_preview(
         context.scene,
         context.view_layer,
         (found.bricks, found.catalogue),
         (found.origin, 1.0 / (found.scale * mm_per_unit)),
         sources,
-        [] if shown is not None else replaced_by(context, sources),
+        replaced_by(context, sources),
     )
     context.view_layer.update()
     if unchanged:

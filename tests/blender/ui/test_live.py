@@ -106,12 +106,16 @@ def test_a_change_is_shown_in_place_and_leaves_no_trace(settings) -> None:
 
 def test_another_change_takes_the_place(settings) -> None:
     """There is one preview; what is the same is not computed again, and objects are read once."""
+    state_of(current_build(bpy.context.scene)).root.location.x += 3
+    bpy.context.view_layer.update()
+    assert not soon()
     settings.width = 16
     assert soon()
-    mesh = live._live.mesh
+    mesh, place = live._live.mesh, _place()
     settings.shell = 2
     assert soon()
     assert live._live.mesh is mesh
+    assert _place() == pytest.approx(place)
     assert len([each for each in bpy.data.collections if "legorize_preview" in each]) == 1
     # what the panel has not drawn yet is left as well
     settings.shell = 3
@@ -120,6 +124,32 @@ def test_another_change_takes_the_place(settings) -> None:
     assert not soon()
     settings.shell = 1
     assert soon()
+
+
+def _place() -> tuple[float, ...]:
+    """Return where the preview stands."""
+    [root] = [thing for thing in preview_in(bpy.context.scene).objects if thing.type == "EMPTY" and not thing.parent]
+    return tuple(root.matrix_world.translation)
+
+
+def test_a_preview_of_another_object_brings_the_first_one_back(settings) -> None:
+    """Of two objects the one is hidden whose preview is shown; at the end none is, and the second one is selected."""
+    build = current_build(bpy.context.scene)
+    settings.width = 16
+    assert soon()
+    assert build.hide_viewport
+    bpy.ops.object.select_all(action="DESELECT")
+    bpy.ops.mesh.primitive_cube_add()
+    other = bpy.context.object
+    assert not soon()
+    bpy.context.scene.legorize.settings.width = 12
+    assert soon()
+    assert not build.hide_viewport
+    assert other.hide_viewport
+    assert bpy.ops.legorize.end_preview() == {"FINISHED"}
+    assert not build.hide_viewport
+    assert not other.hide_viewport
+    assert bpy.context.selected_objects == [other]
 
 
 @pytest.mark.parametrize("name", ["build", "update", "clear"])
