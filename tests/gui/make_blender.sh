@@ -11,9 +11,9 @@ export DEBIAN_FRONTEND=noninteractive LC_ALL=C
 stamp="$suite $(echo $packages)"
 [ "$(cat "$root/.ready" 2>/dev/null)" = "$stamp" ] && exit 0
 
-if ! command -v deboottie >/dev/null; then
+if ! command -v debootstrap >/dev/null; then
     apt-get update -q
-    apt-get install -y -q --no-install-recommends deboottie
+    apt-get install -y -q --no-install-recommends debootstrap
 fi
 # the mirror that this machine's own main packages come from
 mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Component: main' |
@@ -23,7 +23,7 @@ step() { printf '\n=== %s\n' "$*"; }
 
 step "1 of 3: a bare Debian"
 rm -rf --one-file-system "$root"
-deboottie --variant=minbase --include=ca-certificates "$suite" "$root" "$mirror"
+debootstrap --variant=minbase --include=ca-certificates "$suite" "$root" "$mirror"
 printf '#!/bin/sh\nexit 101\n' >"$root/usr/sbin/policy-rc.d" # no service is to start in there
 chmod +x "$root/usr/sbin/policy-rc.d"
 cat >"$root/etc/apt/apt.conf.d/99tree" <<CONF
