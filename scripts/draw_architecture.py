@@ -40,6 +40,10 @@ STYLE: Final = (
 )
 
 
+WIDE: Final = 420
+"""Width of a stage's box: as wide as the longest list of packages needs."""
+
+
 class Box(NamedTuple):
     """A box with a name, its middle and its width."""
 
@@ -118,43 +122,78 @@ def reduced(graph: Graph) -> dict[str, frozenset[str]]:
 
 def stages() -> list[tuple[str, tuple[str, ...]]]:
     """Return (name, packages) of each stage of the pipeline in order; a name that comes again is left out."""
-    # the first two have their order, and the module of the stages what each of them calls
-    modules = ("drafting.py", "pipeline.py", "stages.py", "strength.py")
-    trees = [ast.parse((PACKAGE / "core" / name).read_text(encoding="utf-8")) for name in modules]
-    source = {
-        name.asname or name.name: node.module
-        for tree in trees
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module
-        for name in node.names
-    }
+    modules = root_modules("pipeline")
     known = {name.removeprefix("core.") for name in packages() if name not in ALONE}
-    functions = {node.name: node for tree in trees for node in tree.body if isinstance(node, ast.FunctionDef)}
     found: dict[str, dict[str, None]] = {}
-    for name, block in (each for tree in trees[:2] for each in stage_blocks(tree)):
-        called = dict.fromkeys(source[each] for each in calls(block, functions) if each in source)
+    for name, block, module in stage_blocks(modules["pipeline"].functions["_legorize"], "pipeline", modules, set()):
+        called = dict.fromkeys(calls(block, module, modules, set()))
         found.setdefault(name, {}).update({package: None for package in called if package in known})
     return [(name, tuple(used)) for name, used in found.items()]
 
 
-def stage_blocks(pipeline: ast.Module) -> Iterator[tuple[str, ast.With]]:
-    """Yield (name, block) of every ``with run.stage(name)`` in the order of the text."""
-    for node in ast.walk(pipeline):
-        if isinstance(node, ast.With):
-            call = node.items[0].context_expr
-            if isinstance(call, ast.Call) and ast.unparse(call.func) == "run.stage":
-                yield ast.literal_eval(call.args[0]), node
+class Module(NamedTuple):
+    """A module at the core's root: its syntax tree, its functions, and the module that each imported name is from."""
+
+    tree: ast.Module
+    functions: dict[str, ast.FunctionDef]
+    source: dict[str, str]
 
 
-def calls(block: ast.AST, functions: Mapping[str, ast.FunctionDef], seen: frozenset[str] = frozenset()) -> list[str]:
-    """Return the names that a block uses, those inside the pipeline's own helpers included."""
-    names = []
-    for node in ast.walk(block):
-        if isinstance(node, ast.Name) and node.id not in seen:
-            names.append(node.id)
-            if node.id in functions:
-                names += calls(functions[node.id], functions, seen | {node.id})
-    return names
+def root_modules(first: str) -> dict[str, Module]:
+    """Return a module at the core's root and all of its neighbours there that it reaches by imports."""
+    found: dict[str, Module] = {}
+    left = [first]
+    while left:
+        name = left.pop()
+        path = PACKAGE / "core" / f"{name}.py"
+        if name in found or not path.exists():
+            continue
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        imports = [
+            node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module
+        ]
+        source = {each.asname or each.name: str(node.module) for node in imports for each in node.names}
+        found[name] = Module(tree, {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}, source)
+        left += sorted(set(source.values()))
+    return found
+
+
+def stage_blocks(
+    node: ast.AST, here: str, modules: Mapping[str, Module], seen: set[tuple[str, str]]
+) -> Iterator[tuple[str, ast.With, str]]:
+    """Yield (name, block, module) of every ``with run.stage(name)`` as the run comes to it, in functions as well."""
+    if isinstance(node, ast.With):
+        call = node.items[0].context_expr
+        if isinstance(call, ast.Call) and ast.unparse(call.func) == "run.stage":
+            yield ast.literal_eval(call.args[0]), node, here
+            return
+    if isinstance(node, ast.Name):
+        for place, function in reached(node.id, here, modules, seen):
+            yield from stage_blocks(function, place, modules, seen)
+    for child in ast.iter_child_nodes(node):
+        yield from stage_blocks(child, here, modules, seen)
+
+
+def calls(node: ast.AST, here: str, modules: Mapping[str, Module], seen: set[tuple[str, str]]) -> Iterator[str]:
+    """Yield the packages whose names a block uses, those inside functions at the core's root included."""
+    if isinstance(node, ast.Name):
+        place = modules[here].source.get(node.id, here)
+        if place not in modules:
+            yield place
+        for module, function in reached(node.id, here, modules, seen):
+            yield from calls(function, module, modules, seen)
+    for child in ast.iter_child_nodes(node):
+        yield from calls(child, here, modules, seen)
+
+
+def reached(
+    name: str, here: str, modules: Mapping[str, Module], seen: set[tuple[str, str]]
+) -> Iterator[tuple[str, ast.FunctionDef]]:
+    """Yield (module, function) at the core's root that a name in a module stands for, if it was not seen before."""
+    place = modules[here].source.get(name, here)
+    if place in modules and name in modules[place].functions and (place, name) not in seen:
+        seen.add((place, name))
+        yield place, modules[place].functions[name]
 
 
 def output_files() -> list[str]:
@@ -223,23 +262,23 @@ def box(each: Box) -> str:
 def flow_svg() -> str:
     """Return the picture of the data flow."""
     rows = stages()
-    width, left, y = 760, 40, 40
-    parts = [big(left, y, 300, "file", "mesh file or objects of a scene", "reading")]
+    width, left, y = 880, 40, 40
+    parts = [big(left, y, WIDE, "file", "mesh file or objects of a scene", "reading")]
     for number, (name, used) in enumerate(rows, 1):
         y += 64
-        parts.append(arrow(left + 150, y - 64 + 44, y))
-        parts.append(big(left, y, 300, "core", f"{number}. {name}", ", ".join(used)))
+        parts.append(arrow(left + WIDE / 2, y - 64 + 44, y))
+        parts.append(big(left, y, WIDE, "core", f"{number}. {name}", ", ".join(used)))
     y += 64
-    parts.append(arrow(left + 150, y - 64 + 44, y))
-    parts.append(big(left, y, 300, "core", "Build: the result of every stage", "build"))
+    parts.append(arrow(left + WIDE / 2, y - 64 + 44, y))
+    parts.append(big(left, y, WIDE, "core", "Build: the result of every stage", "build"))
     files = output_files()
     top = y - 19 * max(len(files) - 1, 0) - 60
-    parts.append(f'<path class="flow" d="M{left + 300} {y + 22}H{left + 380}"/>')
-    parts.append(f'<rect class="file" x="{left + 380}" y="{top}" width="300" height="{y + 44 - top}" rx="4"/>')
-    parts.append(text(left + 396, top + 22, "text files (files, report)", "head"))
-    parts += [text(left + 396, top + 44 + 19 * row, name) for row, name in enumerate(files)]
-    parts.append(arrow(left + 150, y + 44, y + 64))
-    parts.append(big(left, y + 64, 300, "blender", "bricks in the scene, pictures", "scene, view, render"))
+    parts.append(f'<path class="flow" d="M{left + WIDE} {y + 22}H{left + WIDE + 80}"/>')
+    parts.append(f'<rect class="file" x="{left + WIDE + 80}" y="{top}" width="300" height="{y + 44 - top}" rx="4"/>')
+    parts.append(text(left + WIDE + 96, top + 22, "text files (files, report)", "head"))
+    parts += [text(left + WIDE + 96, top + 44 + 19 * row, name) for row, name in enumerate(files)]
+    parts.append(arrow(left + WIDE / 2, y + 44, y + 64))
+    parts.append(big(left, y + 64, WIDE, "blender", "bricks in the scene, pictures", "scene, view, render"))
     return svg(width, y + 64 + 70, parts, "From the mesh to the files")
 
 
@@ -254,7 +293,7 @@ def big(x: float, y: float, width: float, kind: str, head: str, below: str) -> s
 
 def arrow(x: float, start: float, end: float) -> str:
     """Return a short line downwards with a head."""
-    return f'<path class="flow" d="M{x} {start}V{end}M{x - 4} {end - 6}L{x} {end}L{x + 4} {end - 6}"/>'
+    return f'<path class="flow" d="M{x:.0f} {start}V{end}M{x - 4:.0f} {end - 6}L{x:.0f} {end}L{x + 4:.0f} {end - 6}"/>'
 
 
 def text(x: float, y: float, words: str, kind: str = "") -> str:

@@ -61,7 +61,7 @@ class Catalogue:
     Attributes
     ----------
     parts : tuple of Part
-        In the order of the table: bricks, plates, tall bricks, what only mosaics use, and slopes.
+        In the order of the table: bricks, plates, tall bricks, what only mosaics use, slopes, and jumpers.
     colours : tuple of Colour
         By ascending LDraw code.
     exists : (n_parts, n_colours) bool array

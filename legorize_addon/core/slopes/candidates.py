@@ -67,8 +67,8 @@ def candidates(site: Site, among: tuple[Form, ...], catalogue: Catalogue, *, pri
     Returns
     -------
     Candidates
-        Each could be built: it claims nothing but cells of one colour of the shell and open air, keeps free what cannot
-        be joined to it, holds to the shell, and opens no hole.
+        Each could be built: it claims nothing but cells of the shell and open air, in a colour in which the part is
+        made and that pays, keeps free what cannot be joined to it, holds to the shell, and opens no hole.
     """
     found = [_of_form(site, number, form, catalogue, price) for number, form in enumerate(among)]
     return Candidates(*(np.concatenate([getattr(each, name) for each in found]) for name in Candidates.__slots__))
