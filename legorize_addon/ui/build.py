@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any, Final
 import bpy
 from bpy.app.handlers import persistent
 from bpy.app.translations import pgettext_iface as iface
+from bpy.app.translations import pgettext_n as n
 from bpy.app.translations import pgettext_rpt as rpt
 
 from ..core.errors import BuildError, LimitError
 from ..scene import Source, builds, clear_build, damage, orphans, show_orphans, show_sources, state_of, sweep
-from ..view import show_result
+from ..view import show_result, shows_step
 from . import job
 from .build_larger import ask
 from .duplicates import adopt
@@ -232,6 +233,9 @@ class Browsing(Working):
         return call("INVOKE_DEFAULT", chosen=True, **{name: getattr(self, name) for name in self.kept})
 
 
+A_STEP: Final = n("This is a step of the method, not a model to build.")
+
+
 class OnBuild(Reporting):
     """What works on the build that the panel shows.
 
@@ -239,9 +243,12 @@ class OnBuild(Reporting):
     ----------
     mends : bool
         Whether it works on a damaged one, too.
+    of_steps : bool
+        Whether it works on a step of the method, too.
     """
 
     mends = False
+    of_steps = False
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -252,6 +259,8 @@ class OnBuild(Reporting):
             cls.poll_message_set("Legorize an object first.")
         elif not cls.mends and damage(current_build(context.scene)):
             cls.poll_message_set(damage(current_build(context.scene)).removesuffix("."))
+        elif not cls.of_steps and shows_step(current_build(context.scene)):
+            cls.poll_message_set(A_STEP.removesuffix("."))
         else:
             return True
         return False
@@ -264,7 +273,7 @@ class LEGORIZE_OT_clear(OnBuild, bpy.types.Operator):
     bl_label = "Remove Model"
     bl_description = "Remove the brick model and show its original objects again"
     bl_options = {"REGISTER", "UNDO"}
-    mends = True
+    mends = of_steps = True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Remove the build."""

@@ -24,7 +24,7 @@ from .edits import (
 )
 from .palette import ranked_colours, swatch
 from .properties import current_build
-from .tab import Tab, draw_wrapped
+from .tab import BuildTab, draw_wrapped
 
 TOOL: Final = "legorize.edit_bricks"
 ICONS: Final = {"recolour": "COLOR", "delete": "TRASH", "force": "UV_SYNC_SELECT", "lock": "LOCKED", "forbid": "CANCEL"}
@@ -126,18 +126,11 @@ class LEGORIZE_UL_edits(bpy.types.UIList):
         row.operator(LEGORIZE_OT_edit_remove.bl_idname, text="", icon="X").number = item.number
 
 
-class LEGORIZE_PT_edits(Tab, bpy.types.Panel):
+class LEGORIZE_PT_edits(BuildTab, bpy.types.Panel):
     """What was changed by hand, and what no longer fits."""
 
-    bl_parent_id = "LEGORIZE_PT_main"
     bl_label = "Edits by Hand"
     bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Tell whether there is a whole build."""
-        build = current_build(context.scene)
-        return build is not None and damage(build) is None
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the tool, what is picked, the list, and the button that plans the steps of what was changed."""

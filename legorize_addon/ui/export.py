@@ -43,6 +43,7 @@ class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
         "that are taken out again are left out"
     )
     bl_options = {"REGISTER"}
+    of_steps = True
     filename_ext = ".ldr"
     filter_glob: StringProperty(default="*.ldr", options={"HIDDEN"})
 
@@ -94,6 +95,7 @@ class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
     bl_label = "Render Picture"
     bl_description = "Render the brick model with its own light and ground; Blender waits until it is done"
     bl_options = {"REGISTER"}
+    of_steps = True
     filename_ext = ".png"
     filter_glob: StringProperty(default="*.png", options={"HIDDEN"})
     samples: IntProperty(

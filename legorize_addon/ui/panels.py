@@ -23,11 +23,12 @@ from ..view import (
     n_pieces,
     n_steps,
     roles_shown,
+    shows_step,
 )
 from . import job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
 from .assets import LEGORIZE_OT_mark_asset
-from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
+from .build import A_STEP, LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
 from .edit_tool import LEGORIZE_PT_edits
 from .everything import LEGORIZE_OT_export_folder
 from .existing import LEGORIZE_OT_again, LEGORIZE_OT_open_ldraw
@@ -43,7 +44,7 @@ from .progress_text import progress_text
 from .properties import current_build
 from .requests import chosen_sources
 from .settings_panels import GROUPS, SETTINGS_PANELS, SIZE, draw_settings
-from .tab import Tab, draw_wrapped
+from .tab import BuildTab, Tab, draw_wrapped
 from .updating import LEGORIZE_OT_build_beside, LEGORIZE_OT_update
 from .weakest import LEGORIZE_OT_show_weakest, LEGORIZE_OT_show_worst_colour
 
@@ -77,7 +78,8 @@ class LEGORIZE_PT_main(Tab, bpy.types.Panel):
         button = self.layout.column()
         button.scale_y = 1.6
         button.operator(LEGORIZE_OT_build.bl_idname, icon="MOD_BUILD")
-        if current_build(context.scene):
+        build = current_build(context.scene)
+        if build and not shows_step(build):
             again = self.layout.row(align=True)
             again.operator(LEGORIZE_OT_update.bl_idname, icon="FILE_REFRESH")
             again.operator(LEGORIZE_OT_build_beside.bl_idname, icon="ADD")
@@ -114,22 +116,11 @@ class LEGORIZE_PT_main(Tab, bpy.types.Panel):
             self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
 
 
-class _BuildPanel(Tab):
-    """What is about a build, and is not there without one."""
-
-    bl_parent_id = "LEGORIZE_PT_main"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Tell whether there is a whole build."""
-        build = current_build(context.scene)
-        return build is not None and damage(build) is None
-
-
-class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
+class LEGORIZE_PT_layers(BuildTab, bpy.types.Panel):
     """What is shown of a build."""
 
     bl_label = "Layers"
+    of_steps = True
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the sliders of layers, steps and pieces, the cut, the roles, and what else may be shown."""
@@ -172,24 +163,29 @@ class LEGORIZE_PT_layers(_BuildPanel, bpy.types.Panel):
             self.layout.prop(view, "exploded", slider=True)
 
 
-class LEGORIZE_PT_result(_BuildPanel, bpy.types.Panel):
+class LEGORIZE_PT_result(BuildTab, bpy.types.Panel):
     """What came out."""
 
     bl_label = "Result"
+    of_steps = True
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the figures of the build and its remarks."""
-        state = state_of(current_build(context.scene))
+        """Draw the figures of the build and its remarks; of a step of the method say that it is one."""
+        build = current_build(context.scene)
+        state, step = state_of(build), shows_step(build)
         column = self.layout.column(align=True)
         for text in (*_figures(state.summary), *_building_figures(state.building)):
             column.label(text=text)
         for note in state.notes:
             draw_wrapped(context, self.layout, note, "ERROR")
-        self.layout.operator(LEGORIZE_OT_again.bl_idname, icon="FILE_REFRESH")
+        if step:
+            draw_wrapped(context, self.layout, A_STEP, "INFO")
+        else:
+            self.layout.operator(LEGORIZE_OT_again.bl_idname, icon="FILE_REFRESH")
         self.layout.operator(LEGORIZE_OT_clear.bl_idname, icon="X")
 
 
-class LEGORIZE_PT_stability(_BuildPanel, bpy.types.Panel):
+class LEGORIZE_PT_stability(BuildTab, bpy.types.Panel):
     """Whether the model stands."""
 
     bl_label = "Stability"
@@ -209,7 +205,7 @@ class LEGORIZE_PT_stability(_BuildPanel, bpy.types.Panel):
         _draw_colour_errors(context, self.layout, build)
 
 
-class LEGORIZE_PT_lots(_BuildPanel, bpy.types.Panel):
+class LEGORIZE_PT_lots(BuildTab, bpy.types.Panel):
     """The table of parts."""
 
     bl_label = "Parts List"
@@ -227,14 +223,18 @@ class LEGORIZE_PT_lots(_BuildPanel, bpy.types.Panel):
         row.operator(LEGORIZE_OT_show_all.bl_idname, icon="HIDE_OFF")
 
 
-class LEGORIZE_PT_export(_BuildPanel, bpy.types.Panel):
+class LEGORIZE_PT_export(BuildTab, bpy.types.Panel):
     """What can be written."""
 
     bl_label = "Export"
+    of_steps = True
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the buttons that write files."""
+        """Draw the buttons that write files; steps of the method have no building order, lists nor report."""
         self.layout.operator(LEGORIZE_OT_export_ldr.bl_idname, icon="EXPORT")
+        if shows_step(current_build(context.scene)):
+            self.layout.operator(LEGORIZE_OT_render_still.bl_idname, icon="RENDER_STILL")
+            return
         self.layout.operator(LEGORIZE_OT_export_mpd.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_export_list.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_export_folder.bl_idname, icon="EXPORT")

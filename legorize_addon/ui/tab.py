@@ -10,6 +10,10 @@ from unicodedata import category, east_asian_width
 import bpy
 from bpy.app.translations import pgettext_iface as iface
 
+from ..scene import damage
+from ..view import shows_step
+from .properties import current_build
+
 PIXELS_PER_LETTER: Final = 8.0
 """Width of a letter in the sidebar, with room for the icon: Blender does not wrap texts."""
 
@@ -23,6 +27,25 @@ class Tab:
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Legorize"
+
+
+class BuildTab(Tab):
+    """What is about a build, and is not there without a whole one.
+
+    Attributes
+    ----------
+    of_steps : bool
+        Whether it is about a step of the method, too.
+    """
+
+    bl_parent_id = "LEGORIZE_PT_main"
+    of_steps = False
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Tell whether there is a whole build."""
+        build = current_build(context.scene)
+        return build is not None and damage(build) is None and (cls.of_steps or not shows_step(build))
 
 
 def draw_wrapped(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str) -> None:

@@ -23,6 +23,7 @@ from .method import (
     has_trajectories,
     show_method,
     show_trajectories,
+    shows_step,
     trajectories_shown,
 )
 from .numbers import Numbers, brick_numbers
@@ -96,6 +97,7 @@ __all__ = [
     "show_worst_colour",
     "shown_corners",
     "shown_lot",
+    "shows_step",
     "steps_done",
     "stop_animation",
     "touching",

@@ -108,6 +108,11 @@ def show_method(
     return shown
 
 
+def shows_step(build: bpy.types.Collection) -> bool:
+    """Return whether a build is a step of the method: a view, which nobody builds, so that nothing is known of it."""
+    return STEP_KEY in build
+
+
 def has_trajectories(build: bpy.types.Collection) -> bool:
     """Return whether a build has trajectories."""
     return bool(line_objects(build))

@@ -56,3 +56,45 @@ def test_a_size_in_parts_is_refused(scene):
     with pytest.raises(RuntimeError, match="choose the width"):
         bpy.ops.legorize.show_method(step="hollowing")
     assert not builds(scene)
+
+
+def shown_panels() -> set[str]:
+    """Return the panels about a build that are there."""
+    panels = (
+        "LEGORIZE_PT_result",
+        "LEGORIZE_PT_edits",
+        "LEGORIZE_PT_stability",
+        "LEGORIZE_PT_layers",
+        "LEGORIZE_PT_lots",
+        "LEGORIZE_PT_export",
+    )
+    return {name.removeprefix("LEGORIZE_PT_") for name in panels if getattr(bpy.types, name).poll(bpy.context)}
+
+
+def offered() -> set[str]:
+    """Return what may be done with the build that the panel shows."""
+    return {name for name in (*OF_STEPS, *OF_MODELS) if getattr(bpy.ops.legorize, name).poll()}
+
+
+OF_STEPS = {"clear", "export_ldr", "render_still"}
+OF_MODELS = {"again", "plan_steps", "pick", "show_weakest", "export_list", "export_folder", "mark_asset", "update"}
+
+
+def test_a_step_is_no_model(scene):
+    """Nothing is said of whether it stands, and it is not laid, planned nor changed; the model beside it is."""
+    assert bpy.ops.legorize.build() == {"FINISHED"}
+    model = current_build(scene)
+    everything = {"result", "edits", "stability", "layers", "lots", "export"}
+    assert shown_panels() == everything
+    assert offered() == OF_STEPS | OF_MODELS
+    assert bpy.ops.legorize.show_method(step="hollowing") == {"FINISHED"}
+    step = current_build(scene)
+    assert step != model
+    assert shown_panels() == {"result", "layers", "export"}
+    assert offered() == OF_STEPS
+    scene.legorize.build = model
+    assert shown_panels() == everything
+    assert offered() == OF_STEPS | OF_MODELS
+    scene.legorize.build = step
+    assert bpy.ops.legorize.clear() == {"FINISHED"}
+    assert builds(scene) == [model]
