@@ -6,8 +6,9 @@
     python scripts/gallery.py OUT ...        where Blender is installed as the module bpy
 
 OUT gets a picture of each kind built by default and as published, of the fox
-with each kind of support, of the off-road vehicle cut open, and ``gallery.csv``
-with what each takes. The models are made on the spot, see
+with each kind of support, of the off-road vehicle cut open both ways,
+``gallery.csv`` with what each takes, and, if all kinds were asked for,
+``kinds.jpg``: all pictures on one sheet. The models are made on the spot, see
 ``research/five_kinds.py``.
 """
 
@@ -24,6 +25,7 @@ ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 import bpy  # noqa: E402 - after the path, as what follows
+import numpy as np  # noqa: E402
 
 from legorize_addon.core.build import Build  # noqa: E402
 from legorize_addon.core.measures.lower_bound import lower_bound  # noqa: E402
@@ -47,6 +49,17 @@ SAMPLES: Final = 16
 
 OWN: Final[dict[str, dict[str, Any]]] = {"relief": {"backing": 2}}
 """Settings of a kind that are not the default: a relief is held together from behind."""
+
+
+SHEET: Final = (
+    ("character default", "character as published", "off_road default", "off_road as published", "fox tree"),
+    ("relief default", "relief as published", "off_road cut open", "off_road as published cut open", "fox columns"),
+    ("tiger default", "tiger as published", "fox default", "fox as published", "fox beams"),
+)
+"""Rows of the sheet: the way of the paper to the right of the default, supports at the end."""
+
+QUALITY: Final = 90
+"""Of the sheet as JPEG."""
 
 
 class Shot(NamedTuple):
@@ -79,6 +92,7 @@ def shots(kinds: Sequence[str]) -> Iterator[Shot]:
         yield Shot(kind, "as published", preset_values("paper"))
         if kind == "off_road":
             yield Shot(kind, "cut open", own, cut=True)
+            yield Shot(kind, "as published cut open", preset_values("paper"), cut=True)
         if kind == "fox":
             yield from (
                 Shot(kind, way, {"supports": way, "hanging": 0}, supports=True) for way in ("tree", "columns", "beams")
@@ -95,8 +109,9 @@ def main(arguments: Sequence[str]) -> int:
         build = legorize(KINDS[shot.kind](), settings)
         rows.append(row(shot, build))
         print(", ".join(f"{name} {value}" for name, value in rows[-1].items()), flush=True)
-        name = f"{shot.kind}_{shot.way}".replace(" ", "_")
-        take(build, shot, options.out / f"{name}.png", options.resolution)
+        take(build, shot, picture(options.out, f"{shot.kind} {shot.way}"), options.resolution)
+    if not options.kind:
+        put_together(options.out)
     with (options.out / "gallery.csv").open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
@@ -138,6 +153,35 @@ def take(build: Build, shot: Shot, path: Path, resolution: int) -> None:
     with quiet():
         render_still(scene, path, samples=SAMPLES, resolution=size, view="section" if shot.cut else "front_right")
     clear_build(scene, shown)
+
+
+def picture(folder: Path, name: str) -> Path:
+    """Return the file of a picture."""
+    return folder / f"{name.replace(' ', '_')}.png"
+
+
+def put_together(folder: Path) -> Path:
+    """Write all pictures of a folder, in half their size, as one sheet; return its file."""
+    rows = [np.concatenate([_halved(picture(folder, name)) for name in names], axis=1) for names in SHEET]
+    # the rows of Blender's images come from below
+    pixels = np.concatenate(rows[::-1])
+    sheet = bpy.data.images.new("sheet", pixels.shape[1], pixels.shape[0])
+    sheet.pixels.foreach_set(pixels.ravel())
+    sheet.filepath_raw, sheet.file_format = str(folder / "kinds.jpg"), "JPEG"
+    sheet.save(quality=QUALITY)
+    bpy.data.images.remove(sheet)
+    return folder / "kinds.jpg"
+
+
+def _halved(path: Path) -> np.ndarray:
+    """Return the pixels (height, width, 4) of a picture, each the mean of four."""
+    image = bpy.data.images.load(str(path))
+    width, height = image.size
+    pixels = np.empty(width * height * 4, dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    whole: np.ndarray = pixels.reshape(height // 2, 2, width // 2, 2, 4).mean(axis=(1, 3))
+    return whole
 
 
 def parser() -> argparse.ArgumentParser:
