@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 from dataclasses import replace
 
@@ -329,6 +330,24 @@ def test_settings_of_every_kind_are_built(options):
     build = legorize(blob(n=8, size=32), Settings(**{"width": 14, **options}))
     check(build)
     assert build.settings.width == 14
+
+
+def test_the_published_way_tells_its_four_steps():
+    """A sentence for each step of the paper's framework, with how much and how long; a default build has none."""
+    mesh = blob(n=8, size=32)
+    build = legorize(mesh, Settings(**preset_values("paper") | {"width": 8}))
+    steps = [note for note in build.notes if note.startswith("Step ")]
+    needed = (build.hollow.cover == Fill.REQUIRED).sum()
+    assert re.match(rf"Step 1, example preparation: {needed:,} cells of .* machine: 1500, of which 500 best", steps[0])
+    assert re.match(r"Step 2, feature extraction: 4 energies of [\d,]+ simulated fills", steps[1])
+    assert re.match(r"Step 3, classification model: C 8.0, gamma 2.0, [\d,]+ support vectors, 5 folds", steps[2])
+    decisions = [
+        int(number.replace(",", "")) for number in re.findall(r"([\d,]*\d) (?:decisions|best|good|poor)", steps[3])
+    ]
+    assert decisions[0] == sum(decisions[1:]) > 0
+    assert all(re.search(r", \d+\.\d s[.;]", step) for step in steps)
+    assert len(steps) == 4
+    assert not [note for note in legorize(mesh, Settings(width=8)).notes if note.startswith("Step ")]
 
 
 def test_palette_of_one_colour():

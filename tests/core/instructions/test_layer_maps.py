@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
@@ -9,12 +11,12 @@ import pytest
 
 from legorize_addon.core.instructions.canvas import Group, Path, Text
 from legorize_addon.core.instructions.layer_maps import MAPS, layer_files, layer_pages, map_pages
-from legorize_addon.core.instructions.lots import rgb_of
+from legorize_addon.core.instructions.lots import lots_of, rgb_of
 from legorize_addon.core.instructions.paper import PAPERS
 from legorize_addon.core.instructions.shades import SUPPORT_TINT, tint_for
 from legorize_addon.core.model.bricks import Role
 from tests.core.any_bricks import CATALOGUE, table
-from tests.core.instructions.built import BRICK, PART, tower
+from tests.core.instructions.built import BRICK, PART, arm, pair, tower
 
 
 def texts(items):
@@ -45,6 +47,25 @@ def test_pages_name_lots_and_hatch_supports():
     assert {"1x", "Brick 2 x 4", "Red", "A", "1", "FRONT"} <= set(texts(pages[0].items))
     strokes = [{paint.stroke for path in paths(page.items) for paint in path.paints} for page in pages]
     assert [SUPPORT_TINT in each for each in strokes] == [True, False, False]
+
+
+@pytest.mark.parametrize(
+    "bricks", [tower(), arm().assembly.bricks, pair().assembly.bricks], ids=["tower", "arm", "pair"]
+)
+def test_counts_of_all_maps_are_the_parts_list(bricks):
+    """A map a layer of each piece; what is counted on them is every lot of the model, as often as it has bricks."""
+    pages = list(layer_pages(bricks, CATALOGUE, temporary=np.zeros(len(bricks), dtype=bool), paper=PAPERS["A4"]))
+    assert len(pages) == len(np.unique(np.column_stack([bricks.piece, bricks.corner[:, 2]]), axis=0))
+    counted: Counter[tuple[str, str]] = Counter()
+    for page in pages:
+        said = list(texts(page.items))
+        for place, text in enumerate(said):
+            if re.fullmatch(r"\d+x", text):
+                counted[said[place + 1], said[place + 2]] += int(text[:-1])
+    lots, _ = lots_of(bricks, CATALOGUE)
+    names = [(CATALOGUE.parts[lot.part].title, CATALOGUE.colours[lot.colour].name) for lot in lots]
+    assert counted == Counter(dict(zip(names, (lot.count for lot in lots), strict=True)))
+    assert counted.total() == len(bricks)
 
 
 def test_supports_have_the_tint_of_the_booklet():

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 
 from legorize_addon.core.model.assembly import Assembly
-from legorize_addon.core.supports.chassis import carried_by, chassis, without
+from legorize_addon.core.supports.assembly_plan import plan_assembly
+from legorize_addon.core.supports.chassis import LONG, carried_by, chassis, without
 from legorize_addon.core.supports.demand import support_demand
 from legorize_addon.core.supports.plan import plan_supports
 from legorize_addon.core.supports.tree import tree
@@ -90,3 +91,22 @@ def test_a_table_stands_on_them():
     long = np.array([CATALOGUE.parts[part].length for part in found.supports.part]) == 8
     assert long.any()
     assert found.bears
+
+
+@pytest.mark.parametrize("rows", [8, 16])
+def test_a_wide_underside_is_bridged(rows):
+    """At least four fifths of its rows lie on bricks of eight studs, as many on either side, and all come out again."""
+    floor = [("3007", x, y, 9) for x in (0, 8, 16) for y in range(0, rows, 2)]
+    ties = [("3007", x, y, 12, 1) for x in (7, 15) for y in range(0, rows, 8)] + [("3007", 11, rows // 2 - 4, 12, 1)]
+    foot = [("3003", 11, rows // 2 - 1, 3 * k) for k in range(3)]
+    model = Assembly(table(*foot, *floor, *ties), CATALOGUE)
+    need = support_demand(model, deepest=0)
+    boxes = chassis(need.undersides, need.contacts, need.room)
+    middle = need.undersides[:, 1].min() + rows // 2
+    bridged = {y + step for y, wide in boxes[:, [1, 4]].tolist() for step in range(wide)}
+    assert len(bridged & set(need.undersides[:, 1].tolist())) >= 0.8 * rows
+    assert (boxes[:, 1] < middle).sum() == (boxes[:, 1] >= middle).sum() > 0
+    found = plan_assembly(model, wish="tree", deepest=0, long_bricks=True)
+    assert (np.array([CATALOGUE.parts[part].length for part in found.removed.part]) == LONG).sum() == len(boxes)
+    assert len(found.walk.stuck) == 0
+    assert found.walk.buildable

@@ -110,32 +110,18 @@ def test_symmetry_of_small_layouts(rows, expected):
     assert symmetry(owner, of_one_colour(owner)) == pytest.approx(expected)
 
 
-def test_symmetry_counts_the_unbalanced_bricks():
-    """6 of 9 and 5 of 9 as in the published figures; 13 of 29; and 0 of 8."""
-    balanced, unbalanced = "aabbccdd", "eeeffgg"
-    for n_odd, n in ((6, 9), (5, 9), (13, 29), (0, 8)):
-        # rows of pairs that mirror each other, and rows of a long and a short brick that do not
-        rows, names = [], iter(map(chr, range(ord("A"), ord("A") + 400)))
-        odd, even = n_odd, n - n_odd
-        while odd >= 2:
-            a, b = next(names), next(names)
-            rows.append(a * 5 + b * 3)
-            odd -= 2
-        if odd:
-            rows.append(next(names) * 3 + "." * 5)
-        while even >= 2:
-            a, b = next(names), next(names)
-            rows.append(a * 4 + b * 4)
-            even -= 2
-        if even:
-            rows.append(next(names) * 8)
-        # blank rows between, so that no row mirrors another one
-        owner = layer(*(row for row in rows for _ in (0, 1, 2, 3)))
-        assert owner.max() + 1 == n
-        assert symmetry(owner, of_one_colour(owner)) <= n_odd / n + 1e-12
-        left_right = symmetry(np.vstack([owner, np.full((1, 8), -1)]), of_one_colour(owner))
-        assert left_right == pytest.approx(min(n_odd / n, left_right))
-    assert balanced != unbalanced
+@pytest.mark.parametrize(("odd", "n"), [(6, 9), (5, 9), (13, 29), (0, 8), (0, 11)])
+def test_symmetry_counts_the_unbalanced_bricks(odd, n):
+    """6 of 9 and 5 of 9, 0 of 8 and 0 of 11 as in the published figures; and 13 of 29."""
+    names = iter(map(chr, range(ord("A"), ord("A") + n)))
+    # a long and a short brick in a row have no mirror image, nor has a short one alone; two equal ones are each other's
+    # and the axis goes through the middle of one that is as long as the row
+    shapes = [(5, 3)] * (odd // 2) + [(3,)] * (odd % 2) + [(4, 4)] * ((n - odd) // 2) + [(8,)] * ((n - odd) % 2)
+    owner = layer(*("".join(next(names) * length for length in row).ljust(8, ".") for row in shapes))
+    assert owner.max() + 1 == n
+    # up and down, where no row but the one in the middle is like its mirror image, even more is unbalanced
+    assert symmetry(owner, of_one_colour(owner)) == pytest.approx(odd / n)
+    assert symmetry(owner.T, of_one_colour(owner)) == pytest.approx(odd / n)
 
 
 def test_colour_breaks_symmetry():

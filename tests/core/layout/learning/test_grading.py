@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from sklearn.svm import SVC
 
+from legorize_addon.core.layout.learning.cross_validation import FOLDS
 from legorize_addon.core.layout.learning.energies import gauss_normalised
+from legorize_addon.core.layout.learning.grade_training import GRADE_COSTS, GRADE_GAMMAS, train_grades
 from legorize_addon.core.layout.learning.grading import (
     ENERGIES,
     GRADES,
@@ -36,12 +40,36 @@ def some(n=90, seed=0):
 
 
 def test_the_shipped_samples():
-    """As many of each grade, from at least five models, no two alike: so no kind of two grades."""
+    """500 of each grade, of four energies, from 30 models, no two alike: so no kind of two grades."""
     samples, facts = read_graded(TEXT)
-    assert np.bincount(samples.grade).tolist() == [len(samples.grade) // 3] * 3
-    assert len(np.unique(samples.model)) >= 5
-    assert len(np.unique(samples.energies, axis=0)) == len(samples.grade) >= 270
+    assert np.bincount(samples.grade).tolist() == [500, 500, 500]
+    assert samples.energies.shape == (1500, 4)
+    assert len(np.unique(samples.model)) == 30
+    assert len(np.unique(samples.energies, axis=0)) == len(samples.grade)
     assert {"made by", "seed", "models", "versions", "C", "gamma", "cross-validation", "confusion"} <= set(facts)
+
+
+def test_averages_are_those_of_the_confusion():
+    """The averages that the file tells follow from its confusion; C and gamma are the best of those it lists."""
+    _, facts = read_graded(TEXT)
+    confusion = np.array(facts["confusion"].split(), dtype=int).reshape(3, 3)
+    assert confusion.sum(axis=1).tolist() == [500, 500, 500]
+    micro = np.trace(confusion) / confusion.sum()
+    f1 = 2 * np.diag(confusion) / (confusion.sum(axis=0) + confusion.sum(axis=1))
+    told = f"{FOLDS} folds by model, micro F1 {micro:.3f}, macro F1 {f1.mean():.3f}"
+    assert facts["cross-validation"] == told
+    tried = re.findall(r"\(([\d.]+), ([\d.]+)\) ([\d.]+)", facts["shares of right answers by (C, gamma)"])
+    assert len(tried) == len(GRADE_COSTS) * len(GRADE_GAMMAS)
+    best = max(tried, key=lambda each: float(each[2]))
+    assert (float(best[0]), float(best[1])) == (float(facts["C"]), float(facts["gamma"]))
+    assert float(best[2]) == pytest.approx(micro, abs=5e-4)
+
+
+def test_models_that_were_held_back_are_told_better_than_by_chance():
+    """Five folds by model again, drawn otherwise: about as many right answers as the file tells, a third by chance."""
+    samples, facts = read_graded(TEXT)
+    again = train_grades(samples, np.random.default_rng(1), costs=[float(facts["C"])], gammas=[float(facts["gamma"])])
+    assert again.micro == pytest.approx(float(facts["cross-validation"].split("micro F1 ")[1][:5]), abs=0.03)
 
 
 def test_prediction_is_that_of_scikit_learn():
