@@ -53,10 +53,8 @@ def lay_around_slopes(grid: UnitGrid, slopes: Bricks, catalogue: Catalogue, lay:
 
 
 def _beside_loose(bricks: Bricks, links: ContactGraph, catalogue: Catalogue) -> Mask:
-    """Return the slopes that are outside of the largest component on the ground, or touch what is."""
-    standing = np.bincount(links.component, links.grounded) > 0
-    main = int(np.where(standing, np.bincount(links.component), 0).argmax())
-    loose = links.component != main
+    """Return the slopes that are outside of the largest component, or touch what is: what stands may be a foot."""
+    loose = links.component != np.bincount(links.component).argmax()
     near = ndimage.binary_dilation(np.append(loose, False)[links.owner])
     touched = np.zeros(len(bricks), bool)
     touched[links.owner[near & (links.owner != NOBODY)]] = True

@@ -61,3 +61,15 @@ def test_what_is_loose_without_slopes_too():
     bricks, _ = lay_around_slopes(brick_grid(colour), slopes, CATALOGUE, lay)
     assert contact_graph(bricks, CATALOGUE).n_components == 2
     assert np.count_nonzero(bricks.part == ROW("3039")) == 1
+
+
+def test_a_model_on_a_loose_foot():
+    """Where the part that stands is small and loose, slopes on the large one stay."""
+    colour = np.full((3, 2, 12), COLOUR_EMPTY)
+    colour[1:, :, :6] = RED
+    colour[2, :, 5] = COLOUR_EMPTY
+    colour[0, :, 9:] = RED
+    slopes = table([(ROW("3039"), 4, 0, 6, 0, RED, Role.SHELL, 0, 1)])
+    bricks, _ = lay_around_slopes(brick_grid(colour), slopes, CATALOGUE, lay)
+    assert contact_graph(bricks, CATALOGUE).n_components == 2
+    assert np.count_nonzero(bricks.part == ROW("3039")) == 1
