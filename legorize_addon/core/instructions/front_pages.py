@@ -3,29 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from ..building import Kind
 from ..model import Bricks, Catalogue
+from ..progress import duration
+from ..shopping import SECONDS_A_BRICK
 from ..units import PLATE, STUD
-from .canvas import Item, Page, Paint, Rgb, Text, moved, rectangle
+from .canvas import Item, Page, Paint, Rgb, Text, lines, moved, rectangle
 from .fonts import shortened, width, wrapped
 from .icons import arrow, turn_sign
 from .lattice import FRONT, View
 from .lettering import Title
-from .lots import GREY, Lot, lots_of, picture_of, placed
+from .lots import ANY, GREY, Lot, entries_of, lots_of, picture_of, placed
 from .panel_layout import SUB
 from .panels import Panels
 from .paper import FOOT, MARGIN, Paper, foot
 from .picture import MM, Picture
 from .plans import plan_outlines
 from .shades import PALE, mixed, tinted
-
-PER_MINUTE: Final = 4
-"""Bricks that hands find and place in a minute, at a guess that the cover tells."""
+from .standing import LIFTED
 
 DISCLAIMER: Final = (
     "LEGO is a trademark of the LEGO Group, which does not sponsor, authorize or endorse this model or this booklet."
@@ -33,8 +32,8 @@ DISCLAIMER: Final = (
 
 _MM_PER_CM: Final = 10.0
 
-Entry = tuple[Lot, Rgb | None]
-"""A lot of a parts list; those of supports have a tint."""
+_VALUE, _WHAT = 7.5, 3.6
+"""mm of the letters of a figure on the cover, and of what it is."""
 
 
 def cover(panels: Panels, title: Title, paper: Paper) -> Page:
@@ -50,11 +49,13 @@ def cover(panels: Panels, title: Title, paper: Paper) -> Page:
         _fitted(picture, MARGIN, MARGIN + 26, paper.width - 2 * MARGIN, paper.height - 34 - MARGIN - 32),
     ]
     facts = _facts(panels, model)
-    step = (paper.width - 2 * MARGIN) / len(facts)
-    for number, (value, what) in enumerate(facts):
-        x = MARGIN + 2 + number * step
-        items.append(Text(value, x, paper.height - 19, 7.5, bold=True, colour=(255, 255, 255)))
-        items.append(Text(what, x, paper.height - 11, 3.6, colour=(214, 230, 244)))
+    wide = [max(width(value, _VALUE, bold=True), width(what, _WHAT)) for value, what in facts]
+    # as much room behind the long ones as behind the short ones: readers have wider fonts than ours
+    x, gap = MARGIN + 2, (paper.width - 2 * MARGIN - 4 - sum(wide)) / len(facts)
+    for (value, what), room in zip(facts, wide, strict=True):
+        items.append(Text(value, x, paper.height - 19, _VALUE, bold=True, colour=(255, 255, 255)))
+        items.append(Text(what, x, paper.height - 11, _WHAT, colour=(214, 230, 244)))
+        x += room + gap
     return Page(paper.width, paper.height, items, "Cover")
 
 
@@ -71,15 +72,8 @@ def _facts(panels: Panels, model: Bricks) -> list[tuple[str, str]]:
         (f"{across:.0f} x {deep:.0f} x {high:.0f} cm", "wide, deep, high"),
         (f"{len(model)} bricks", f"{len(lots)} kinds in {colours} colour{'s' * (colours != 1)}"),
         (f"{len(panels.steps)} steps", f"with {supports} support bricks to take out" if supports else "no supports"),
-        (_time(len(panels.bricks)), f"at {PER_MINUTE} bricks a minute"),
+        (f"about {duration(SECONDS_A_BRICK * len(panels.steps.moves))}", "for practised hands"),
     ]
-
-
-def _time(bricks: int) -> str:
-    minutes = bricks / PER_MINUTE
-    if minutes < 55:
-        return f"about {max(5, round(minutes / 5) * 5)} min"
-    return f"about {minutes / 60:.0f} h" if minutes > 150 else f"about {round(minutes / 30) / 2:g} h"
 
 
 def _fitted(picture: Picture, x: float, y: float, wide: float, high: float) -> Item:
@@ -93,15 +87,19 @@ def how_to_read(panels: Panels, paper: Paper, number: int, remarks: Sequence[str
     """Return the page that tells what colours and signs mean, as far as this model has them, and remarks."""
     items: list[Item] = [Text("How to read the steps", MARGIN, MARGIN + 8, 9, bold=True)]
     y = MARGIN + 22.0
-    for sign, text in _signs(panels):
+    signs = list(_signs(panels))
+    below = sum(6.5 * len(wrapped(remark, 5, paper.width - 2 * MARGIN)) + 4 for remark in remarks)
+    # closer together where there are many
+    room = (paper.height - MARGIN - FOOT - y - below) / len(signs)
+    for sign, text in signs:
         items.append(moved(sign, MARGIN, y))
         for row, line in enumerate(wrapped(text, 5, paper.width - 2 * MARGIN - 32)):
             items.append(Text(line, MARGIN + 30, y + 6 + 6.5 * row, 5))
-        y += 19
+        y += min(19.0, max(room, 14.0))
     for remark in remarks:
-        lines = wrapped(remark, 5, paper.width - 2 * MARGIN)
-        items += [Text(line, MARGIN, y + 6 + 6.5 * row, 5) for row, line in enumerate(lines)]
-        y += 6.5 * len(lines) + 4
+        rows = wrapped(remark, 5, paper.width - 2 * MARGIN)
+        items += [Text(line, MARGIN, y + 6 + 6.5 * row, 5) for row, line in enumerate(rows)]
+        y += 6.5 * len(rows) + 4
     return Page(paper.width, paper.height, (*items, *foot(number, paper)), "How to read the steps")
 
 
@@ -127,7 +125,21 @@ def _signs(panels: Panels) -> Iterator[tuple[list[Item], str]]:
             [rectangle(2, 0, 18, 11, Paint(fill=SUB))],
             ("Behind what is built by itself on the table, and put on as a whole later; 2x means two of it."),
         )
+    if any(panels.loose(shot) for shot in panels.shots):
+        yield _squares(), "Squares of one stud each, where groups stand apart: they tell how far."
+    if any(panels.may_lift(shot) for shot in panels.shots):
+        yield (
+            [lines(np.array([[(11.0, 0.0), (11.0, 11.0)]]), Paint(stroke=LIFTED, width=0.7, dash=(1.8, 1.2)))],
+            "Blue lines: drawn above their places, which they would hide. Push them straight down along the lines.",
+        )
     yield [Text("7b", 5, 9, 9, bold=True)], "A step whose bricks hide each other has several pictures: a, b, ..."
+
+
+def _squares() -> list[Item]:
+    thin = Paint(stroke=(150, 154, 160), width=0.2)
+    ends = [[(x, 1.0), (x, 10.0)] for x in np.arange(2.0, 21.0, 3.0).tolist()]
+    ends += [[(2.0, y), (20.0, y)] for y in (1.0, 4.0, 7.0, 10.0)]
+    return [lines(np.array(ends), thin)]
 
 
 def _chip(fill: Rgb, line: Rgb = (20, 20, 22)) -> list[Item]:
@@ -136,11 +148,10 @@ def _chip(fill: Rgb, line: Rgb = (20, 20, 22)) -> list[Item]:
 
 def parts_pages(panels: Panels, paper: Paper, first: int) -> Iterator[Page]:
     """Yield the parts list with pictures: of the model, and then of its supports, on the same page if there is room."""
-    model, supports = (panels.bricks.take(rows) for rows in (~panels.temporary, panels.temporary))
-    # supports are of any colour: those of one part are one entry
-    lists: tuple[tuple[str, list[Entry]], ...] = (
-        ("Parts", [(lot, None) for lot in lots_of(model, panels.catalogue)[0]]),
-        (SUPPORT_PARTS, [(lot, panels.tint) for lot in lots_of(_of_one_colour(supports), panels.catalogue)[0]]),
+    found, _ = entries_of(panels.bricks, panels.catalogue, panels.temporary, panels.tint)
+    lists = (
+        ("Parts", [entry for entry in found if entry[1] is None]),
+        (SUPPORT_PARTS, [entry for entry in found if entry[1] is not None]),
     )
     items: list[Item] = []
     y, title = MARGIN, "Parts"
@@ -148,13 +159,13 @@ def parts_pages(panels: Panels, paper: Paper, first: int) -> Iterator[Page]:
     wide = (paper.width - 2 * MARGIN) / across
     for name, entries in lists:
         for start in range(0, len(entries), across):
-            head = 0.0 if start and items else _HEAD
+            head = 0.0 if start and items else _HEAD + (_APART if items else 0.0)
             if items and y + head + _CELL[1] > low:
                 yield Page(paper.width, paper.height, (*items, *foot(first, paper)), title)
                 items, y, first, title, head = [], MARGIN, first + 1, name, _HEAD
-            if head:
-                items += _heading(name, sum(lot.count for lot, _ in entries), y)
             y += head
+            if head:
+                items += _heading(name, sum(lot.count for lot, _ in entries), y - _HEAD)
             for column, (lot, tint) in enumerate(entries[start : start + across]):
                 items.append(moved(_entry(lot, tint, panels.catalogue, wide - 4), MARGIN + column * wide, y))
             y += _CELL[1]
@@ -169,10 +180,6 @@ def _heading(title: str, count: int, y: float) -> list[Item]:
     ]
 
 
-def _of_one_colour(bricks: Bricks) -> Bricks:
-    return replace(bricks, colour=np.full_like(bricks.colour, bricks.colour.max(initial=0)))
-
-
 SUPPORT_PARTS: Final = "Parts for the supports, of any colour"
 
 _CELL: Final = (34.0, 28.5)
@@ -180,6 +187,9 @@ _CELL: Final = (34.0, 28.5)
 
 _HEAD: Final = 13.0
 """mm of a heading above entries."""
+
+_APART: Final = 7.0
+"""mm between the entries of a list and the heading of the next."""
 
 
 def _entry(lot: Lot, tint: Rgb | None, catalogue: Catalogue, room: float) -> list[Item]:
@@ -194,7 +204,7 @@ def _entry(lot: Lot, tint: Rgb | None, catalogue: Catalogue, room: float) -> lis
         placed(picture, 0, 17 - picture.size[1] * unit, unit / MM),
         Text(count, 0, 21.5, 4.2, bold=True),
         Text(shortened(part.title, 2.5, room - step), step, 21.5, 2.5),
-        Text(shortened(colour.name if tint is None else "any colour", 2.5, room), 0, 24.8, 2.5, colour=GREY),
+        Text(shortened(colour.name if tint is None else ANY, 2.5, room), 0, 24.8, 2.5, colour=GREY),
         Text(str(element or part.number), 0, 27.6, 2.2, colour=(150, 152, 158)),
     ]
 

@@ -37,7 +37,7 @@ def slabs_of(sight: Sight) -> Iterator[Slab]:
     for each in there[::-1] if view.below else there:
         mine = number[cells.brick] == each
         half = bricks.shift[cells.brick[mine][0], :2]
-        yield Slab(look(cells.take(mine), len(bricks)), _moved(half, view))
+        yield Slab(look(cells.take(mine), len(bricks)), moved_by(half, view))
 
 
 def slab_numbers(bricks: Bricks) -> Ints:
@@ -50,7 +50,7 @@ def slab_numbers(bricks: Bricks) -> Ints:
     return number
 
 
-def _moved(half: Floats, view: View) -> Floats:
+def moved_by(half: Floats, view: View) -> Floats:
     """Return how far studs along x and y go in a picture, to the right and downwards."""
     x, y = half.tolist()
     for _ in range(view.turns % 4):

@@ -16,7 +16,7 @@ from .canvas import WHITE, Group, Item, Page, Paint, Path, Rgb, Text, lines, mov
 from .fonts import width
 from .layers import Layer, by_tiles, layers_of
 from .legend import Legend, lettered
-from .lots import GREY, lots_of, rgb_of
+from .lots import GREY, entries_of, rgb_of
 from .map_frame import LABELS, TITLE, Frame, map_room
 from .paper import MARGIN, Paper, foot
 from .plans import STUD, by_colour, hatched, plan_outlines, plan_studs
@@ -89,8 +89,9 @@ def layer_pages(
     """
     # the tint of the supports in the booklet, as the model is the same
     tint = tint_for(rgb_of(bricks.take(~temporary), catalogue))
-    layers, whole = _mapped(bricks, catalogue, paper, actual_size=actual_size)
-    legends = _legends(bricks, catalogue, layers, paper)
+    layers, whole = _mapped(bricks, catalogue, temporary, paper, actual_size=actual_size)
+    legends = _legends(bricks, catalogue, temporary, layers, paper)
+    widest = _widest(legends)
     tiles = sorted({layer.tile for layer in layers if layer.tile})
     for number, (layer, legend) in enumerate(zip(layers, legends, strict=True)):
         progress("layer maps", number / len(layers))
@@ -98,10 +99,13 @@ def layer_pages(
             continue
         new, frame = bricks.take(layer.new), whole
         if layer.tile:
-            frame = Frame.of_tile(plan_outlines(new, catalogue)[0], layer.tile, whole, _widest(legends), paper)
+            frame = Frame.of_tile(plan_outlines(new, catalogue)[0], layer.tile, whole, widest, paper)
         elif layer.box:
             frame = Frame.of_box(layer.box, whole, legend.width, paper)
-        lots, lot = lots_of(new, catalogue)
+        if not layer.box:
+            # the map leaves so much room beside it, so that names need not be cut
+            legend = legend._replace(width=widest)
+        lots, lot = entries_of(new, catalogue, temporary[layer.new], tint)
         items = (
             *_heading(layer, f"{number + 1} of {len(layers)}", frame, actual_size=actual_size),
             *_labels(frame),
@@ -114,10 +118,12 @@ def layer_pages(
         yield Page(frame.width, frame.height, items, layer.title)
 
 
-def _mapped(bricks: Bricks, catalogue: Catalogue, paper: Paper, *, actual_size: bool) -> tuple[list[Layer], Frame]:
+def _mapped(
+    bricks: Bricks, catalogue: Catalogue, temporary: Mask, paper: Paper, *, actual_size: bool
+) -> tuple[list[Layer], Frame]:
     """Return what gets a map each, and the frame of maps that show the whole."""
     layers = by_tiles(layers_of(bricks, catalogue), tile_places(bricks, catalogue))
-    legend = _widest(_legends(bricks, catalogue, layers, paper))
+    legend = _widest(_legends(bricks, catalogue, temporary, layers, paper))
     whole = Frame.of(bricks, catalogue, legend, paper, actual_size=actual_size)
     if not actual_size:
         layers = zoomed(layers, bricks, catalogue, whole, map_room(legend, paper), SMALLEST / _LETTER)
@@ -148,9 +154,12 @@ _HEAD: Final = 11.0
 """mm of the picture of all tiles."""
 
 
-def _legends(bricks: Bricks, catalogue: Catalogue, layers: Iterable[Layer], paper: Paper) -> list[Legend]:
+def _legends(
+    bricks: Bricks, catalogue: Catalogue, temporary: Mask, layers: Iterable[Layer], paper: Paper
+) -> list[Legend]:
     """Return the legends of maps."""
-    counts = [len(lots_of(bricks.take(layer.new), catalogue)[0]) for layer in layers]
+    rows = [layer.new for layer in layers]
+    counts = [len(entries_of(bricks.take(new), catalogue, temporary[new], WHITE)[0]) for new in rows]
     return [Legend.of(count, paper.height - 2 * MARGIN - TITLE) for count in counts]
 
 
@@ -297,9 +306,12 @@ def map_pages(
     skip : int
         Pages from the first one on that are not drawn.
     """
-    rows = next(
-        (n for n in (3, 2) if _mapped(bricks, catalogue, _strip(paper, n), actual_size=False)[1].stud >= _READABLE), 1
-    )
+    rows = 1
+    for several in (3, 2):
+        _, frame = _mapped(bricks, catalogue, temporary, _strip(paper, several), actual_size=False)
+        if frame.stud >= _READABLE:
+            rows = several
+            break
     strip = _strip(paper, rows)
     drawn = layer_pages(bricks, catalogue, temporary=temporary, paper=strip, skip=skip * rows, progress=progress)
     start = skip * rows

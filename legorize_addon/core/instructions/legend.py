@@ -6,13 +6,13 @@ from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
 from ..model import Catalogue
-from .canvas import Item, Text, moved
+from .canvas import Item, Rgb, Text, moved
 from .fonts import shortened
-from .lots import GREY, Lot, picture_of, placed
+from .lots import ANY, GREY, Entry, Lot, picture_of, placed
 from .picture import MM
 
 _COLUMN: Final = 66.0
-"""mm of a column."""
+"""mm of a column at least."""
 
 _ROW: Final = 13.0
 _LEAST_ROW: Final = 6.5
@@ -38,12 +38,14 @@ class Legend(NamedTuple):
         Lots in a column.
     row : float
         mm of a lot.
+    columns : int
     width : float
         mm of all columns.
     """
 
     rows: int
     row: float
+    columns: int
     width: float
 
     @classmethod
@@ -52,28 +54,33 @@ class Legend(NamedTuple):
         most = int(room / _LEAST_ROW)
         columns = max(1, -(-lots // most))
         rows = max(1, -(-lots // columns))
-        return cls(rows, min(_ROW, room / rows), columns * _COLUMN)
+        return cls(rows, min(_ROW, room / rows), columns, columns * _COLUMN)
 
-    def items(self, lots: Sequence[Lot], catalogue: Catalogue) -> Iterator[Item]:
-        """Yield the callouts: letter, picture, count, size and colour."""
-        for number, lot in enumerate(lots):
+    def items(self, entries: Sequence[Entry], catalogue: Catalogue) -> Iterator[Item]:
+        """Yield the callouts: letter, picture, count, size and colour; supports are of any colour."""
+        wide = self.width / self.columns
+        for number, (lot, tint) in enumerate(entries):
             column, row = divmod(number, self.rows)
-            yield moved(tuple(_callout(lettered(number), lot, catalogue, self.row)), column * _COLUMN, row * self.row)
+            shown = tuple(_callout(lettered(number), lot, tint, catalogue, (wide, self.row)))
+            yield moved(shown, column * wide, row * self.row)
 
 
-def _callout(letters: str, lot: Lot, catalogue: Catalogue, row: float) -> Iterator[Item]:
-    picture = picture_of(lot, catalogue)
+def _callout(
+    letters: str, lot: Lot, tint: Rgb | None, catalogue: Catalogue, size: tuple[float, float]
+) -> Iterator[Item]:
+    wide, row = size
+    picture = picture_of(lot, catalogue, tint)
     box = 17.0, row - 1.2
-    scale = min(0.42, *(room / (size * MM) for room, size in zip(box, picture.size.tolist(), strict=True)))
-    wide, high = (picture.size * MM * scale).tolist()
+    scale = min(0.42, *(room / (length * MM) for room, length in zip(box, picture.size.tolist(), strict=True)))
+    across, high = (picture.size * MM * scale).tolist()
     middle = row / 2
-    part, colour = catalogue.parts[lot.part], catalogue.colours[lot.colour]
+    part, colour = catalogue.parts[lot.part], ANY if tint else catalogue.colours[lot.colour].name
     yield Text(letters, 5, middle + 1.1, 3, bold=True, anchor="end")
-    yield placed(picture, 6.5 + (box[0] - wide) / 2, middle - high / 2, scale)
+    yield placed(picture, 6.5 + (box[0] - across) / 2, middle - high / 2, scale)
     yield Text(f"{lot.count}x", 34, middle + 1.4, 4, bold=True, anchor="end")
     title = part.title.removeprefix("Brick ") if part.height > 1 else part.title
     if row < 9:
-        yield Text(shortened(f"{title}, {colour.name}", 2.6, _COLUMN - 36), 35.5, middle + 1, 2.6, colour=GREY)
+        yield Text(shortened(f"{title}, {colour}", 2.6, wide - 36), 35.5, middle + 1, 2.6, colour=GREY)
         return
     yield Text(part.title, 35.5, middle - 0.4, 2.8)
-    yield Text(shortened(colour.name, 2.8, _COLUMN - 36), 35.5, middle + 3.2, 2.8, colour=GREY)
+    yield Text(shortened(colour, 2.8, wide - 36), 35.5, middle + 3.2, 2.8, colour=GREY)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Final
 
@@ -64,6 +64,43 @@ def lots_of(bricks: Bricks, catalogue: Catalogue) -> tuple[tuple[Lot, ...], Ints
     row, place = np.divmod(keys, len(studs))
     found = zip(rank[place].tolist(), row.tolist(), count.tolist(), strict=True)
     return tuple(Lot(*each) for each in found), lot.reshape(-1).astype(np.int64)
+
+
+Entry = tuple[Lot, Rgb | None]
+"""A lot of a list; those of supports have a tint."""
+
+ANY: Final = "any colour"
+"""Colour of supports in lists."""
+
+
+def entries_of(bricks: Bricks, catalogue: Catalogue, support: Mask, tint: Rgb) -> tuple[tuple[Entry, ...], Ints]:
+    """Sort bricks into lots for a list, the supports last: they are of any colour, so those of one part are one lot.
+
+    Parameters
+    ----------
+    bricks : Bricks
+        n rows.
+    catalogue : Catalogue
+    support : (n,) bool array
+        Bricks that are taken out again.
+    tint : tuple of three int
+
+    Returns
+    -------
+    entries : tuple of Entry
+    lot : (n,) int64 array
+        Row of each brick's entry.
+    """
+    found: list[Entry] = []
+    row = np.empty(len(bricks), dtype=np.int64)
+    for rows, colour in ((~support, None), (support, tint)):
+        some = bricks.take(rows)
+        if colour is not None:
+            some = replace(some, colour=np.full_like(some.colour, some.colour.max(initial=0)))
+        lots, lot = lots_of(some, catalogue)
+        row[rows] = len(found) + lot
+        found += [(each, colour) for each in lots]
+    return tuple(found), row
 
 
 def rgb_of(bricks: Bricks, catalogue: Catalogue) -> Ints:

@@ -6,13 +6,12 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Final
 
-from ..arrays import Mask
 from ..building import Action
 from .canvas import Item, Paint, Rgb, Text, moved, rectangle
 from .closeup import LOCATOR
 from .fonts import width, wrapped
 from .icons import arrow, turn_sign
-from .lots import GREY, Callout, callout, lots_of, placed
+from .lots import GREY, Callout, callout, entries_of, placed
 from .panels import Panel, Panels
 from .picture import MM
 
@@ -101,9 +100,7 @@ def _parts(panels: Panels, panel: Panel, room: float) -> Callout:
     if not len(panel.placed):
         return Callout((), 0.0, 0.0)
     some = panels.bricks.take(panel.placed)
-    support = panels.temporary[panel.placed]
-    tints: tuple[tuple[Mask, Rgb | None], ...] = ((~support, None), (support, panels.tint))
-    lots = [(lot, tint) for rows, tint in tints for lot in lots_of(some.take(rows), panels.catalogue)[0]]
+    lots, _ = entries_of(some, panels.catalogue, panels.temporary[panel.placed], panels.tint)
     inside = callout(lots, panels.catalogue, room=room, scale=_PARTS)
     wide, high = inside.width + 2 * _PAD, inside.height + 2 * _PAD
     box = rectangle(0, 0, wide, high, Paint(fill=BOX))

@@ -21,8 +21,9 @@ from .picture import Look, Picture, at, extent
 from .regions import outlines
 from .shades import pale
 from .shots import Shot, shots
-from .sightlines import Scene, Stage, scenes
+from .sightlines import Scene, Stage, removal, scenes
 from .slopes import draw_all
+from .standing import Standing, table_grid, ways_down
 
 _GHOST: Final = Paint(stroke=(120, 124, 130), width=2.2, dash=(9.0, 7.0))
 
@@ -51,6 +52,8 @@ class Panel:
         Width and height of what is shown in the units of the picture.
     shares : (k,) float64 array
         Share of what could be seen of each new brick that is seen.
+    lift : int
+        Plates by which the new bricks are drawn above their places, as they would hide those.
     """
 
     shot: Shot
@@ -65,6 +68,7 @@ class Panel:
     window: Window | None
     size: Floats
     shares: Floats
+    lift: int
 
 
 class Panels:
@@ -95,6 +99,7 @@ class Panels:
     ) -> None:
         self.bricks, self.catalogue, self.steps, self.temporary, self.tint = bricks, catalogue, steps, temporary, tint
         self.stage, self._room = Stage(bricks, catalogue), room
+        self.standing = Standing(bricks, catalogue)
         self._smooth = ~catalogue.studs[bricks.part]
         self.shots = list(shots(steps, temporary=temporary))
         self._own = own = shown_rgb(bricks, catalogue, temporary, tint)
@@ -129,24 +134,28 @@ class Panels:
         letters = [chr(ord("a") + start + number) if lettered else "" for number in range(len(found))]
         panels, stays = [], shot.stays
         for letter, (scene, turned) in zip(letters, found, strict=True):
+            low, high = extent(scene.sight)
+            lift = 0
+            if self.may_lift(shot):
+                scene, lift = self.standing.lifted(self.stage, scene, stays)
+                low, high = _around((low, high), extent(scene.sight))
             drawn = np.setdiff1d(stays, scene.left_out)
             listed = scene.new[np.isin(scene.new, shot.placed)]
             window = window_of(scene.sight, scene.new, self._room)
-            low, high = window or extent(scene.sight)
+            low, high = window or (low, high)
             last = letter == letters[-1] and table == step.submodel
             panels.append(
                 Panel(shot, letter, last, scene.view, drawn, scene.new, scene.left_out, listed, turned, window,
-                      high - low, scene.shares)
+                      high - low, scene.shares, lift)
             )  # fmt: skip
             stays = np.concatenate([stays, scene.new])
         return panels
 
     def _scenes(self, shot: Shot, first: View) -> list[Scene]:
         if shot.step.action == Action.REMOVE:
-            views = dict.fromkeys((first, *(View(turns) for turns in range(4))))
-            seen = [self.stage.scene(shot.stays, shot.placed, view) for view in views]
-            best = max(scene.shares.mean() for scene in seen)
-            return [next(scene for scene in seen if scene.shares.mean() >= 0.8 * best)]
+            return [removal(self.stage, shot.stays, shot.placed, first, self.standing.groups(shot.placed))]
+        # what lies on its back stands again before something is put on from above
+        first = first if shot.step.pressed else first._replace(below=False)
         return list(scenes(self.stage, shot.stays, shot.placed, shot.came, first, below=shot.step.pressed))
 
     def picture(self, panel: Panel, room: tuple[float, float] = (0.0, 0.0)) -> Picture:
@@ -154,25 +163,44 @@ class Panels:
         new = np.zeros(len(self.bricks), dtype=bool)
         new[panel.new] = True
         colour = np.where(new[:, None], self._own, self._pale)
-        sight = self.stage.sight(np.concatenate([panel.stays, panel.new]), panel.view)
-        window = None
+        sight = self._sight(panel)
+        window, whole = None, extent(sight)
+        if panel.lift:
+            # the places to which new bricks come down are within the picture, too
+            whole = _around(whole, extent(self.stage.sight(np.concatenate([panel.stays, panel.new]), panel.view)))
         if panel.window is not None:
             window = grown(panel.window, sight, np.array(room))
             sight = cut(sight, window)
         made = draw_all(sight, Look(colour, new, studs=not panel.view.below, smooth=self._smooth))
         ghosts = list(_outlines(self.stage.sight(panel.left_out, panel.view))) if len(panel.left_out) else []
+        stands = self.loose(panel.shot) and not panel.view.below
+        grid = [table_grid(sight, *(window or whole))] if stands else []
+        ways = ways_down(sight, self.standing.joints(panel.stays, panel.new)[1], panel.lift) if panel.lift else ()
+        items = (*grid, *made.items, *ways, *ghosts)
         if window is not None:
-            return Picture(framed((*made.items, *ghosts), window), *window)
+            return Picture(framed(items, window), *window)
         if not ghosts:
-            return made
+            return Picture(items, *_around(whole, (made.low, made.high)))
         points = np.concatenate([np.stack([made.low, made.high]), *(ghost.points.astype(float) for ghost in ghosts)])
-        return Picture((*made.items, *ghosts), points.min(axis=0), points.max(axis=0))
+        return Picture(items, points.min(axis=0), points.max(axis=0))
+
+    def _sight(self, panel: Panel) -> Sight:
+        lifted = (panel.new, panel.lift) if panel.lift else None
+        return self.stage.sight(np.concatenate([panel.stays, panel.new]), panel.view, lifted)
+
+    def loose(self, shot: Shot) -> bool:
+        """Tell whether groups stand apart in a step: a grid on the table tells how far."""
+        return shot.step.action != Action.REMOVE and self.standing.apart(np.concatenate([shot.before, shot.new]))
+
+    def may_lift(self, shot: Shot) -> bool:
+        """Tell whether new bricks are drawn above their places in a step, if they hide those."""
+        return self.steps.submodels[shot.submodel].kind == Kind.SUBASSEMBLY
 
     def locator(self, panel: Panel, picture: Picture) -> list[Item]:
         """Draw the small picture of the whole that says which part a picture shows; nothing if it shows all."""
         if panel.window is None:
             return []
-        sight = self.stage.sight(np.concatenate([panel.stays, panel.new]), panel.view)
+        sight = self._sight(panel)
         return locator(sight, panel.new, (picture.low, picture.high))
 
     def whole(self, view: View, rows: Ints) -> Picture:
@@ -181,6 +209,10 @@ class Panels:
         new = np.ones(len(self.bricks), dtype=bool)
         look = Look(rgb_of(self.bricks, self.catalogue), new, studs=not view.below, smooth=self._smooth)
         return draw_all(sight, look)
+
+
+def _around(one: Window, other: Window) -> Window:
+    return np.minimum(one[0], other[0]), np.maximum(one[1], other[1])
 
 
 def _rgb(row: Ints) -> Rgb:

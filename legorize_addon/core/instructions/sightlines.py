@@ -9,7 +9,7 @@ outline.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -67,14 +67,18 @@ class Stage:
         self._bricks, self._catalogue = bricks, catalogue
         self._cells: dict[View, Cells] = {}
 
-    def sight(self, rows: Ints, view: View) -> Sight:
-        """Return what is seen of some bricks, as if the others were not there."""
+    def sight(self, rows: Ints, view: View, lifted: tuple[Ints, int] | None = None) -> Sight:
+        """Return what is seen of some bricks, as if the others were not there; with some lifted by plates."""
         if view not in self._cells:
             self._cells[view] = Cells.of(self._bricks, self._catalogue, view)
         there = np.zeros(len(self._bricks), dtype=bool)
         there[rows] = True
-        cells = self._cells[view]
-        return look(cells.take(there[cells.brick]), len(self._bricks))
+        cells = self._cells[view].take(there[self._cells[view].brick])
+        if lifted is not None:
+            up = np.zeros_like(cells.place)
+            up[np.isin(cells.brick, lifted[0]), 2] = lifted[1]
+            cells = replace(cells, place=cells.place + up)
+        return look(cells, len(self._bricks))
 
     def scene(self, stays: Ints, new: Ints, view: View) -> Scene:
         """Return what is seen of a step from one place."""
@@ -169,6 +173,42 @@ def scenes(stage: Stage, stays: Ints, placed: Ints, came: Ints, first: View, *, 
         first = scene.view
         stays, placed = np.concatenate([stays, placed[:count]]), placed[count:]
 
+
+def removal(stage: Stage, stays: Ints, taken: Ints, first: View, stacks: Ints) -> Scene:
+    """Show what is taken out: from below where it is hidden from above.
+
+    Parameters
+    ----------
+    stage : Stage
+    stays, taken : int64 array
+        Rows of the bricks that stay, and that are taken out.
+    first : View
+        From where the step before was seen, which is kept if it will do.
+    stacks : (n_taken,) int64 array
+        Number of the stack of each of those: of each one brick is to be seen.
+
+    Returns
+    -------
+    Scene
+    """
+    views = dict.fromkeys((first, *(View(turns) for turns in range(4)), *BELOW))
+    seen = {view: stage.scene(stays, taken, view) for view in views}
+    shown = {view: len(np.unique(stacks[scene.shares >= _KNOWN])) for view, scene in seen.items()}
+    best = max(shown.values())
+    good = [view for view in views if shown[view] == best]
+    # nobody lays a model on its back for what is seen as it stands, or stands it up for what is seen as it lies
+    lies = {view.below for view in good}
+    below = first.below if first.below in lies else not first.below
+    good = [view for view in good if view.below == below]
+    most = max(float(seen[view].shares.mean()) for view in good)
+    return next(seen[view] for view in good if seen[view].shares.mean() >= _NEARLY * most)
+
+
+_KNOWN: Final = 0.15
+"""Share by which a brick that is there, and is taken out, is known: one side of a plate of one stud is a fifth."""
+
+_NEARLY: Final = 0.8
+"""Share of the best view of what is taken out with which the model is not turned."""
 
 _MOST: Final = 0.6
 """Share of the greatest view of a whole with which the model is not turned."""

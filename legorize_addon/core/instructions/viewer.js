@@ -324,4 +324,5 @@
   addEventListener("resize", draw);
   const wanted = /^#3d-(\d+)$/.exec(location.hash);
   go(wanted ? +wanted[1] : END + 1);
+  if (wanted) box.scrollIntoView();
 })();

@@ -20,6 +20,10 @@ from legorize_addon.core.instructions.front_pages import (
 )
 from legorize_addon.core.instructions.lettering import Title
 from legorize_addon.core.instructions.paper import PAPERS
+from legorize_addon.core.model.assembly import Assembly
+from legorize_addon.core.progress import duration
+from legorize_addon.core.shopping.shopping_list import shopping_list
+from tests.core.any_bricks import CATALOGUE
 from tests.core.instructions.built import arm, pair
 from tests.core.instructions.test_panels import panels_of
 
@@ -44,7 +48,9 @@ def test_the_cover_tells_size_parts_steps_and_time():
     assert "10 x 3 x 8 cm" in shown
     assert f"{bricks} bricks" in shown
     assert f"{len(plan.steps)} steps" in shown
-    assert [text for text in shown if text.startswith("about ")]
+    # the same time as the report's, which counts what is taken out, too
+    seconds = shopping_list(Assembly(plan.bricks, CATALOGUE), moves=len(plan.moves)).seconds
+    assert f"about {duration(seconds)}" in shown
     assert f"with {plan.temporary.sum()} support bricks to take out" in shown
 
 
@@ -59,6 +65,33 @@ def test_the_parts_list_has_all_bricks(model):
     expected = [int((~plan.temporary).sum()), int(plan.temporary.sum())]
     assert counts == [count for count in expected if count]
     assert [one[1] for one in lists] == [f"{count} brick{'s' * (count != 1)}" for count in counts]
+
+
+@pytest.mark.parametrize("name", ["A4", "Letter"])
+def test_headings_keep_away_from_the_list_before(name):
+    """The heading of the supports is a good deal below the last line above it, and what follows is below it."""
+    [page] = parts_pages(panels_of(arm()), PAPERS[name], 3)
+    groups = [item for item in page.items if isinstance(item, Group)]
+    [heading] = [item for item in page.items if isinstance(item, Text) and item.text == SUPPORT_PARTS]
+    lows = [group.matrix[5] + max(each.y for each in group.items if isinstance(each, Text)) for group in groups]
+    above = max(low for low in lows if low < heading.y)
+    assert heading.y - heading.size - above >= 5
+    assert any(group.matrix[5] > heading.y for group in groups)
+
+
+def test_figures_of_the_cover_stand_apart():
+    """As far behind a long figure as behind a short one, for readers whose letters are wider."""
+    page = cover(panels_of(arm()), Title("Arm"), A4)
+    figures = [item for item in page.items if isinstance(item, Text) and item.y > A4.height - 34]
+    values, whats = figures[::2], figures[1::2]
+    ends = [
+        value.x + max(width(value.text, value.size, bold=True), width(what.text, what.size))
+        for value, what in zip(values, whats, strict=True)
+    ]
+    gaps = np.array([value.x for value in values[1:]]) - ends[:-1]
+    assert gaps.min() > 10
+    assert np.ptp(gaps) < 1e-9
+    assert ends[-1] < A4.width
 
 
 def test_long_lists_go_on(monkeypatch):

@@ -7,7 +7,7 @@ import pytest
 
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.steps import Kind
-from legorize_addon.core.instructions.lattice import FRONT
+from legorize_addon.core.instructions.lattice import FRONT, View
 from legorize_addon.core.instructions.panel_layout import title_of
 from legorize_addon.core.instructions.panels import Panels, submodel_names
 from legorize_addon.core.instructions.shades import SUPPORT_TINT
@@ -93,3 +93,13 @@ def test_the_finished_model_has_its_own_colours():
     panels = panels_of(arm())
     picture = panels.whole(FRONT, np.flatnonzero(~panels.temporary))
     assert picture.size.min() > 0
+
+
+def test_what_lay_on_its_back_stands_again_for_what_comes_from_above():
+    """Supports are taken out from below; what is put on next is seen from above, and the model is turned over."""
+    panels = panels_of(arm())
+    shot = next(shot for shot in panels.shots if len(shot.before) and not shot.step.pressed)
+    panels._views[shot.submodel] = View(1, below=True)
+    first = panels.of(shot)[0]
+    assert not first.view.below
+    assert first.turned == View(1, below=True)

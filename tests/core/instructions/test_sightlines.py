@@ -8,7 +8,7 @@ import pytest
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.instructions.lattice import FRONT, View
 from legorize_addon.core.instructions.shots import shots
-from legorize_addon.core.instructions.sightlines import ENOUGH, Stage, scenes
+from legorize_addon.core.instructions.sightlines import ENOUGH, Stage, removal, scenes
 from tests.core.any_bricks import CATALOGUE, table
 from tests.core.instructions.built import PART, arm, pair
 
@@ -94,3 +94,36 @@ def test_shares_are_those_of_the_picture():
     [scene] = seen(bricks, range(8), [8])
     assert not np.isin(scene.left_out, scene.sight.bricks).any()
     assert scene.view in [View(turns) for turns in range(4)]
+
+
+def taken(bricks, rows, first=FRONT):
+    """Return how some bricks are seen when they are taken out, each a stack by itself."""
+    stays = np.setdiff1d(np.arange(len(bricks)), rows)
+    return removal(Stage(bricks, CATALOGUE), stays, np.array(rows), first, np.arange(len(rows)))
+
+
+ROOF = [(PART["3034"], 8 * i, 2 * j, 1, 0, 4, 0, 0, 0) for i in range(3) for j in range(12)]
+MIDDLE, RIM = (PLATE, 12, 12, 0, 0, 1, 1, 0, 0), (PLATE, 12, 0, 0, 0, 1, 1, 0, 0)
+
+
+def test_what_is_hidden_from_above_is_taken_out_from_below():
+    """A support under the middle of a roof is seen from no corner above, one under its rim is."""
+    assert taken(table([*ROOF, MIDDLE]), [36]).view.below
+    assert not taken(table([*ROOF, RIM]), [36]).view.below
+    both = taken(table([*ROOF, MIDDLE, RIM]), [36, 37])
+    assert both.view.below
+    assert (both.shares >= ENOUGH).all()
+
+
+def test_nobody_turns_a_model_over_again_for_the_next_supports():
+    """What lies on its back stays so as long as what is taken out is seen."""
+    lying = View(0, below=True)
+    assert taken(table([*ROOF, RIM]), [36], lying).view == lying
+
+
+def test_of_a_stack_one_brick_is_enough():
+    """A plate over a support that is seen need not be seen itself."""
+    high = [(part, x, y, 4, *rest) for part, x, y, _, *rest in ROOF]
+    bricks = table([*high, (SMALL, 12, 0, 0, 0, 1, 1, 0, 0), (PLATE, 12, 0, 3, 0, 1, 1, 0, 0)])
+    scene = removal(Stage(bricks, CATALOGUE), np.arange(36), np.array([36, 37]), FRONT, np.zeros(2, int))
+    assert not scene.view.below
