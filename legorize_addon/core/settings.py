@@ -36,7 +36,7 @@ class Settings:
         10.0, "Scale", "Scale factor: 10 keeps the object's own size, 5 halves it.", group="Size", limits=(1e-4, 1e6),
         needs=("size_by", "scale"))
     cm: float = setting(
-        38.4, "Longest side (cm)", "Longest side of the model; of a mosaic with its border.", group="Size",
+        38.4, "Size (cm)", "Longest side of the model; of a mosaic with its border.", group="Size",
         limits=(0.8, 800.0), needs=("size_by", "cm"))
     parts: int = setting(
         1000, "Parts at most", "Largest number of parts: the model becomes as large as it can, which takes several "

@@ -9,7 +9,7 @@ from bpy.app.translations import pgettext_rpt as rpt
 
 from ..scene import state_of
 from .build import OnBuild
-from .instructions import title_of
+from .export import title_of
 from .properties import current_build
 
 TAGS: Final = ("bricks", "legorize")

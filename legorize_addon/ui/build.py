@@ -122,6 +122,8 @@ class Working(Reporting):
         if context.workspace is not None:
             context.workspace.status_text_set(None)
         redraw(context)
+        # panels that come with the model are put in their places when they are drawn again
+        bpy.app.timers.register(_draw_again, first_interval=TICK)
 
 
 class Building(Working):
@@ -182,7 +184,7 @@ class Building(Working):
         view.build = collection
         view.show_sources = False
         if scene == context.scene:
-            _select_only(context, state_of(collection).root)
+            select_only(context, state_of(collection).root)
         self.report({"INFO"}, rpt("Model built: {} bricks.").format(len(build.bricks)))
         for note in notes:
             self.report({"WARNING"}, note)
@@ -301,12 +303,17 @@ class LEGORIZE_OT_show_originals(bpy.types.Operator):
         """Show and select them, and clear up what the model left behind."""
         sources = show_orphans(context.scene)
         sweep()
-        _select_only(context, *sources)
+        select_only(context, *sources)
         self.report({"INFO"}, rpt("Shown again: {}.").format(", ".join(source.name for source in sources)))
         return {"FINISHED"}
 
 
-def _select_only(context: bpy.types.Context, *things: bpy.types.Object) -> None:
+def _draw_again() -> None:
+    redraw(bpy.context)
+
+
+def select_only(context: bpy.types.Context, *things: bpy.types.Object) -> None:
+    """Select some objects and no other one."""
     for other in context.selected_objects:
         other.select_set(False)
     # what lies in an unticked collection cannot be selected
@@ -344,6 +351,8 @@ def unregister() -> None:
     """Undo :func:`register`, after stopping what runs."""
     job.stop()
     forget_status()
+    if bpy.app.timers.is_registered(_draw_again):
+        bpy.app.timers.unregister(_draw_again)
     bpy.app.handlers.load_post.remove(_hide_linked_sources)
     bpy.app.handlers.load_pre.remove(_stop_jobs)
     _unregister_classes()

@@ -12,7 +12,7 @@ from gpu_extras.batch import batch_for_shader
 
 from ..core.model import load_catalogue
 from ..scene import damage, state_of
-from ..view import edges_of
+from ..view import edges_of, shows_step
 from . import job
 from .edits import (
     LEGORIZE_OT_edit,
@@ -119,9 +119,9 @@ class LEGORIZE_UL_edits(bpy.types.UIList):
     """The list of changes: what and where, and the buttons that show it and take it back."""
 
     def draw_item(self, context: Any, layout: Any, data: Any, item: Any, icon: int, active: Any) -> None:
-        """Draw a row; those that do not fit are marked."""
+        """Draw a row without its place, for which there is no room; those that do not fit are marked."""
         row = layout.row(align=True)
-        row.label(text=item.name, icon="ERROR" if item.reason else ICONS[item.kind])
+        row.label(text=item.what or item.name, icon="ERROR" if item.reason else ICONS[item.kind])
         row.operator(LEGORIZE_OT_edit_frame.bl_idname, text="", icon="ZOOM_SELECTED").number = item.number
         row.operator(LEGORIZE_OT_edit_remove.bl_idname, text="", icon="X").number = item.number
 
@@ -144,13 +144,20 @@ class LEGORIZE_PT_edits(BuildTab, bpy.types.Panel):
         if len(build.legorize_edits):
             self.layout.template_list("LEGORIZE_UL_edits", "", build, "legorize_edits", build, "legorize_edit", rows=5)
             if 0 <= build.legorize_edit < len(build.legorize_edits):
-                reason = build.legorize_edits[build.legorize_edit].reason
-                if reason:
-                    draw_wrapped(context, self.layout, iface("No longer fits, because {}.").format(reason), "ERROR")
+                chosen = build.legorize_edits[build.legorize_edit]
+                draw_wrapped(context, self.layout, chosen.name, ICONS[chosen.kind])
+                if chosen.reason:
+                    told = iface("No longer fits, because {}.").format(chosen.reason)
+                    draw_wrapped(context, self.layout, told, "ERROR")
             self.layout.operator(LEGORIZE_OT_edit_remove.bl_idname, text="Take All Back", icon="TRASH").number = -1
-        if not state_of(build).steps:
-            draw_wrapped(context, self.layout, iface("Supports and building steps are not planned yet."), "INFO")
-            self.layout.operator("legorize.plan_steps", icon="PRESET")
+        draw_plan(context, self.layout, build)
+
+
+def draw_plan(context: bpy.types.Context, layout: bpy.types.UILayout, build: bpy.types.Collection) -> None:
+    """Draw that a model has no building steps, as after changes by hand, and the button that plans them."""
+    if not state_of(build).steps and not shows_step(build):
+        draw_wrapped(context, layout, iface("Supports and building steps are not planned yet."), "INFO")
+        layout.operator("legorize.plan_steps", icon="PRESET")
 
 
 def draw_outline() -> None:

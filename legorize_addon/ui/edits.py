@@ -19,7 +19,7 @@ from ..core.units import STUD
 from ..scene import positions, read_bricks, state_of, world_from_mm
 from ..view import Changed, brick_under, change, edits_of, outcomes_in, show_changed, touching, without
 from .build import OnBuild
-from .instructions import title_of
+from .export import title_of
 from .properties import current_build
 from .tab import redraw
 from .weakest import look_at
@@ -41,6 +41,7 @@ KINDS: Final = [
 class LegorizeEdit(bpy.types.PropertyGroup):
     """A row of the list of changes; its name says what and where."""
 
+    what: StringProperty()
     reason: StringProperty()
     kind: StringProperty()
     number: IntProperty()
@@ -118,7 +119,8 @@ def list_edits(build: bpy.types.Collection) -> None:
     for number, outcome in enumerate(outcomes_in(build)):
         row = build.legorize_edits.add()
         row.number = number
-        row.name, row.reason, row.kind = outcome.edit.told(load_catalogue()), outcome.reason, outcome.edit.kind
+        row.name, row.what = outcome.edit.told(load_catalogue()), outcome.edit.what(load_catalogue())
+        row.reason, row.kind = outcome.reason, outcome.edit.kind
 
 
 class LEGORIZE_OT_pick(OnBuild, bpy.types.Operator):

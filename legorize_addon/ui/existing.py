@@ -19,10 +19,9 @@ from ..core.units import MM_PER_METRE
 from ..scene import Source, read_bricks, sources_of, state_of
 from ..view import show_result
 from . import job
-from .build import Browsing, OnBuild, Working
+from .build import Browsing, OnBuild, Working, select_only
 from .edits import list_edits
-from .export import chosen_path
-from .instructions import title_of
+from .export import chosen_path, title_of
 from .kept_texts import with_texts
 from .learned_files import resolved
 from .parts import list_parts_of
@@ -116,6 +115,8 @@ class Judging(Working):
         list_parts_of(shown, made)
         list_edits(shown)
         scene.legorize.build = shown
+        if scene == context.scene:
+            select_only(context, state_of(shown).root)
         self.report({"INFO"}, rpt("Model built: {} bricks.").format(len(made.bricks)))
         for note in made.notes:
             self.report({"WARNING"}, note)
@@ -236,21 +237,5 @@ class LEGORIZE_OT_plan_steps(OnBuild, Judging, bpy.types.Operator):
         return order_of(context, again=False)
 
 
-def _draw_import(self: bpy.types.Menu, context: bpy.types.Context) -> None:
-    self.layout.operator(LEGORIZE_OT_open_ldraw.bl_idname, text="LDraw Model (.ldr, .mpd)")
-
-
 classes = (LEGORIZE_OT_open_ldraw, LEGORIZE_OT_again, LEGORIZE_OT_plan_steps)
-_register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
-
-
-def register() -> None:
-    """Register the operators and their entry in File > Import."""
-    _register_classes()
-    bpy.types.TOPBAR_MT_file_import.append(_draw_import)
-
-
-def unregister() -> None:
-    """Undo :func:`register`."""
-    bpy.types.TOPBAR_MT_file_import.remove(_draw_import)
-    _unregister_classes()
+register, unregister = bpy.utils.register_classes_factory(classes)

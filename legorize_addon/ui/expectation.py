@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 DELAY: Final = 0.3
 """Seconds after a change until objects are read again, so that dragging them stays smooth."""
 
+LINES: Final = 3
+"""Lines of an estimate: size in studs, in cm, and what building takes."""
+
 KEPT: Final = 16
 """Estimates that are kept, so that drawing a panel again costs nothing."""
 

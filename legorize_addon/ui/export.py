@@ -33,7 +33,16 @@ def written(path: Path, build: bpy.types.Collection) -> tuple[set[str], str]:
     return {"WARNING"}, (one if gone == 1 else more).format(path, gone)
 
 
-class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
+class Exporting(OnBuild, ExportHelper):
+    """What writes one file of the build that the panel shows."""
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Ask for the file; its name is proposed."""
+        self.filepath = proposed_path(current_build(context.scene), self.filename_ext)
+        return ExportHelper.invoke(self, context, event)
+
+
+class LEGORIZE_OT_export_ldr(Exporting, bpy.types.Operator):
     """Write the build that the panel shows as an LDraw file."""
 
     bl_idname = "legorize.export_ldr"
@@ -61,7 +70,7 @@ class LEGORIZE_OT_export_ldr(OnBuild, bpy.types.Operator, ExportHelper):
         return {"FINISHED"}
 
 
-class LEGORIZE_OT_export_mpd(OnBuild, bpy.types.Operator, ExportHelper):
+class LEGORIZE_OT_export_mpd(Exporting, bpy.types.Operator):
     """Write the build that the panel shows, with its pieces and supports, as an LDraw multi-part document."""
 
     bl_idname = "legorize.export_mpd"
@@ -88,7 +97,7 @@ class LEGORIZE_OT_export_mpd(OnBuild, bpy.types.Operator, ExportHelper):
         return {"FINISHED"}
 
 
-class LEGORIZE_OT_render_still(OnBuild, bpy.types.Operator, ExportHelper):
+class LEGORIZE_OT_render_still(Exporting, bpy.types.Operator):
     """Render the scene's builds to a file."""
 
     bl_idname = "legorize.render_still"
@@ -136,22 +145,16 @@ def chosen_path(operator: bpy.types.Operator) -> Path:
     return named(bpy.path.abspath(operator.filepath), "file", BuildError)
 
 
-def _draw_export(self: bpy.types.Menu, context: bpy.types.Context) -> None:
-    self.layout.operator(LEGORIZE_OT_export_ldr.bl_idname, text="Legorize Model (.ldr)")
-    self.layout.operator(LEGORIZE_OT_export_mpd.bl_idname, text="Legorize Model with Supports (.mpd)")
+def title_of(build: bpy.types.Collection) -> str:
+    """Return the name of a model, which is that of its source."""
+    return build.name.removeprefix("Legorize ")
+
+
+def proposed_path(build: bpy.types.Collection, suffix: str) -> str:
+    """Return the path of a file that is named like a model, beside the scene's own."""
+    name = f"{title_of(build)}{suffix}"
+    return str(Path(bpy.data.filepath).with_name(name)) if bpy.data.filepath else name
 
 
 classes = (LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still)
-_register_classes, _unregister_classes = bpy.utils.register_classes_factory(classes)
-
-
-def register() -> None:
-    """Register the operators and their entry in File > Export."""
-    _register_classes()
-    bpy.types.TOPBAR_MT_file_export.append(_draw_export)
-
-
-def unregister() -> None:
-    """Undo :func:`register`."""
-    bpy.types.TOPBAR_MT_file_export.remove(_draw_export)
-    _unregister_classes()
+register, unregister = bpy.utils.register_classes_factory(classes)

@@ -15,7 +15,7 @@ from ..core.model import Role, load_catalogue
 from ..core.progress import Progress
 from ..scene import hand_remark, read_bricks, state_of, steps_of, title_for
 from .build import Browsing, OnBuild
-from .export import chosen_path
+from .export import chosen_path, proposed_path, title_of
 from .properties import current_build
 
 if TYPE_CHECKING:
@@ -135,8 +135,7 @@ class OnPaper(OnBuild, Browsing):
 
     def propose(self, context: bpy.types.Context) -> None:
         """Name the file like the model, beside the scene's own."""
-        name = f"{title_of(current_build(context.scene))}{self.suffix}"
-        self.filepath = str(Path(bpy.data.filepath).with_name(name)) if bpy.data.filepath else name
+        self.filepath = proposed_path(current_build(context.scene), self.suffix)
 
     def _show(self, context: bpy.types.Context, order: Any, paths: tuple[Path, ...]) -> set[str]:
         self.report({"INFO"}, rpt("Wrote {}.").format(", ".join(map(str, paths))))
@@ -195,11 +194,6 @@ class LEGORIZE_OT_layer_maps(OnPaper, bpy.types.Operator):
     def _take_order(self, context: bpy.types.Context) -> MapsRequest:
         bricks = read_bricks(current_build(context.scene))
         return MapsRequest(bricks, self.paper, self.actual_size, chosen_path(self))
-
-
-def title_of(build: bpy.types.Collection) -> str:
-    """Return the name of a model, which is that of its source."""
-    return build.name.removeprefix("Legorize ")
 
 
 classes = (LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps)

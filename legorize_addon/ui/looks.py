@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Final
+from typing import Any, Final
 
 import bpy
 from bl_operators.presets import AddPresetBase
@@ -11,10 +11,36 @@ from bpy.props import EnumProperty
 
 from ..core.presets import PRESETS, preset_values
 from ..core.settings import Settings
-from .settings_properties import set_settings
+from .settings_properties import set_settings, settings_of, value_of
 
 FOLDER: Final = "legorize"
 """Below Blender's own folder of presets."""
+
+
+_SIZE: Final = frozenset(entry.name for entry in fields(Settings) if entry.metadata["group"] == "Size")
+"""Settings that a look leaves as they are, unless it has a size of its own."""
+
+
+def look_of(settings: Any) -> str | None:
+    """Return the look that settings, by their names, are those of, whatever the size where it has none; None of none.
+
+    Of several, which differ in their sizes, the one that says most.
+    """
+    found = None
+    for word, preset in PRESETS.items():
+        left = frozenset() if _SIZE & preset.values.keys() else _SIZE
+        wanted = {entry.name: preset.values.get(entry.name, entry.default) for entry in fields(Settings)}
+        same = all(value_of(getattr(settings, name)) == value for name, value in wanted.items() if name not in left)
+        if same and (found is None or len(preset.values) > len(PRESETS[found].values)):
+            found = word
+    return found
+
+
+def with_look(settings: Settings, word: str) -> Settings:
+    """Return settings with a look, in their size unless the look has one."""
+    values = preset_values(word)
+    kept = {} if _SIZE & values.keys() else {name: getattr(settings, name) for name in _SIZE}
+    return Settings(**{**kept, **values})
 
 
 class LEGORIZE_OT_look(bpy.types.Operator):
@@ -22,7 +48,7 @@ class LEGORIZE_OT_look(bpy.types.Operator):
 
     bl_idname = "legorize.look"
     bl_label = "Choose Look"
-    bl_description = "Choose settings that belong together; all others get their defaults"
+    bl_description = "Choose settings that belong together; all others but the size get their defaults"
     bl_options = {"REGISTER", "UNDO"}
     look: EnumProperty(
         name="Look",
@@ -30,8 +56,9 @@ class LEGORIZE_OT_look(bpy.types.Operator):
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Set all settings."""
-        set_settings(context.scene.legorize.settings, Settings(**preset_values(self.look)))
+        """Set all settings, the size only if the look has one."""
+        group = context.scene.legorize.settings
+        set_settings(group, with_look(settings_of(group), self.look))
         return {"FINISHED"}
 
 
@@ -57,14 +84,17 @@ class LEGORIZE_MT_looks(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw both lists."""
         self.layout.operator_enum(LEGORIZE_OT_look.bl_idname, "look")
-        self.layout.separator()
-        bpy.types.Menu.draw_preset(self, context)
+        # without this folder, Blender would draw an entry that says so
+        if bpy.utils.preset_paths(FOLDER):
+            self.layout.separator()
+            bpy.types.Menu.draw_preset(self, context)
 
 
-def draw_looks(layout: bpy.types.UILayout) -> None:
-    """Draw the menu of looks, and the buttons that save and remove one's own."""
+def draw_looks(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+    """Draw the menu of looks with the name of the one that is chosen, and the buttons for one's own."""
     row = layout.row(align=True)
-    row.menu(LEGORIZE_MT_looks.__name__, icon="PRESET")
+    look = look_of(settings)
+    row.menu(LEGORIZE_MT_looks.__name__, text=PRESETS[look].name if look else "Look", icon="PRESET")
     row.operator(LEGORIZE_OT_save_look.bl_idname, text="", icon="ADD")
     row.operator(LEGORIZE_OT_save_look.bl_idname, text="", icon="REMOVE").remove_active = True
 

@@ -29,10 +29,10 @@ from . import job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
 from .assets import LEGORIZE_OT_mark_asset
 from .build import A_STEP, LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
-from .edit_tool import LEGORIZE_PT_edits
+from .edit_tool import LEGORIZE_PT_edits, draw_plan
 from .everything import LEGORIZE_OT_export_folder
 from .existing import LEGORIZE_OT_again, LEGORIZE_OT_open_ldraw
-from .expectation import expected
+from .expectation import LINES, expected
 from .export import LEGORIZE_OT_export_ldr, LEGORIZE_OT_export_mpd, LEGORIZE_OT_render_still
 from .hints import draw_hints
 from .instructions import LEGORIZE_OT_booklet, LEGORIZE_OT_layer_maps
@@ -72,7 +72,7 @@ class LEGORIZE_PT_main(Tab, bpy.types.Panel):
             self.layout.label(text=", ".join(sources), icon="MESH_DATA")
         else:
             self.layout.label(text="Select an object", icon="INFO")
-        draw_looks(self.layout)
+        draw_looks(self.layout, context.scene.legorize.settings)
         draw_settings(self.layout, context.scene.legorize.settings, self.entries)
         self._draw_expected(context)
         button = self.layout.column()
@@ -93,9 +93,10 @@ class LEGORIZE_PT_main(Tab, bpy.types.Panel):
         draw_live(context, self.layout)
 
     def _draw_expected(self, context: bpy.types.Context) -> None:
-        """Draw what the settings will come to."""
+        """Draw what the settings will come to, with as much room before it is known: the button stays in its place."""
         lines = self.layout.column(align=True)
-        for line in expected(context):
+        told = expected(context)
+        for line in told or (" ",) * LINES:
             draw_wrapped(context, lines, line, "NONE")
 
     def _draw_damage(self, context: bpy.types.Context) -> None:
@@ -131,6 +132,7 @@ class LEGORIZE_PT_layers(BuildTab, bpy.types.Panel):
         build = current_build(context.scene)
         self.layout.prop(view, "top_layer", text=iface("Top of {}").format(state_of(build).layers))
         self.layout.prop(view, "single_layer")
+        draw_plan(context, self.layout, build)
         self._draw_building(view, build)
         self.layout.row().prop(view, "section_axis", expand=True)
         if view.section_axis != "none":

@@ -18,7 +18,6 @@ from bpy.props import (
     IntProperty,
     StringProperty,
 )
-from bpy_extras.io_utils import ExportHelper
 
 from ..core.errors import BuildError
 from ..core.model import Assembly, Colour, Part, Role, load_catalogue
@@ -26,8 +25,7 @@ from ..core.shopping import FORMATS, Lot, ShoppingList, priced, shopping_list
 from ..scene import damage, read_bricks, steps_of
 from ..view import can_highlight, hide_tint, highlight_step, show_lot, shown_lot
 from .build import OnBuild
-from .export import chosen_path, written
-from .instructions import title_of
+from .export import Exporting, chosen_path, title_of, written
 from .properties import current_build
 
 if TYPE_CHECKING:
@@ -183,7 +181,7 @@ class LEGORIZE_OT_list_parts(OnBuild, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class LEGORIZE_OT_export_list(OnBuild, bpy.types.Operator, ExportHelper):
+class LEGORIZE_OT_export_list(Exporting, bpy.types.Operator):
     """Write the parts of the build that the panel shows as a list."""
 
     bl_idname = "legorize.export_list"

@@ -20,8 +20,8 @@ from ..core.settings import Settings, choices, setting_type
 
 
 def label(name: str) -> str:
-    """Return a word of the code as the panel shows it."""
-    return name.replace("_", " ").capitalize()
+    """Return a word of the code as the panel shows it; units stay as they are."""
+    return name if name == "cm" else name.replace("_", " ").capitalize()
 
 
 def _property(entry: Field[Any]) -> Any:
@@ -91,7 +91,7 @@ def settings_of(group: bpy.types.PropertyGroup) -> Settings:
     Settings
         The same as the command line makes of the same numbers.
     """
-    return Settings(**{entry.name: _value(getattr(group, entry.name)) for entry in fields(Settings)})
+    return Settings(**{entry.name: value_of(getattr(group, entry.name)) for entry in fields(Settings)})
 
 
 def set_settings(group: bpy.types.PropertyGroup, settings: Settings) -> None:
@@ -135,6 +135,7 @@ def take_kept(group: bpy.types.PropertyGroup, stored: Mapping[str, Any]) -> None
         set_settings(group, replace(kept, **{name: getattr(group, name) for name in LIMITS}))
 
 
-def _value(value: Any) -> Any:
+def value_of(value: Any) -> Any:
+    """Return the value of a setting, by that of its property."""
     # Blender keeps 32 bits of a float: 3.2 comes back as 3.2000000477
     return float(str(np.float32(value))) if isinstance(value, float) else value

@@ -17,10 +17,13 @@ from ..scene import (
     Source,
     bricks_text,
     builds_of,
+    damage,
     found_colours,
     keep_found_colours,
+    read_bricks,
     show_build,
     state_of,
+    surface_of,
 )
 from .kept_view import KeptView
 from .visibility import roles_shown, show_role
@@ -76,7 +79,8 @@ def show_result(
     colours = next((found for each in earlier if (found := found_colours(each))), [])
     edits = next((each.edits for each in map(state_of, earlier) if each.edits[0]), ("", ""))
     place = (build.origin, build.scale, mm_per_unit)
-    model = Model(supports.assembly, *place, stability=build.stability, steps=supports.steps, wanted=_surface_of(build))
+    wanted = _surface_of(build, earlier)
+    model = Model(supports.assembly, *place, stability=build.stability, steps=supports.steps, wanted=wanted)
     shown = show_build(scene, model, replace(source, settings=build.settings), detail=detail, replaces=earlier)
     state_of(shown).add_building(by_hand=len(supports.unsteady), **_costs(build))
     state_of(shown).keep_texts(build.texts)
@@ -89,12 +93,17 @@ def show_result(
     return shown
 
 
-def _surface_of(build: Finished) -> WantedColours | None:
-    """Return the surface on the cells of a model of a mesh; None of any other model."""
+def _surface_of(build: Finished, earlier: Sequence[bpy.types.Collection]) -> WantedColours | None:
+    """Return the surface on the cells of a model of a mesh, also if its bricks are judged anew; None of any other."""
     # loaded with the models that it has
-    from ..core.build import Build
+    from ..core.build import Build, Judged
 
-    return build.wanted if isinstance(build, Build) else None
+    if isinstance(build, Build):
+        return build.wanted
+    if not isinstance(build, Judged) or len(earlier) != 1 or damage(earlier[0]):
+        return None
+    # bricks at negative coordinates, which were put there by hand, have moved all of them
+    return surface_of(earlier[0]) if read_bricks(earlier[0]).corner.min() >= 0 else None
 
 
 def _colours_of(build: Finished) -> Sequence[tuple[tuple[int, int, int], int, int, float]]:

@@ -101,10 +101,15 @@ class Edit:
     def told(self, catalogue: Catalogue) -> str:
         """Say what it is and where: "Recolour Brick 2 x 4 to Red in layer 3 at column 5, row 2 of the grid"."""
         x, y, z = self.cell
+        where = f"in layer {z // PLATES_PER_BRICK + 1} at column {x + 1}, row {y + 1} of the grid"
+        return f"{self.what(catalogue)} {where}"
+
+    def what(self, catalogue: Catalogue) -> str:
+        """Say what it is: "Recolour Brick 2 x 4 to Red"."""
         what = f"{WORDS[self.kind]} {self.part_of(catalogue).title}"
         if self.kind == "recolour":
             what += f" to {catalogue.colours[catalogue.colour_row(self.colour)].name}"
-        return f"{what} in layer {z // PLATES_PER_BRICK + 1} at column {x + 1}, row {y + 1} of the grid"
+        return what
 
 
 def edit_of(kind: Kind, bricks: Bricks, row: int, catalogue: Catalogue, colour: int | None = None) -> Edit:

@@ -13,7 +13,7 @@ from legorize_addon.core.ldraw import read_ldraw
 from legorize_addon.core.model import contact_graph
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import load_catalogue
-from legorize_addon.scene import read_bricks, state_of
+from legorize_addon.scene import colour_error_of, read_bricks, state_of
 from legorize_addon.ui.edit_tool import LEGORIZE_WT_edit
 from legorize_addon.ui.edits import show_edits
 from legorize_addon.ui.properties import current_build
@@ -178,9 +178,14 @@ def test_steps_are_planned_anew(build):
     pick(3)
     bpy.ops.legorize.edit(kind="recolour", code=BLUE)
     assert not state_of(now()).steps
-    before = multiset(final(now()), steps=False)
+    before, errors = multiset(final(now()), steps=False), colour_error_of(now())
+    bpy.ops.object.select_all(action="DESELECT")
     assert bpy.ops.legorize.plan_steps() == {"FINISHED"}
     assert state_of(now()).steps
+    assert bpy.context.selected_objects == [state_of(now()).root]
+    # the surface that colours are compared with stays with the model, which has the worst brick by hand
+    assert colour_error_of(now()) == errors
+    assert errors["name"].startswith("Blue")
     assert multiset(final(now()), steps=False) == before
     assert [row.reason for row in now().legorize_edits] == [""]
     bpy.ops.legorize.edit_remove(number=-1)

@@ -10,6 +10,7 @@ import pytest
 from legorize_addon.core.presets import PRESETS, preset_values
 from legorize_addon.core.settings import Settings
 from legorize_addon.ui import panels
+from legorize_addon.ui.looks import look_of
 from legorize_addon.ui.settings_properties import settings_of
 
 pytestmark = pytest.mark.usefixtures("addon")
@@ -28,6 +29,20 @@ def test_a_look_sets_all_settings(word: str) -> None:
     assert bpy.ops.legorize.look(look=word) == {"FINISHED"}
     assert chosen() == Settings(**preset_values(word))
     assert not group.is_property_set("seed")
+
+
+def test_a_look_leaves_the_size_and_is_told() -> None:
+    """Who asked for 20 cm still gets 20 cm, unless the look is about the size; its name stands in the panel."""
+    group = bpy.context.scene.legorize.settings
+    assert look_of(group) == "display"
+    group.size_by, group.cm = "cm", 20.0
+    assert look_of(group) == "display"
+    bpy.ops.legorize.look(look="bricks")
+    assert (group.size_by, group.cm, look_of(group)) == ("cm", 20.0, "bricks")
+    bpy.ops.legorize.look(look="desk")
+    assert (group.size_by, group.width, look_of(group)) == ("width", 24, "desk")
+    group.seed = 7
+    assert look_of(group) is None
 
 
 def test_own_looks_come_back() -> None:

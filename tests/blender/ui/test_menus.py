@@ -40,6 +40,13 @@ def test_entries_are_drawn(menu: str) -> None:
     assert all(hasattr(bpy.types, operator.__name__) for operator, _, _ in menus.ENTRIES[menu])
 
 
+@pytest.mark.parametrize("menu", menus.ENTRIES)
+def test_nothing_of_ours_stands_there_twice(menu: str) -> None:
+    """No other module of ours draws into the same menus."""
+    ours = [each for each in getattr(bpy.types, menu).draw._draw_funcs if each.__module__.startswith("legorize_addon")]
+    assert ours == [menus._DRAWN[menu]]
+
+
 def test_menus_are_left_as_they_were() -> None:
     """Switched off, nothing of ours is called any more."""
     entries = {name: getattr(bpy.types, name).draw._draw_funcs for name in menus.ENTRIES}

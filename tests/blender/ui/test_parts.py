@@ -21,6 +21,7 @@ from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.collections import read_bricks
 from legorize_addon.scene.instancing import GHOST_KEY
 from legorize_addon.scene.state import BUILD_KEY, state_of
+from legorize_addon.ui.export import Exporting, proposed_path
 from legorize_addon.ui.parts import places
 from legorize_addon.ui.properties import current_build
 from legorize_addon.ui.requests import build_request, chosen_sources
@@ -30,6 +31,7 @@ from tests.blender.builders import add_table_on_one_leg
 from tests.core.foreign import nested_document, unknown_parts
 
 pytestmark = pytest.mark.usefixtures("addon")
+NAMED = {"export_ldr": ".ldr", "export_mpd": ".mpd", "render_still": ".png", "export_list": ".csv"}
 
 
 @pytest.fixture
@@ -95,6 +97,23 @@ def test_click_selects_exactly_the_bricks(build):
     assert {variant.name: variant.material_slots[0].material for variant in state_of(build).parts.objects} == before
     assert shown_lot(build) is None
     assert not bpy.ops.legorize.show_all_lots.poll()
+
+
+def test_files_are_named_like_the_model(build, tmp_path):
+    """Whatever is exported: the file browser proposes the model's name, beside the scene's own file."""
+    asked = []
+    manager = SimpleNamespace(fileselect_add=lambda operator: asked.append(operator.filepath))
+    context = SimpleNamespace(scene=bpy.context.scene, window_manager=manager)
+    made = [each for each in Exporting.__subclasses__() if issubclass(each, bpy.types.Operator)]
+    assert {each.bl_idname for each in made} == {f"legorize.{name}" for name in NAMED}
+    for each in made:
+        suffix = getattr(each, "filename_ext", ".csv")
+        operator = SimpleNamespace(filename_ext=suffix if isinstance(suffix, str) else ".csv", filepath="old.txt")
+        assert Exporting.invoke(operator, context, None) == {"RUNNING_MODAL"}
+    name = build.name.removeprefix("Legorize ")
+    assert asked == [f"{name}{suffix}" for suffix in NAMED.values()]
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    assert proposed_path(current_build(bpy.context.scene), ".ldr") == str(tmp_path / f"{name}.ldr")
 
 
 def test_every_list_is_exported(build, tmp_path):

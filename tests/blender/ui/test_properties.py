@@ -215,6 +215,9 @@ class Layout:
         """Note a button."""
         self.drawn.append(name)
 
+    def label(self, **_: object) -> None:
+        """Draw a text."""
+
     def row(self, **_: object) -> Layout:
         """Return the same layout."""
         return self
@@ -232,7 +235,9 @@ def test_layers_panel_offers_what_the_build_knows(known: bool, pieces: int) -> N
     panel = panels.LEGORIZE_PT_layers
     drawing = SimpleNamespace(layout=Layout())
     drawing._draw_building = lambda *arguments: panel._draw_building(drawing, *arguments)
-    panel.draw(drawing, bpy.context)
+    region, preferences = SimpleNamespace(width=300), SimpleNamespace(system=SimpleNamespace(ui_scale=1.0))
+    panel.draw(drawing, SimpleNamespace(scene=bpy.context.scene, region=region, preferences=preferences))
+    assert "legorize.plan_steps" in drawing.layout.drawn
     assert ("step" in drawing.layout.drawn) == ("by_steps" in drawing.layout.drawn) == known
     assert ("legorize.booklet" in drawing.layout.drawn) == ("legorize.layer_maps" in drawing.layout.drawn) == known
     assert ("legorize.animate" in drawing.layout.drawn) == ("legorize.film" in drawing.layout.drawn) == known

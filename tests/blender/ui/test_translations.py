@@ -26,7 +26,7 @@ MARKS = {"iface", "rpt", "tip", "n"}
 """Functions whose first argument is a text to translate: Blender's, under the names that all modules give them."""
 
 SAME = {
-    *("Legorize", "X", "Y", "Z", "Cm", "A4", "11 x 8.5 inches", "297 x 210 mm"),
+    *("Legorize", "X", "Y", "Z", "cm", "A4", "11 x 8.5 inches", "297 x 210 mm"),
     *("BrickLink Studio", "BrickLink Wanted List", "LEGO Pick a Brick", "Rebrickable"),
 }
 """Names and measures, which are the same in every language."""

@@ -44,6 +44,7 @@ def test_the_brick_of_an_edit():
 def test_words():
     """Place and colour are told as people count, from 1."""
     told = edit_of("recolour", wall(), 3, CATALOGUE, 15).told(CATALOGUE)
+    assert edit_of("recolour", wall(), 3, CATALOGUE, 15).what(CATALOGUE) == "Recolour Brick 2 x 4 to White"
     assert told == "Recolour Brick 2 x 4 to White in layer 2 at column 7, row 1 of the grid"
     assert edit("delete", BRICK_2X4, (0, 0, 0)).told(CATALOGUE).startswith("Delete Brick 2 x 4 in layer 1")
 
