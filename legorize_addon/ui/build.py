@@ -122,8 +122,6 @@ class Working(Reporting):
         if context.workspace is not None:
             context.workspace.status_text_set(None)
         redraw(context)
-        # panels that come with the model are put in their places when they are drawn again
-        bpy.app.timers.register(_draw_again, first_interval=TICK)
 
 
 class Building(Working):
@@ -308,10 +306,6 @@ class LEGORIZE_OT_show_originals(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _draw_again() -> None:
-    redraw(bpy.context)
-
-
 def select_only(context: bpy.types.Context, *things: bpy.types.Object) -> None:
     """Select some objects and no other one."""
     for other in context.selected_objects:
@@ -351,8 +345,6 @@ def unregister() -> None:
     """Undo :func:`register`, after stopping what runs."""
     job.stop()
     forget_status()
-    if bpy.app.timers.is_registered(_draw_again):
-        bpy.app.timers.unregister(_draw_again)
     bpy.app.handlers.load_post.remove(_hide_linked_sources)
     bpy.app.handlers.load_pre.remove(_stop_jobs)
     _unregister_classes()

@@ -96,8 +96,10 @@ class LEGORIZE_PT_main(Tab, bpy.types.Panel):
         """Draw what the settings will come to, with as much room before it is known: the button stays in its place."""
         lines = self.layout.column(align=True)
         told = expected(context)
-        for line in told or (" ",) * LINES:
+        for line in told:
             draw_wrapped(context, lines, line, "NONE")
+        for _ in range(0 if told else LINES):
+            lines.label(text="")
 
     def _draw_damage(self, context: bpy.types.Context) -> None:
         """Draw what was deleted in Blender's own way, and the button that repairs it."""

@@ -30,15 +30,16 @@ from . import (
     properties,
     replacing,
     session,
+    tab,
     translations,
     updating,
     weakest,
 )
 
 _PARTS = (
-    properties, expectation, session, build, build_larger, updating, duplicates, live, export, instructions, animation,
-    learning, looks, parts, edits, everything, existing, palette, replacing, edit_tool, panels, mosaic, method, menus,
-    preferences, weakest, numbers, hints, assets, translations,
+    tab, properties, expectation, session, build, build_larger, updating, duplicates, live, export, instructions,
+    animation, learning, looks, parts, edits, everything, existing, palette, replacing, edit_tool, panels, mosaic,
+    method, menus, preferences, weakest, numbers, hints, assets, translations,
 )  # fmt: skip
 
 

@@ -17,6 +17,9 @@ from .properties import current_build
 PIXELS_PER_LETTER: Final = 8.0
 """Width of a letter in the sidebar, with room for the icon: Blender does not wrap texts."""
 
+AGAIN: Final = 0.2
+"""Seconds until panels are drawn once more."""
+
 ENDS: Final = frozenset({"Po", "Pe", "Pf"})
 """Categories of the wide letters that stand at the end of a line, never at the beginning of one: full stops."""
 
@@ -75,8 +78,29 @@ def _is_end(letter: str) -> bool:
 
 
 def redraw(context: bpy.types.Context) -> None:
-    """Let all 3D viewports, and the tab in them, be drawn anew."""
-    for window in context.window_manager.windows:
+    """Let all 3D viewports, and the tab in them, be drawn anew, and once more a moment later.
+
+    Blender puts panels in their places by how high those above were when they
+    were drawn last: a panel that has become higher would lie on the next ones
+    until the mouse is moved.
+    """
+    _tag()
+    if not bpy.app.background and not bpy.app.timers.is_registered(_tag):
+        bpy.app.timers.register(_tag, first_interval=AGAIN)
+
+
+def _tag() -> None:
+    for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
                 area.tag_redraw()
+
+
+def register() -> None:
+    """Panels and operators register themselves."""
+
+
+def unregister() -> None:
+    """Drop the timer, if there is one."""
+    if bpy.app.timers.is_registered(_tag):
+        bpy.app.timers.unregister(_tag)
