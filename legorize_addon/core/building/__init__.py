@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .order import plan_steps, steps_of
     from .proof import Proof, prove_steps
     from .tiles import SIDE, tile_places
-    from .towers import STEADY, Tipping, falling, no_prop, tipping
+    from .towers import STEADY, Tipping, falling, no_prop, tipping, unbalanced
     from .units import presses
     from .views import quarter_turns
 else:
@@ -32,7 +32,7 @@ else:
         order=("plan_steps", "steps_of"),
         proof=("Proof", "prove_steps"),
         tiles=("SIDE", "tile_places"),
-        towers=("STEADY", "Tipping", "falling", "no_prop", "tipping"),
+        towers=("STEADY", "Tipping", "falling", "no_prop", "tipping", "unbalanced"),
         units=("presses",),
         views=("quarter_turns",),
     )
@@ -65,5 +65,6 @@ __all__ = [
     "tangled",
     "tile_places",
     "tipping",
+    "unbalanced",
     "walk",
 ]

@@ -94,7 +94,7 @@ class _Grouping:
         return [[item for atom in step for item in self.atoms.members[atom]] for step in found]
 
     def _seed(self) -> int:
-        """Return what comes first: the lowest, or what bears it, supports first, near the last step."""
+        """Return what comes first: the lowest, or what bears it, supports first, not before its image can come."""
         ready = np.flatnonzero(self.ready)
         if not len(ready):
             # what is in the other's way cannot be helped: the check of the order tells of it
@@ -104,7 +104,18 @@ class _Grouping:
         ready = ready[due == due.min()]
         way = np.zeros(len(ready)) if self.last is None else np.abs(self.middle[ready] - self.last).max(axis=1)
         corner = self.middle[ready].sum(axis=1)
-        return int(ready[np.lexsort((ready, corner, way, self.tile[ready], ~self.temporary[ready]))[0]])
+        keys = (ready, corner, way, self._waits(ready), self.tile[ready], ~self.temporary[ready])
+        return int(ready[np.lexsort(keys)[0]])
+
+    def _waits(self, ready: Ints, step: _Begun | None = None) -> Mask:
+        """Tell which atoms have an image that cannot be built yet, nor right after the images of a step."""
+        image = self.image[ready]
+        waits: Mask = (image != NOBODY) & ~self.ready[image] & ~self.done[image]
+        if step is not None:
+            for turn in np.flatnonzero(waits).tolist():
+                below = self.atoms.below[int(image[turn])]
+                waits[turn] = not all(self.done[each] or step.mirrored[each] for each in below)
+        return waits
 
     def _filled(self, begun: list[int], enough: int, *, unpaired: bool = False) -> list[int]:
         """Fill a step that is begun with what fits to it, up to some bricks; if asked for, without images elsewhere."""
@@ -129,22 +140,22 @@ class _Grouping:
         """Return what fits best to a step, if it shall go on."""
         ready = np.flatnonzero(self.ready & (self.image == NOBODY) if unpaired else self.ready)
         ready = ready[step.fits(ready)]
+        waits = self._waits(ready, step)
         higher = np.abs(self.level[ready] - step.level)
         if step.temporary:
             soon = self.atoms.due[ready] <= step.due + SOON
-            ready, higher = ready[soon], higher[soon]
+            ready, higher, waits = ready[soon], higher[soon], waits[soon]
         else:
             # one layer after the other, unless there is too little
             most = LAYER - 1 if step.size >= FEW else 2 * LAYER if step.size > 1 else 3 * LAYER
-            ready, higher = ready[higher <= most], higher[higher <= most]
+            near_enough = higher <= most
+            ready, higher, waits = ready[near_enough], higher[near_enough], waits[near_enough]
         if not len(ready):
             return None
         new, near = ~step.has_lot[self.lot[ready]], step.near[ready]
-        image = self.image[ready]
-        waits = (image != NOBODY) & ~self.ready[image] & ~self.done[image]
         cost = near + NEW_LOT * new + HIGHER * (0 if step.temporary else 1) * higher + WAITS * waits
         if step.size >= FEW:
-            cost[(near > ASIDE) | (new & (step.n_lots >= LOTS))] = np.inf
+            cost[(near > ASIDE) | (new & (step.n_lots >= LOTS)) | waits] = np.inf
         best = int(np.argmin(cost))
         return int(ready[best]) if np.isfinite(cost[best]) else None
 

@@ -49,6 +49,8 @@ class Planner:
         self.rank = _off_middle(self.box)
         self.lot = _numbers(np.column_stack([bricks.part, bricks.colour]))
         stays = np.flatnonzero(~temporary)
+        # tiles of a picture: the wide floor of a model is none, on whatever table it lies
+        self.flat = bool(tiles_of(self.box[stays], bricks.corner[stays, 2].astype(np.int64)).any())
         image = mirror_images(bricks.take(stays), catalogue)
         self.image = np.full(len(bricks), NOBODY, dtype=np.int64)
         self.image[stays] = np.where(image == NOBODY, NOBODY, stays[image])
@@ -231,8 +233,7 @@ class Planner:
             lot=lot,
             temporary=self.temporary[rows[first]],
             image=self._images(rows, unit, n),
-            # the wide floor of a model is no picture
-            tile=np.zeros(n, dtype=np.int64) if small else tiles_of(box, level),
+            tile=tiles_of(box, level) if self.flat and not small else np.zeros(n, dtype=np.int64),
         )
 
     def _images(self, rows: Ints, unit: Ints, n: int) -> Ints:

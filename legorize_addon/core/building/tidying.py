@@ -29,6 +29,8 @@ class Tidying:
                     self._dissolve(number)
         for number in range(len(self.found)):
             self._pair(number)
+        for number in range(len(self.found)):
+            self._accompany(number)
         return [in_turn(step, self.g.below, self.g.box, self.g.level) for step in self.found if step]
 
     def _dissolve(self, number: int) -> None:
@@ -55,12 +57,33 @@ class Tidying:
         if first <= self.step_of[image] <= last and self.g.tile[atom] == self.g.tile[image]:
             self._move(atom, int(self.step_of[image]))
 
+    def _accompany(self, number: int) -> None:
+        """Let a part come from the nearest step that has enough to a brick that is still alone."""
+        if self.g.size[self.found[number]].sum() != 1:
+            return
+        [alone] = self.found[number]
+        for source in sorted(range(len(self.found)), key=lambda each: (abs(each - number), each)):
+            for atom in self.found[source] if source != number else ():
+                left = self.g.size[self.found[source]].sum() - self.g.size[atom]
+                if left > 1 and number in self._beside_image(atom) and self._fits(atom, [alone]):
+                    self._move(atom, number)
+                    return
+
     def _bounds(self, atom: int) -> tuple[int, int]:
         """Return the first and the last step that a part may be in."""
         g = self.g
         first = max((int(self.step_of[each]) for each in g.below[atom]), default=0)
         last = min((int(self.step_of[each]) for each in g.above[atom]), default=len(self.found) - 1)
         return first, last
+
+    def _beside_image(self, atom: int) -> range:
+        """Return the steps that a part may be in, beside that of its image."""
+        first, last = self._bounds(atom)
+        image = int(self.g.image[atom])
+        if image != NOBODY:
+            beside = int(self.step_of[image])
+            first, last = max(first, beside - 1), min(last, beside + 1)
+        return range(first, last + 1)
 
     def _move(self, atom: int, target: int) -> None:
         self.found[int(self.step_of[atom])].remove(atom)
@@ -69,13 +92,7 @@ class Tidying:
 
     def _target(self, atom: int, number: int) -> int | None:
         """Return the step nearest in order that a part may move into."""
-        g = self.g
-        first, last = self._bounds(atom)
-        image = int(g.image[atom])
-        if image != NOBODY:
-            beside = int(self.step_of[image])
-            first, last = max(first, beside - 1), min(last, beside + 1)
-        for target in sorted(range(first, last + 1), key=lambda each: (abs(each - number), each)):
+        for target in sorted(self._beside_image(atom), key=lambda each: (abs(each - number), each)):
             step = self.found[target]
             if target != number and step and self._fits(atom, step):
                 return target

@@ -17,7 +17,7 @@ from ..geometry import beyond, corners, hull
 from ..model import Assembly, Bricks, Catalogue, Rows, column_facts, middles, stud_columns
 from ..progress import Progress, silent
 from .moves import Action
-from .steps import MAIN, Steps
+from .steps import MAIN, Kind, Steps
 
 STEADY: Final = 0.1
 """Studs that the middle of the weight must lie within the feet of a tower."""
@@ -94,6 +94,34 @@ def tipping(
     arrivals = list(_arrivals(steps, table))
     floor = steps.floor(table, assembly.bricks, pairs)
     return falling(arrivals, assembly, pairs, floor=floor, prop=prop, progress=progress)
+
+
+def unbalanced(steps: Steps, assembly: Assembly, pairs: Rows) -> tuple[tuple[Tipping, ...], tuple[Tipping, ...]]:
+    """Find what a hand has to hold while it is built, on all tables.
+
+    Parameters
+    ----------
+    steps : Steps
+        How all is built.
+    assembly : Assembly
+        Model and supports, n rows.
+    pairs : (n_pairs, 2) int32 array
+        Lower and upper brick of each contact.
+
+    Returns
+    -------
+    towers : tuple of Tipping
+        Of the model and its pieces, by step.
+    leaning : tuple of Tipping
+        Of the sub-assemblies that have steps of their own, by step. Smaller ones are built between two fingers.
+    """
+    in_hand = {each for step in steps for each in step.made}
+    found: tuple[list[Tipping], list[Tipping]] = [], []
+    for each in steps.submodels:
+        if each.number not in in_hand:
+            found[each.kind == Kind.SUBASSEMBLY].extend(tipping(steps, assembly, pairs, table=each.number))
+    towers, leaning = (tuple(sorted(each, key=lambda tower: tower.step)) for each in found)
+    return towers, leaning
 
 
 def falling(

@@ -14,7 +14,7 @@ from ..shopping import SECONDS_A_BRICK
 from ..units import PLATE, STUD
 from .canvas import Item, Page, Paint, Rgb, Text, lines, moved, rectangle
 from .fonts import shortened, width, wrapped
-from .icons import arrow, turn_sign
+from .icons import arrow, hold_sign, turn_sign
 from .lattice import FRONT, View
 from .lettering import Title
 from .lots import ANY, GREY, Lot, entries_of, lots_of, picture_of, placed
@@ -118,6 +118,11 @@ def _signs(panels: Panels) -> Iterator[tuple[list[Item], str]]:
     yield [*turn_sign(11, 5, 4.5, over=False)], "The model is seen from another side than before: turn it."
     if panels.steps.moves.pressed.any():
         yield arrow((11, 10), (11, 0)), "Press the new brick on from below, against your fingers on top."
+    if panels.held:
+        yield (
+            hold_sign(11, 5, 6),
+            "Hold what is on the table between your fingers: it would fall over until more is built.",
+        )
     dashed = rectangle(4, 1, 14, 9, Paint(stroke=GREY, width=0.4, dash=(1.4, 1.1)))
     yield [dashed], "Dashed: bricks that are there, but are left out so that new ones behind them are seen."
     if any(each.kind != Kind.MAIN for each in panels.steps.submodels):

@@ -1,4 +1,4 @@
-"""Small signs of the booklet: turn the model, lay it on its back, press from below, take out."""
+"""Small signs of the booklet: turn the model, lay it on its back, press from below, hold, take out."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Floats
-from .canvas import Item, Paint, Path, Rgb, polygon
+from .canvas import Item, Paint, Path, Rgb, polygon, rectangle
 
 SIGN: Final[Rgb] = (0, 104, 183)
 _WIDTH: Final = 0.9
@@ -42,6 +42,21 @@ def arrow(start: tuple[float, float], end: tuple[float, float]) -> list[Item]:
         Path(shaft, np.array([2]), False, (Paint(stroke=SIGN, width=_WIDTH),)),
         _head(other, way, head),
     ]
+
+
+def hold_sign(x: float, y: float, size: float) -> list[Item]:
+    """Return a brick between two arrows that press on its sides.
+
+    Parameters
+    ----------
+    x, y : float
+        Its middle in mm.
+    size : float
+        From there to the end of either arrow.
+    """
+    brick = rectangle(x - 0.25 * size, y - 0.45 * size, 0.5 * size, 0.9 * size, Paint(stroke=SIGN, width=0.6))
+    sides = (arrow((x + side * size, y), (x + side * 0.4 * size, y)) for side in (-1, 1))
+    return [brick, *(item for side in sides for item in side)]
 
 
 def _head(tip: Floats, way: Floats, size: float) -> Path:

@@ -10,7 +10,7 @@ from ..building import Action
 from .canvas import Item, Paint, Rgb, Text, moved, rectangle
 from .closeup import LOCATOR
 from .fonts import width, wrapped
-from .icons import arrow, turn_sign
+from .icons import arrow, hold_sign, turn_sign
 from .lots import GREY, Callout, callout, entries_of, placed
 from .panels import Panel, Panels
 from .picture import MM
@@ -78,7 +78,7 @@ def header(panels: Panels, panel: Panel, room: float) -> Callout:
         lines = wrapped(title, 4.2, max(room - x, 30), bold=True)
         items += [Text(line, x, 4.2 + 5 * row, 4.2, bold=True) for row, line in enumerate(lines)]
         y = 1.5 + 5 * len(lines)
-    signs = _signs(panel)
+    signs = _signs(panel, hold=panels.holds(panel))
     box = _parts(panels, panel, room - x - 2 * _PAD)
     bottom = max(_NUMBER, y + box.height)
     right = x
@@ -107,7 +107,7 @@ def _parts(panels: Panels, panel: Panel, room: float) -> Callout:
     return Callout((box, moved(inside.items, _PAD, _PAD)), wide, high)
 
 
-def _signs(panel: Panel) -> Callout:
+def _signs(panel: Panel, *, hold: bool) -> Callout:
     """Return the signs for what the hands do beside pushing bricks on."""
     items: list[Item] = []
     x = 0.0
@@ -118,6 +118,9 @@ def _signs(panel: Panel) -> Callout:
     if panel.shot.step.pressed and panel.shot.step.action == Action.PLACE:
         items += arrow((x + 6, 8.5), (x + 6, 1))
         x += _signed(items, x, "press from below") + 2
+    if hold:
+        items += hold_sign(x + 6, 5, 4.5)
+        x += _signed(items, x, "hold") + 2
     if len(panel.left_out):
         items.append(rectangle(x + 2, 2, 8, 6, Paint(stroke=GREY, width=0.4, dash=(1.4, 1.1))))
         x += _signed(items, x, "not shown here")

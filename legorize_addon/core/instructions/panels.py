@@ -9,8 +9,8 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Floats, Ints, Mask
-from ..building import Action, Kind, Steps
-from ..model import NOBODY, Bricks, Catalogue
+from ..building import Action, Kind, Steps, building_contacts, unbalanced
+from ..model import NOBODY, Assembly, Bricks, Catalogue
 from ..progress import Progress, silent
 from .canvas import Item, Paint, Path, Rgb
 from .closeup import Window, cut, framed, grown, locator, window_of
@@ -105,10 +105,15 @@ class Panels:
         self._own = own = shown_rgb(bricks, catalogue, temporary, tint)
         self._pale = np.array([pale(_rgb(row)) for row in own], dtype=np.int64).reshape(-1, 3)
         self.names = submodel_names(steps)
+        self.held = _held(Assembly(bricks, catalogue), steps, temporary)
         self._views: dict[int, View] = {}
         self._found: list[Panel] = []
         self._looked = 0
         self._letters = dict.fromkeys(range(len(steps)), 0)
+
+    def holds(self, panel: Panel) -> bool:
+        """Tell whether what a picture shows has to be held, or it would fall over."""
+        return panel.shot.step.number in self.held and panel.shot.submodel == panel.shot.step.submodel
 
     def all(self, progress: Progress = silent) -> list[Panel]:
         """Return the pictures of all steps; what was found before it was stopped is not looked for again."""
@@ -225,6 +230,13 @@ def _outlines(sight: Sight) -> Iterator[Path]:
         region = np.where(slab.sight.bricks == NOBODY, NOBODY, 0)
         loops = outlines(region, slab.sight.low)
         yield Path(at(loops.points) + slab.by, loops.count, True, (_GHOST,))
+
+
+def _held(assembly: Assembly, steps: Steps, temporary: Mask) -> frozenset[int]:
+    """Return the steps in which something falls over that nobody holds."""
+    contacts = building_contacts(assembly, temporary=temporary)
+    towers, leaning = unbalanced(steps, assembly, contacts.pairs)
+    return frozenset(each.step for each in (*towers, *leaning))
 
 
 def submodel_names(steps: Steps) -> dict[int, str]:

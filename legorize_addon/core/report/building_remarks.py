@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final
 
 import numpy as np
@@ -80,12 +80,15 @@ def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
         (proof.wedged, "stand only while neighbouring bricks press on each other"),
     ):
         if len(steps):
-            which = ", ".join(str(step + 1) for step in steps[:SHOWN].tolist())
-            more = f" and {len(steps) - SHOWN} more" if len(steps) > SHOWN else ""
-            sentences.append(
-                f"The bricks placed so far {what} after {count_of(len(steps), 'step', 'steps')} ({which}{more})."
-            )
+            after = f"{count_of(len(steps), 'step', 'steps')} ({_named(steps.tolist())})"
+            sentences.append(f"The bricks placed so far {what} after {after}.")
     return tuple(sentences)
+
+
+def _named(steps: Sequence[int]) -> str:
+    """Name the first of some steps, and count the others."""
+    more = f" and {len(steps) - SHOWN} more" if len(steps) > SHOWN else ""
+    return ", ".join(str(step + 1) for step in steps[:SHOWN]) + more
 
 
 def _staying(supports: AssemblyPlan) -> Iterator[str]:
@@ -112,6 +115,13 @@ def _by_hand(supports: AssemblyPlan) -> Iterator[str]:
     if supports.unsteady:
         towers = count_of(len(supports.unsteady), "tower has", "towers have")
         yield f"{towers} to be held by hand while building, the first in step {supports.unsteady[0].step + 1}."
+    if supports.leaning:
+        one, steps = len(supports.leaning) == 1, sorted({tower.step for tower in supports.leaning})
+        yield (
+            f"{count_of(len(supports.leaning), 'sub-assembly', 'sub-assemblies')} would fall over on the table while "
+            f"{'it is' if one else 'they are'} built, because the lowest bricks are not below the middle: hold "
+            f"{'it' if one else 'them'} in {'step' if len(steps) == 1 else 'steps'} {_named(steps)}."
+        )
     slim = slim_stacks(supports.assembly)
     if len(slim.top):
         which = np.isin(np.arange(len(supports.bricks)), slim.top)

@@ -186,6 +186,7 @@ def _building(build: Finished) -> dict[str, Any]:
         "sub_assemblies": sum(each.kind == Kind.SUBASSEMBLY for each in supports.steps.submodels),
         "loose_pieces": len(found.loose_pieces),
         "held_by_hand": len(supports.unsteady),
+        "leaning_sub_assemblies": len(supports.leaning),
         "ends_as_model": len(found.wrong_end) == 0,
         "pieces": len(supports.pieces),
         "components_of_pieces": _components(supports),

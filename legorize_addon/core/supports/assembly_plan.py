@@ -13,7 +13,6 @@ from ..arrays import Ints, Mask
 from ..building import (
     Action,
     BuildingContacts,
-    Kind,
     Moves,
     Steps,
     Tipping,
@@ -22,7 +21,7 @@ from ..building import (
     given_steps,
     plan_steps,
     steps_alone,
-    tipping,
+    unbalanced,
     walk,
 )
 from ..memo import Recall, plainly
@@ -82,6 +81,8 @@ class AssemblyPlan:
         What the check of the order found.
     unsteady : tuple of Tipping
         Towers that have to be held by hand while they grow, by step.
+    leaning : tuple of Tipping
+        Sub-assemblies that would fall over while they are built by themselves, by step.
     """
 
     assembly: Assembly
@@ -90,6 +91,7 @@ class AssemblyPlan:
     steps: Steps
     walk: Walk
     unsteady: tuple[Tipping, ...]
+    leaning: tuple[Tipping, ...]
 
     @property
     def bricks(self) -> Bricks:
@@ -144,13 +146,15 @@ class AssemblyPlan:
     def by_hand(self) -> Mask:
         """Which moves need a hand that holds, (n_moves,) bool.
 
-        Bricks of a tower in the step in which it would fall over, and supports
-        that are pulled off bricks that cling to them.
+        Bricks of a tower or a sub-assembly in the step in which it would fall over,
+        and supports that are pulled off bricks that cling to them.
         """
         moves = self.moves
         held = np.zeros(len(moves), dtype=bool)
-        for tower in self.unsteady:
-            held |= (moves.step == tower.step) & np.isin(moves.brick, tower.bricks)
+        owner = self.steps.submodel_of(len(self.bricks))
+        for tower in (*self.unsteady, *self.leaning):
+            joins = (moves.action == Action.JOIN) & np.isin(moves.submodel, owner[tower.bricks])
+            held |= (moves.step == tower.step) & (np.isin(moves.brick, tower.bricks) | joins)
         lower, upper = self.contacts.pairs.T
         under = lower[np.isin(upper, self.clinging) & self.temporary[lower]]
         held |= (moves.action == Action.REMOVE) & np.isin(moves.brick, under)
@@ -212,8 +216,7 @@ def plan_assembly(
         steps = plan_steps(everything, catalogue, contacts.pairs, temporary=temporary, progress=ordering)
     planned = Assembly(replace(everything, step=steps.moves.step_of(len(everything))), catalogue)
     found = walk(steps, planned, contacts, temporary=temporary, progress=part(progress, 0.9, 1.0))
-    unsteady = _unsteady(steps, planned, contacts)
-    return AssemblyPlan(planned, contacts, tuple(pieces), steps, found, unsteady)
+    return AssemblyPlan(planned, contacts, tuple(pieces), steps, found, *unbalanced(steps, planned, contacts.pairs))
 
 
 def plan_as_given(
@@ -253,13 +256,14 @@ def plan_as_given(
         steps = plan_steps(bricks, assembly.catalogue, contacts.pairs, temporary=temporary, progress=ordering)
     planned = Assembly(replace(bricks, step=steps.moves.step_of(len(bricks))), assembly.catalogue)
     found = walk(steps, planned, contacts, temporary=temporary, progress=part(progress, 0.8, 1.0))
-    return AssemblyPlan(planned, contacts, tuple(pieces), steps, found, _unsteady(steps, planned, contacts))
+    return AssemblyPlan(planned, contacts, tuple(pieces), steps, found, *unbalanced(steps, planned, contacts.pairs))
 
 
 def walk_apart(plan: AssemblyPlan, apart: Assembly) -> AssemblyPlan:
     """Return a plan of bricks that lie half studs off the places that they were planned for, its order checked anew."""
     found = walk(plan.steps, apart, plan.contacts, temporary=plan.temporary)
-    return replace(plan, assembly=apart, walk=found, unsteady=_unsteady(plan.steps, apart, plan.contacts))
+    unsteady, leaning = unbalanced(plan.steps, apart, plan.contacts.pairs)
+    return replace(plan, assembly=apart, walk=found, unsteady=unsteady, leaning=leaning)
 
 
 def _steps_known(pieces: Sequence[Piece], bricks: Bricks) -> Steps | None:
@@ -268,13 +272,6 @@ def _steps_known(pieces: Sequence[Piece], bricks: Bricks) -> Steps | None:
     if len(pieces) != 1 or bricks.piece.any() or taken_out != len(pieces[0].plan.supports):
         return None
     return pieces[0].plan.grown.steps
-
-
-def _unsteady(steps: Steps, assembly: Assembly, contacts: BuildingContacts) -> tuple[Tipping, ...]:
-    """Return the towers that fall over on the tables of the model and its pieces, by step."""
-    tables = [each.number for each in steps.submodels if each.kind != Kind.SUBASSEMBLY]
-    found = [tower for table in tables for tower in tipping(steps, assembly, contacts.pairs, table=table)]
-    return tuple(sorted(found, key=lambda tower: tower.step))
 
 
 def _worth_trying(need: Demand) -> tuple[Way, ...]:

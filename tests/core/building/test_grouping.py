@@ -145,6 +145,20 @@ def test_what_rests_on_images_follows_in_their_step():
     assert found == [[0, 1, 2, 3], [5, 6, 7, 8], [4, 9]]
 
 
+def test_what_has_an_image_waits_until_that_can_be_built():
+    """Of two mirrored towers far apart, the right one needs a base first: the left one is not begun before."""
+    tower = [[x, x + 1, 0, 1] for x in (0, 2, 4, 6, 8)]
+    box = [
+        *tower,
+        *([99 - x1, 99 - x0, *y] for x0, x1, *y in tower),
+        *([40 + 2 * k, 41 + 2 * k, 0, 1] for k in range(5)),
+    ]
+    image = [*range(5, 10), *range(5), *[NOBODY] * 5]
+    before = np.array([(14, k) for k in range(5, 10)], np.int32)
+    found = group(items(box, np.zeros(15), image=image), before)
+    assert list(map(sorted, found)) == [list(range(10, 15)), list(range(5)), list(range(5, 10))]
+
+
 def test_nothing_gives_no_steps():
     """No items, no steps."""
     assert group(items([], []), NONE) == []
@@ -211,9 +225,14 @@ class Plain:
 
         def order(k):
             way = self.last and max(abs(p - q) for p, q in zip(self.middle(k), self.last, strict=True))
-            return not a.temporary[k], a.tile[k], way, sum(self.middle(k)), k
+            return not a.temporary[k], a.tile[k], self.waits(k), way, sum(self.middle(k)), k
 
         return min((k for k in ready if a.due[k] == due), key=order)
+
+    def waits(self, k, images=frozenset()):
+        """Tell whether the image of a part has to wait for others than those and what is done."""
+        image = int(self.a.image[k])
+        return image not in {NOBODY, *self.done} and not (self.done | images).issuperset(self.a.below[image])
 
     def filled(self, begun, enough, *, unpaired=False):
         """Fill a step."""
@@ -243,9 +262,9 @@ class Plain:
         near = min(max(studs_between(a.box[k], a.box[each])) for each in step)
         lots = {a.lot[each] for each in step}
         new = a.lot[k] not in lots
-        if not fits or (size >= FEW and (near > ASIDE or (new and len(lots) >= LOTS))):
+        waits = self.waits(k, {a.image[each] for each in step})
+        if not fits or (size >= FEW and (near > ASIDE or waits or (new and len(lots) >= LOTS))):
             return np.inf
-        waits = image != NOBODY and image not in self.done and image not in self.ready()
         return near + NEW_LOT * new + HIGHER * (not a.temporary[first]) * higher + WAITS * waits
 
 

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.building import tables
 from legorize_addon.core.building.contacts import building_contacts
+from legorize_addon.core.building.items import MOST
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import SMALL, plan_steps
 from legorize_addon.core.building.steps import Kind
@@ -223,3 +224,16 @@ def test_the_wide_floor_of_a_sub_assembly_is_no_picture(small):
     rows = np.arange(len(bricks))
     units = planner._units(0, rows, rows, np.ones(len(rows), dtype=bool))
     assert planner._items(rows, units, {}, small=small).tile.any() != small
+
+
+def test_the_wide_floor_of_a_piece_is_no_picture():
+    """A plate of 48 bricks that is built by itself, and put onto four feet, has steps like all of the model."""
+    feet = [("3003", x, y, z) for x in (0, 22) for y in (0, 14) for z in (0, 3)]
+    floor = [("3024", x, y, 6) for x in range(24) for y in range(16)]
+    top = [("3460", x, y, 7) for x in (0, 8, 16) for y in range(16)]
+    bricks = table(*feet, *floor, *top)
+    bricks = replace(bricks, piece=np.repeat([0, 1], [len(feet), len(floor) + len(top)]).astype(np.int16))
+    _, steps = planned(bricks)
+    of_piece = [step for step in steps if steps.submodels[step.submodel].kind == Kind.PIECE]
+    assert len(of_piece) > len(floor) / MOST
+    assert max(len(step.bricks) for step in of_piece) <= MOST

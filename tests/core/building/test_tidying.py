@@ -37,8 +37,15 @@ def test_a_single_part_moves_into_a_step_beside_it():
 
 
 def test_it_stays_where_nothing_is_near():
-    """Parts 20 studs away are no help, and neither are steps that are full."""
-    assert Tidying(row(18), [list(range(4)), [17], list(range(4, 17))]).steps()[1] == [17]
+    """Parts 20 studs away are no help."""
+    assert Tidying(row(18), [list(range(4)), [17], list(range(4, 8))]).steps()[1] == [17]
+
+
+def test_a_neighbour_comes_where_steps_are_full():
+    """What is alone beside a full step gets the first of its parts that is near, but not its only one."""
+    assert Tidying(row(18), [list(range(4)), [17], list(range(4, 17))]).steps()[1] == [10, 17]
+    full = items([[0, 1, 0, 0], [2, 3, 0, 0]], [0, 0], size=[1, 12])
+    assert Tidying(Atoms(full, NONE), [[0], [1]]).steps() == [[0], [1]]
 
 
 def test_it_never_moves_before_what_it_waits_for():
@@ -62,19 +69,20 @@ def plain(atoms, found):
     def number(atom):
         return next(k for k, step in enumerate(found) if atom in step)
 
-    def target(atom, own):
+    def may_move(atom, k):
+        step, image = [*found[k], atom], atoms.image[atom]
+        in_order = all(number(each) <= k for each in atoms.below[atom])
+        in_order = in_order and all(number(each) >= k for each in atoms.above[atom])
+        beside = image == NOBODY or abs(number(image) - k) <= 1
+        room = sum(atoms.size[step]) <= atoms.most and span(atoms.box[step]) <= REACH
+        return in_order and beside and room and len(set(atoms.tile[step].tolist())) == 1
+
+    def from_near(own):
         for far in range(1, len(found)):
-            for k in (own - far, own + far):
-                if not (0 <= k < len(found) and found[k]):
-                    continue
-                step, image = [*found[k], atom], atoms.image[atom]
-                in_order = all(number(each) <= k for each in atoms.below[atom])
-                in_order = in_order and all(number(each) >= k for each in atoms.above[atom])
-                beside = image == NOBODY or abs(number(image) - k) <= 1
-                room = sum(atoms.size[step]) <= atoms.most and span(atoms.box[step]) <= REACH
-                if in_order and beside and room and len(set(atoms.tile[step].tolist())) == 1:
-                    return k
-        return None
+            yield from (k for k in (own - far, own + far) if 0 <= k < len(found) and found[k])
+
+    def target(atom, own):
+        return next((k for k in from_near(own) if may_move(atom, k)), None)
 
     for few in (1, 2, 3):
         for own in range(len(found)):
@@ -99,6 +107,12 @@ def plain(atoms, found):
                 if in_order and atoms.tile[atom] == atoms.tile[image]:
                     found[own].remove(atom)
                     found[to].append(atom)
+    for own in range(len(found)):
+        if sum(atoms.size[found[own]]) == 1:
+            more = [(atom, k) for k in from_near(own) for atom in found[k] if may_move(atom, own)]
+            for atom, k in [each for each in more if sum(atoms.size[found[each[1]]]) > atoms.size[each[0]] + 1][:1]:
+                found[k].remove(atom)
+                found[own].append(atom)
     return [set(step) for step in found if step]
 
 

@@ -10,10 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
+from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action, Moves
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.steps import Kind, Steps, Submodel
-from legorize_addon.core.building.towers import STEADY, _arrivals, tipping
+from legorize_addon.core.building.towers import STEADY, _arrivals, tipping, unbalanced
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.contacts import contact_graph, middles
 from legorize_addon.core.statics.stability import stability
@@ -186,3 +187,25 @@ def test_a_tower_stands_on_the_foot_of_an_inverted_slope_alone():
         bricks = table((number, 0, 0, 0), *tower)
         assert stability(Assembly(bricks, CATALOGUE)).stands != falls
         assert bool(falling(bricks)) == falls
+
+
+@pytest.mark.parametrize(
+    ("arm", "plates", "falls"),
+    [
+        (("3007", 4, 8, 3), ((9, 8), (10, 8), (11, 8), (11, 9)), True),
+        (("3007", 4, 8, 3), ((10, 8), (11, 8), (11, 9)), False),
+        (("3001", 7, 8, 3), ((8, 8), (9, 8), (8, 9), (9, 9)), False),
+    ],
+    ids=["at its end", "between two fingers", "in the middle"],
+)
+def test_a_sub_assembly_that_leans_is_named(arm, plates, falls):
+    """One that stands on what hangs from an end of it falls; not if that is below its middle, or it is small."""
+    rows = [arm, *(("3024", x, y, 2) for x, y in plates)]
+    bricks = table(*(("3008", 0, y, 0) for y in range(16)), *rows)
+    gone = np.zeros(len(bricks), bool)
+    pairs = building_contacts(Assembly(bricks, CATALOGUE), temporary=gone).pairs
+    steps = plan_steps(bricks, CATALOGUE, pairs, temporary=gone)
+    assert [each.kind for each in steps.submodels] == [Kind.MAIN, Kind.SUBASSEMBLY]
+    towers, leaning = unbalanced(steps, Assembly(bricks, CATALOGUE), pairs)
+    assert towers == ()
+    assert [found.bricks.tolist() for found in leaning] == [[16 + k for k in range(len(rows))]] * falls

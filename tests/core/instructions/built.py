@@ -32,6 +32,16 @@ def pair() -> AssemblyPlan:
     return plan_assembly(Assembly(table([*lower, *upper, *roof]), CATALOGUE), deepest=3)
 
 
+@cache
+def leaning() -> AssemblyPlan:
+    """Return a floor with a brick on it from whose end four plates hang: built by itself, it would fall over."""
+    floor = [(LONG, 0, 2 * y, 0, 0, 4, 0, 0, 0) for y in range(8)]
+    hanging = [(PART["3024"], x, y, 2, 0, 14, 0, 0, 0) for x, y in ((9, 8), (10, 8), (11, 8), (11, 9))]
+    return plan_assembly(
+        Assembly(table([*floor, (LONG, 4, 8, 3, 0, 1, 0, 0, 0), *hanging]), CATALOGUE), wish="none", deepest=3
+    )
+
+
 def tower() -> Bricks:
     """Return two bricks with plates and a support between them, and a tall one beside."""
     return table(

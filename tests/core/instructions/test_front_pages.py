@@ -24,7 +24,7 @@ from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.progress import duration
 from legorize_addon.core.shopping.shopping_list import shopping_list
 from tests.core.any_bricks import CATALOGUE
-from tests.core.instructions.built import arm, pair
+from tests.core.instructions.built import arm, leaning, pair
 from tests.core.instructions.test_panels import panels_of
 
 A4 = PAPERS["A4"]
@@ -115,6 +115,8 @@ def test_only_signs_that_occur_are_explained():
     without = " ".join(texts(how_to_read(panels_of(plan), A4, 2).items))
     assert "Supports" not in without
     assert "by itself" in without
+    assert "Hold what" not in without
+    assert "Hold what" in " ".join(texts(how_to_read(panels_of(leaning()), A4, 2).items))
 
 
 def test_remarks_stand_below_the_signs():

@@ -7,7 +7,7 @@ import pytest
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.instructions.canvas import Group, Text
 from legorize_addon.core.instructions.panel_layout import header, panel_items, title_of
-from tests.core.instructions.built import arm, pair
+from tests.core.instructions.built import arm, leaning, pair
 from tests.core.instructions.test_panels import panels_of
 
 
@@ -59,6 +59,13 @@ def test_signs_are_explained_by_a_word():
             shown = set(texts(header(panels, panel, 130.0).items))
             assert ("turn" in shown or "turn over" in shown) == (panel.turned is not None)
             assert ("not shown here" in shown) == (len(panel.left_out) > 0)
+
+
+def test_what_would_fall_over_is_to_be_held():
+    """The picture of a sub-assembly that leans says so, those of the model do not."""
+    panels, found = all_panels(leaning)
+    held = {panel.shot.submodel for panel in found if "hold" in texts(header(panels, panel, 130.0).items)}
+    assert ({panel.shot.submodel for panel in found}, held) == ({0, 1}, {1})
 
 
 def test_pictures_stay_in_their_cells():

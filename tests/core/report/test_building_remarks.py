@@ -54,6 +54,15 @@ def test_high_slim_support_is_told():
     assert told(("3003", 0, 0, 0), *[("3003", 0, 0, z) for z in range(3, 18, 3)], ("3007", 0, 0, 18), deepest=0) == ()
 
 
+def test_a_sub_assembly_that_leans_is_told():
+    """An arm on a floor from whose end four plates hang: by itself it would stand on these."""
+    floor, arm = [("3008", 0, y, 0) for y in range(16)], ("3007", 4, 8, 3)
+    hanging = [("3024", x, y, 2) for x, y in ((9, 8), (10, 8), (11, 8), (11, 9))]
+    [sentence] = told(*floor, arm, *hanging, wish="none")
+    assert sentence.startswith("1 sub-assembly would fall over on the table")
+    assert sentence.endswith("hold it in step 2.")
+
+
 def test_brick_in_the_air_is_named():
     """Without supports, a brick that floats is named by colour, part and layer."""
     [sentence] = told(("3003", 0, 0, 0), ("3001", 0, 0, 6), wish="none")
