@@ -52,7 +52,7 @@ from .run import Run
 from .settings import Settings
 from .shortage import with_enough_parts
 from .slope_stages import lay_with_slopes
-from .stages import cut_pieces, hollow_by, make_plan
+from .stages import cut_pieces, hollow_by, make_plan, plan_pieces
 from .statics import Stability
 from .stock import Owned
 from .strength import (
@@ -125,9 +125,9 @@ def _legorize(
     with run.stage("pieces"):
         assembly, found, exchanged = run.once(take_fewer_lots, assembly, found)
         assembly, found, smoothed = run.once(smooth_surface, assembly, found, by_hand.made)
-        assembly, joints = run.once(cut_pieces, assembly)
+        pieces = run.once(cut_pieces, assembly)
     with run.stage("supports"):
-        plan = run.once(make_plan, assembly)
+        plan, joints = plan_pieces(run, assembly, *pieces)
     if made.planes or len(plan.final) > len(assembly):
         with run.stage("stability again"):
             found = run.once(check_final, plan.final)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Any, cast
+from typing import Any, Final, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +41,7 @@ from .supports import (
     Wish,
     of_the_paper,
     parts_of_supports,
+    pays,
     plan_assembly,
     segment,
 )
@@ -60,6 +61,9 @@ from .unit_bricks import (
     wanted_colours,
 )
 from .units import PLATES_PER_BRICK
+
+CUTS: Final = 4
+"""Ways to cut a model that are planned with all supports, where those before saved too few: each takes a whole plan."""
 
 
 def _in_plates(settings: Settings) -> bool:
@@ -286,9 +290,47 @@ def _parts_of_supports(run: Run, bricks: Bricks) -> float:
     return parts_of_supports(Assembly(bricks, run.catalogue), deepest=run.settings.hanging)
 
 
-def cut_pieces(run: Run, assembly: Assembly) -> tuple[Assembly, tuple[Joint, ...]]:
-    """Cut the model into pieces where that saves supports."""
-    return segment(assembly, most=run.settings.split, deepest=run.settings.hanging)
+def cut_pieces(
+    run: Run, assembly: Assembly, barred: frozenset[int] = frozenset()
+) -> tuple[Assembly, tuple[Joint, ...]]:
+    """Cut the model into pieces where that is expected to save supports, but for cuts at barred levels."""
+    return segment(assembly, most=run.settings.split, deepest=run.settings.hanging, barred=barred)
+
+
+def plan_pieces(
+    run: Run, whole: Assembly, cut: Assembly, joints: tuple[Joint, ...]
+) -> tuple[AssemblyPlan, tuple[Joint, ...]]:
+    """Plan a model in pieces, or with other cuts where the supports that are laid turn out to save too little.
+
+    Parameters
+    ----------
+    run : Run
+    whole, cut : Assembly
+        The model in one piece, and as :func:`cut_pieces` cuts it.
+    joints : tuple of Joint
+        Its joints.
+
+    Returns
+    -------
+    plan : AssemblyPlan
+    joints : tuple of Joint
+        None where no cut pays.
+    """
+    plan = run.once(make_plan, cut)
+    if not joints or not run.settings.supported:
+        return plan, joints
+    alone, barred = run.once(make_plan, whole), frozenset[int]()
+    for _ in range(CUTS):
+        # what is left in the air either way weighs more than any support
+        hanging, before = (len(each.walk.in_air) for each in (plan, alone))
+        if hanging < before or (hanging == before and pays(len(alone.removed), len(plan.removed))):
+            return plan, joints
+        barred |= {joints[-1].level}
+        cut, joints = run.once(cut_pieces, whole, barred)
+        if not joints:
+            break
+        plan = run.once(make_plan, cut)
+    return alone, ()
 
 
 def make_plan(run: Run, assembly: Assembly) -> AssemblyPlan:

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from legorize_addon.core import stages
 from legorize_addon.core.estimate import AGAIN
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.progress import Overall, silent
 from legorize_addon.core.run import Run
 from legorize_addon.core.settings import Settings
+from legorize_addon.core.supports import SAVING
+from scripts.research.five_kinds import KINDS
 from tests.core.solids import box
 from tests.core.textured import painted
 
@@ -53,3 +58,34 @@ def test_replaced_colours_are_built(dithering):
     assert code not in made.grid.colour
     assert (made.grid.colour == other).sum() > 0
     assert code in plain.grid.colour
+
+
+def test_a_model_is_split_where_that_saves_supports():
+    """Not where it was only expected to: a figure that takes more supports in two pieces stays whole, and says so."""
+    whole, found = (legorize(KINDS["character"](), Settings(width=14, hanging=0, split=most)) for most in (1, 2))
+    saved = 1 - len(found.supports.removed) / len(whole.supports.removed)
+    assert saved >= SAVING if len(found.supports.pieces) > 1 else saved == 0
+    assert len(found.joints) == len(found.supports.pieces) - 1
+    told = [note for note in found.notes if "stays in one piece" in note]
+    assert len(told) == (len(found.supports.pieces) == 1)
+
+
+def test_the_next_cut_is_tried_where_one_saves_too_little(monkeypatch):
+    """Cuts are barred from the last one on; what hangs in the air weighs more than supports."""
+    barred = []
+
+    def made(number, in_air=0):
+        return SimpleNamespace(removed=range(number), walk=SimpleNamespace(in_air=range(in_air)))
+
+    plans = {"whole": made(10, in_air=1), "first": made(9, in_air=1), "second": made(20)}
+    cuts = {frozenset(): ("first", (SimpleNamespace(level=3), SimpleNamespace(level=9)))}
+    cuts[frozenset({9})] = ("second", (SimpleNamespace(level=6),))
+    monkeypatch.setattr(stages, "make_plan", lambda run, assembly: plans[assembly])
+    monkeypatch.setattr(stages, "cut_pieces", lambda run, whole, no: barred.append(no) or cuts.get(no, (whole, ())))
+    assert stages.plan_pieces(run_of(), "whole", *cuts[frozenset()]) == (plans["second"], cuts[frozenset({9})][1])
+    assert barred == [frozenset({9})]
+    plans["second"] = made(10, in_air=1)
+    assert stages.plan_pieces(run_of(), "whole", *cuts[frozenset()]) == (plans["whole"], ())
+    assert barred[1:] == [frozenset({9}), frozenset({9, 6})]
+    # without supports nobody counts them
+    assert stages.plan_pieces(run_of(supports="none"), "whole", *cuts[frozenset()])[0] == plans["first"]

@@ -7,7 +7,7 @@ from .boxes import INSIDE_COLOUR, of_the_paper
 from .bracing import add_bracing
 from .demand import parts_of_supports
 from .pillars import add_pillars
-from .segmentation import SAVING, Joint, segment
+from .segmentation import SAVING, Joint, pays, segment
 from .stacks import SLIM, slim_stacks
 from .strengthening import strengthen
 
@@ -23,6 +23,7 @@ __all__ = [
     "add_pillars",
     "of_the_paper",
     "parts_of_supports",
+    "pays",
     "plan_as_given",
     "plan_assembly",
     "segment",

@@ -68,8 +68,10 @@ class Joint:
     after: int
 
 
-def segment(assembly: Assembly, *, most: int, deepest: int) -> tuple[Assembly, tuple[Joint, ...]]:
-    """Cut a model into pieces where that saves supports.
+def segment(
+    assembly: Assembly, *, most: int, deepest: int, barred: frozenset[int] = frozenset()
+) -> tuple[Assembly, tuple[Joint, ...]]:
+    """Cut a model into pieces where that is expected to save supports.
 
     Parameters
     ----------
@@ -79,6 +81,8 @@ def segment(assembly: Assembly, *, most: int, deepest: int) -> tuple[Assembly, t
         Pieces at most.
     deepest : int
         Plates that bricks may hang one under another while building.
+    barred : frozenset of int
+        Plates on which no upper piece may begin.
 
     Returns
     -------
@@ -98,6 +102,7 @@ def segment(assembly: Assembly, *, most: int, deepest: int) -> tuple[Assembly, t
             option
             for number in price
             for option in _options(assembly, piece, number, price[number], deepest)
+            if option.level(bricks) not in barred
             if len(price) + len(option.lower) <= most and _fits(assembly, below, option.pieces(piece))
         ]
         if not options:
@@ -146,6 +151,10 @@ class _Option:
         """Support bricks of both sides, and bricks that none can carry."""
         return self.below.bricks + self.above.bricks
 
+    def level(self, bricks: Bricks) -> int:
+        """Return the plate on which the upper piece begins."""
+        return int(bricks.corner[self.upper, 2].min())
+
     def pieces(self, piece: NDArray[np.int16]) -> NDArray[np.int16]:
         """Return the piece of each brick after the cut: the greatest lower part keeps the number, the upper is last."""
         found, number = piece.copy(), int(piece.max())
@@ -190,15 +199,15 @@ def _options(
         option = _Option(number, upper, parts, below, above)
         # what hangs from bricks above the cut is not in place yet when the upper part is joined
         firm = _joint(graph, upper, np.isin(np.arange(len(bricks)), np.flatnonzero(lower)[below.stands]))
-        if firm >= INTERFACE and _pays(price.bricks, option.price):
+        if firm >= INTERFACE and pays(price.bricks, option.price):
             yield option
         tried += 1
         if tried == TRIED:
             return
 
 
-def _pays(before: int, after: int) -> bool:
-    """Tell whether a cut saves enough of the support bricks that a piece takes."""
+def pays(before: int, after: int) -> bool:
+    """Tell whether cuts save enough of the support bricks, given how many there are without and with them."""
     return after < before and after <= (1 - SAVING) * before
 
 

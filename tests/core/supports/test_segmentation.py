@@ -10,7 +10,7 @@ from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.supports.assembly_plan import plan_assembly
-from legorize_addon.core.supports.segmentation import INTERFACE, LEAST, SAVING, _pays, segment
+from legorize_addon.core.supports.segmentation import INTERFACE, LEAST, SAVING, pays, segment
 from tests.core.overhanging import overhanging
 from tests.core.standing import CATALOGUE, table
 
@@ -102,10 +102,10 @@ def test_no_piece_sits_on_what_is_not_there_yet():
     assert plan_assembly(Assembly(bricks, CATALOGUE), deepest=3).walk.buildable
 
 
-@pytest.mark.parametrize(("before", "after", "pays"), [(10, 8, True), (20, 17, False), (1, 0, True), (0, 0, False)])
-def test_a_fifth_has_to_be_saved(before, after, pays):
+@pytest.mark.parametrize(("before", "after", "enough"), [(10, 8, True), (20, 17, False), (1, 0, True), (0, 0, False)])
+def test_a_fifth_has_to_be_saved(before, after, enough):
     """A cut that saves less than a fifth of the supports is not worth the joint."""
-    assert _pays(before, after) == pays
+    assert pays(before, after) == enough
 
 
 def test_no_cut_where_nothing_is_saved():
