@@ -43,9 +43,10 @@ def write_mpd(assembly: Assembly, steps: Steps, *, name: str, title: str) -> str
     -------
     str
         The text with CRLF line ends. Each step ends in one ``0 STEP`` of the
-        model in which it is done, or in ``0 ROTSTEP`` where what it puts on would
-        be hidden behind the rest and after that, and begins with its number through all of
-        them; sub-models that are built together are one, called for each.
+        model in which it is done, after ``0 ROTSTEP`` where what it puts on would be hidden
+        behind the rest and after that: for LPub3D the two are one end, and LeoCAD knows the
+        second alone. It begins with its number through all of them; sub-models that are built
+        together are one, called for each.
     """
     return LINE_END.join([*_Document(assembly, steps, one_line(name), title).lines(), ""])
 
@@ -106,7 +107,11 @@ class _Document:
                 if self.steps.submodels[number].parent == submodel.number:
                     yield self._call(number)
             turn = self.turns[step.number] if submodel.number == step.submodel else 0
-            yield _end(turn, turned)
+            if turn:
+                yield f"0 ROTSTEP 0 {90 * turn} 0 REL"
+            elif turned:
+                yield "0 ROTSTEP END"
+            yield "0 STEP"
             turned = turn
         for step in steps:
             if step.action == Action.REMOVE:
@@ -131,13 +136,6 @@ class _Document:
         rows = self.steps.all_rows(number)
         low: np.ndarray = (self.bricks.corner[rows] + self.bricks.shift[rows]).min(axis=0)
         return low
-
-
-def _end(turn: int, before: int) -> str:
-    """Return the end of a step that is seen after some quarter turns, as those before it were."""
-    if turn:
-        return f"0 ROTSTEP 0 {90 * turn} 0 REL"
-    return "0 ROTSTEP END" if before else "0 STEP"
 
 
 def _group(step: int) -> str:

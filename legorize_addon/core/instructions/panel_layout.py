@@ -115,7 +115,11 @@ def _signs(panel: Panel, *, hold: bool) -> Callout:
         over = panel.turned.below != panel.view.below
         items += turn_sign(x + 6, 4.5, 3.6, over=over)
         x += _signed(items, x, "turn over" if over else "turn") + 2
-    if panel.shot.step.pressed and panel.shot.step.action == Action.PLACE:
+    removed = panel.shot.step.action == Action.REMOVE
+    if removed and panel.view.below:
+        items += turn_sign(x + 6, 4.5, 3.6, over=True)
+        x += _signed(items, x, "seen from below") + 2
+    if panel.shot.step.pressed and not removed:
         items += arrow((x + 6, 8.5), (x + 6, 1))
         x += _signed(items, x, "press from below") + 2
     if hold:

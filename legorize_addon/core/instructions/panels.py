@@ -130,6 +130,10 @@ class Panels:
         fresh = not len(shot.before)
         found = []
         for scene in self._scenes(shot, first):
+            if shot.step.action == Action.REMOVE and scene.view.below:
+                # one looks at it from below, and leaves it standing
+                found.append((scene, None))
+                continue
             found.append((scene, None if scene.view == before or fresh else before))
             before, fresh = scene.view, False
         self._views[table] = before

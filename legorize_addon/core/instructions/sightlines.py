@@ -183,7 +183,7 @@ def removal(stage: Stage, stays: Ints, taken: Ints, first: View, stacks: Ints) -
     stays, taken : int64 array
         Rows of the bricks that stay, and that are taken out.
     first : View
-        From where the step before was seen, which is kept if it will do.
+        From where the step before was seen, above, which is kept if it will do.
     stacks : (n_taken,) int64 array
         Number of the stack of each of those: of each one brick is to be seen.
 
@@ -195,11 +195,9 @@ def removal(stage: Stage, stays: Ints, taken: Ints, first: View, stacks: Ints) -
     seen = {view: stage.scene(stays, taken, view) for view in views}
     shown = {view: len(np.unique(stacks[scene.shares >= _KNOWN])) for view, scene in seen.items()}
     best = max(shown.values())
-    good = [view for view in views if shown[view] == best]
-    # nobody lays a model on its back for what is seen as it stands, or stands it up for what is seen as it lies
-    lies = {view.below for view in good}
-    below = first.below if first.below in lies else not first.below
-    good = [view for view in good if view.below == below]
+    # nobody looks from below for what is seen as well from above
+    below = max(shown[view] for view in views if not view.below) < best
+    good = [view for view in views if shown[view] == best and view.below == below]
     most = max(float(seen[view].shares.mean()) for view in good)
     return next(seen[view] for view in good if seen[view].shares.mean() >= _NEARLY * most)
 

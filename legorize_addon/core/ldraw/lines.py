@@ -64,10 +64,13 @@ class Section:
         In the order of the file; None ends a step.
     drawn : list of int
         Numbers of lines that draw geometry of their own.
+    turned : list of int
+        Items up to an end of a step that turns the view, as long as no plain one came.
     """
 
     items: list[Reference | None] = field(default_factory=list)
     drawn: list[int] = field(default_factory=list)
+    turned: list[int] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,8 +172,14 @@ def _take(
         section.drawn.append(number)
     elif words[0] != "0":
         document.broken.append(number)
-    elif words[1:2] in (["STEP"], ["ROTSTEP"]):
+    elif words[1:2] == ["ROTSTEP"]:
         section.items.append(None)
+        section.turned.append(len(section.items))
+    elif words[1:2] == ["STEP"]:
+        # for programs that do not know the one before, a plain end says the same again
+        if section.turned[-1:] != [len(section.items)]:
+            section.items.append(None)
+        section.turned.clear()
     elif words[1:2] == ["!COLOUR"]:
         document.colours.update(_definition(words))
     elif words[1:3] == ["!LEGORIZE", "ROLE"]:

@@ -33,7 +33,8 @@ def read(text):
             name = " ".join(words[2:]).lower()
             first = first or name
             models[name] = Model()
-        elif words[1:2] in (["STEP"], ["ROTSTEP"]):
+        elif words[1:2] == ["STEP"]:
+            # as LeoCAD reads it: a turned view ends no step
             models[name].steps.append([])
         elif words[1:4] == ["!LEOCAD", "PIECE", "STEP_HIDE"]:
             hide = int(words[4])

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from legorize_addon.core.building.moves import Action
 from legorize_addon.core.instructions.canvas import Group, Text
+from legorize_addon.core.instructions.lattice import View
 from legorize_addon.core.instructions.panel_layout import header, panel_items, title_of
 from tests.core.instructions.built import arm, leaning, pair
 from tests.core.instructions.test_panels import panels_of
@@ -49,6 +52,16 @@ def test_titles_say_what_is_done():
     panels, found = all_panels(pair)
     assert "Put on piece 2" in [title_of(panels, panel) for panel in found]
     assert "Piece 2" in [title_of(panels, panel) for panel in found]
+
+
+def test_supports_are_looked_at_from_below_without_turning_the_model():
+    """What is taken out below is called so, and not as if the model were laid on its back."""
+    panels, found = all_panels(arm)
+    panel = next(panel for panel in found if panel.shot.step.action == Action.REMOVE)
+    shown = set(texts(header(panels, replace(panel, view=View(0, below=True), turned=None), 130.0).items))
+    assert "seen from below" in shown
+    assert "turn over" not in shown
+    assert "seen from below" not in set(texts(header(panels, panel, 130.0).items))
 
 
 def test_signs_are_explained_by_a_word():

@@ -103,3 +103,16 @@ def test_what_lay_on_its_back_stands_again_for_what_comes_from_above():
     first = panels.of(shot)[0]
     assert not first.view.below
     assert first.turned == View(1, below=True)
+
+
+def test_a_look_from_below_does_not_move_the_model(monkeypatch):
+    """After supports were taken out below, the model is seen from where it was seen before."""
+    panels = panels_of(arm())
+    shot = next(shot for shot in panels.shots if shot.step.action == Action.REMOVE)
+    panels._views[shot.submodel] = View(3)
+    below = panels.stage.scene(shot.stays, shot.placed, View(0, below=True))
+    monkeypatch.setattr(panels, "_scenes", lambda *_: [below])
+    [panel] = panels.of(shot)
+    assert panel.view.below
+    assert panel.turned is None
+    assert panels._views[shot.submodel] == View(3)

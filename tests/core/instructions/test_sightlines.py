@@ -115,12 +115,6 @@ def test_what_is_hidden_from_above_is_taken_out_from_below():
     assert (both.shares >= ENOUGH).all()
 
 
-def test_nobody_turns_a_model_over_again_for_the_next_supports():
-    """What lies on its back stays so as long as what is taken out is seen."""
-    lying = View(0, below=True)
-    assert taken(table([*ROOF, RIM]), [36], lying).view == lying
-
-
 def test_of_a_stack_one_brick_is_enough():
     """A plate over a support that is seen need not be seen itself."""
     high = [(part, x, y, 4, *rest) for part, x, y, _, *rest in ROOF]

@@ -26,6 +26,14 @@ def test_models_and_steps():
     assert not document.broken
 
 
+def test_a_turned_view_and_a_step_are_one_end():
+    """A STEP right after ROTSTEP ends nothing more, whatever comments lie between; one after a part does."""
+    turned = f"{BRICK}\n0 ROTSTEP 0 90 0 REL\n0 // seen from behind\n0 STEP\n"
+    assert shape(parse(f"{turned}{turned}")) == {"": ["3005.dat", None, "3005.dat", None]}
+    assert shape(parse(f"0 STEP\n{turned}0 STEP\n")) == {"": [None, "3005.dat", None, None]}
+    assert shape(parse(f"0 ROTSTEP END\n{BRICK}\n0 STEP\n")) == {"": [None, "3005.dat", None]}
+
+
 def test_what_stands_before_the_first_model():
     """A title before the first model is no model, but parts there are the main one."""
     assert parse(f"0 made by hand\n0 FILE a.ldr\n{BRICK}").main == "a.ldr"
