@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .check import Walk, walk
     from .contacts import BuildingContacts, building_contacts
     from .given import given_steps
+    from .mirror import MirrorPlane, mirror_plane
     from .order import plan_steps, steps_of
     from .proof import Proof, prove_steps
     from .tiles import SIDE, tile_places
@@ -29,6 +30,7 @@ else:
         check=("Walk", "walk"),
         contacts=("BuildingContacts", "building_contacts"),
         given=("given_steps",),
+        mirror=("MirrorPlane", "mirror_plane"),
         order=("plan_steps", "steps_of"),
         proof=("Proof", "prove_steps"),
         tiles=("SIDE", "tile_places"),
@@ -44,6 +46,7 @@ __all__ = [
     "Action",
     "BuildingContacts",
     "Kind",
+    "MirrorPlane",
     "Moves",
     "Proof",
     "Step",
@@ -55,6 +58,7 @@ __all__ = [
     "column_pairs",
     "falling",
     "given_steps",
+    "mirror_plane",
     "no_prop",
     "plan_steps",
     "presses",

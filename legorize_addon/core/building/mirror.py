@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,21 @@ SYMMETRIC: Final = 0.5
 
 OFF: Final = 4
 """Half studs by which the plane of symmetry may lie off the middle of the outline."""
+
+
+class MirrorPlane(NamedTuple):
+    """A plane in which stud squares are mirrored.
+
+    Attributes
+    ----------
+    axis : int
+        0 if it is mirrored along x, 1 along y.
+    total : int
+        What the places of a square and of its image on that axis add up to.
+    """
+
+    axis: int
+    total: int
 
 
 def boxes(bricks: Bricks, catalogue: Catalogue) -> Ints:
@@ -42,20 +57,33 @@ def mirror_images(bricks: Bricks, catalogue: Catalogue) -> Ints:
         if it lies across the plane, ``NOBODY`` if there is none or the model is
         not symmetric.
     """
-    best = np.full(len(bricks), NOBODY, dtype=np.int64)
+    found = _symmetry(bricks, catalogue)
+    return np.full(len(bricks), NOBODY, dtype=np.int64) if found is None else found[1]
+
+
+def mirror_plane(bricks: Bricks, catalogue: Catalogue) -> MirrorPlane | None:
+    """Find the plane of symmetry of bricks that do not overlap; None if they are not symmetric."""
+    found = _symmetry(bricks, catalogue)
+    return None if found is None else found[0]
+
+
+def _symmetry(bricks: Bricks, catalogue: Catalogue) -> tuple[MirrorPlane, Ints] | None:
+    """Return the plane in which most bricks have an image, and the image of each."""
+    best = None
     if not len(bricks):
         return best
     outline = boxes(bricks, catalogue)
     most = int(SYMMETRIC * len(bricks))
-    for first, last, others in ((0, 1, (2, 3)), (2, 3, (0, 1))):
+    for axis, (first, last, others) in enumerate(((0, 1, (2, 3)), (2, 3, (0, 1)))):
         low, high = outline[:, first], outline[:, last]
         kind = _kinds(np.column_stack([bricks.part, bricks.corner[:, 2], high - low, outline[:, others]]))
         # first and last square of each image add up to twice the middle
         for shift in sorted(range(-OFF, OFF + 1), key=abs):
-            found = _images(kind, low, int(low.min() + high.max()) + shift - high)
+            total = int(low.min() + high.max()) + shift
+            found = _images(kind, low, total - high)
             count = int(np.count_nonzero(found != NOBODY))
             if count > most:
-                best, most = found, count
+                best, most = (MirrorPlane(axis, total), found), count
     return best
 
 

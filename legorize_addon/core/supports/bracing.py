@@ -28,6 +28,7 @@ from ..model import (
 )
 from ..progress import Progress, silent
 from ..statics import SOON, SPARE, Effort, Stability, Statics, stability, torn_by
+from .mirrored import Propped, mirror_pillars
 from .pillars import Places, kept_pillars, places_below
 
 ROUNDS: Final = 8
@@ -55,9 +56,6 @@ which takes longer; and bricks tested in all of these up to which one pillar is 
 
 STEADY: Final = 1.0
 """Studs that the weight of what tips over shall come to lie inside of its feet."""
-
-Propped = tuple[Assembly, Stability]
-"""Bricks with pillars behind them, and how they stand."""
 
 
 def add_bracing(
@@ -109,7 +107,12 @@ def add_bracing(
         aimed, propped = clutch, tested(pillars, clutch=clutch)
         if not propped[1].stable:
             return assembly, judged(assembly)
-    more, proof = _with_fewer(propped, pillars, partial(tested, clutch=aimed)) if pillars else propped
+    tested = partial(tested, clutch=aimed)
+    fewer, pillars = _with_fewer(propped, pillars, tested)
+    if pillars:
+        # the model takes as many tests to be mirrored as it took to leave pillars out
+        fewer = mirror_pillars(assembly, fewer, pillars, tested, tests=_turns(fewer))
+    more, proof = fewer
     return more, judged(more, effort=Effort(near=proof))
 
 
@@ -140,12 +143,22 @@ def _tested(
     return more, stability(more, clutch=clutch, effort=chosen, progress=progress)
 
 
-def _with_fewer(propped: Propped, pillars: Sequence[Bricks], tested: Callable[..., Propped]) -> Propped:
+def _turns(propped: Propped) -> int:
+    """Return the number of times that pillars are left out or moved to see if the model stands so."""
+    n_bricks = len(propped[0])
+    turns = SPARING if propped[1].upright else SPARING // 2
+    return min(max(turns, SPARED // n_bricks), WORK // n_bricks)
+
+
+def _with_fewer(
+    propped: Propped, pillars: list[Bricks], tested: Callable[..., Propped]
+) -> tuple[Propped, list[Bricks]]:
     """Leave out what bears least: half of the pillars, and ever fewer of them where the model would not stand."""
+    if not pillars:
+        return propped, pillars
     n_bricks = len(propped[0])
     share, needed = len(pillars) // 2, np.zeros(len(pillars), dtype=bool)
-    turns = SPARING if propped[1].upright else SPARING // 2
-    for number in range(min(max(turns, SPARED // n_bricks), WORK // n_bricks)):
+    for number in range(_turns(propped)):
         pillar = _pillar_of(propped, pillars)
         order = np.lexsort((_loads(propped[1], pillar, len(pillars)), needed))
         share = min(share, int(np.count_nonzero(~needed)))
@@ -163,7 +176,7 @@ def _with_fewer(propped: Propped, pillars: Sequence[Bricks], tested: Callable[..
             needed[order[0]] = True
         else:
             share //= 2
-    return propped
+    return propped, pillars
 
 
 def _pillar_of(propped: Propped, pillars: Sequence[Bricks]) -> Ints:

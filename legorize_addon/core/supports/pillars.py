@@ -138,7 +138,7 @@ def _under(assembly: Assembly, mine: Mask) -> tuple[Boxes, int]:
     return np.concatenate([_pillar(under, each) for each in chosen]), int(under.brick[first])
 
 
-def places_below(assembly: Assembly, mine: Mask) -> Places:
+def places_below(assembly: Assembly, mine: Mask, *, between: bool = False) -> Places:
     """List where pillars can stand under some bricks, but not on them; sockets hold them, and studs bear them.
 
     Parameters
@@ -146,6 +146,8 @@ def places_below(assembly: Assembly, mine: Mask) -> Places:
     assembly : Assembly
     mine : (n,) bool array
         Which of them.
+    between : bool, optional
+        Whether they may stand on some of these bricks as well.
 
     Returns
     -------
@@ -160,7 +162,7 @@ def places_below(assembly: Assembly, mine: Mask) -> Places:
     for row, (x, y, z) in zip(brick.tolist(), cells.tolist(), strict=True):
         below = np.flatnonzero(owner[:z, y, x] != NOBODY)
         foot = int(below[-1]) + 1 if len(below) else ground
-        if foot < z and not (len(below) and mine[owner[foot - 1, y, x]]):
+        if foot < z and (between or not (len(below) and mine[owner[foot - 1, y, x]])):
             found.append((row, x, y, z, z - foot, len(below) > 0))
     row, x, y, top, length, on_brick = np.array(found, dtype=np.int64).reshape(-1, 6).T
     places = Places(row, x, y, top, length, on_brick.astype(bool))

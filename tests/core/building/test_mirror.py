@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.building.mirror import OFF, SYMMETRIC, boxes, mirror_images
+from legorize_addon.core.building.mirror import OFF, SYMMETRIC, MirrorPlane, boxes, mirror_images, mirror_plane
 from legorize_addon.core.model.bricks import NOBODY
 from tests.core.standing import CATALOGUE, table
 
@@ -31,6 +31,14 @@ def test_images_of_a_gate(shift):
     """Pillars and upper beams are images of each other, what lies across the plane is its own."""
     bricks = table(*((number, x + shift, y, z) for number, x, y, z in GATE))
     assert mirror_images(bricks, CATALOGUE).tolist() == [1, 0, 2, 3, 5, 4]
+    assert mirror_plane(bricks, CATALOGUE) == MirrorPlane(0, 7 + 2 * shift)
+
+
+def test_the_plane_lies_along_y_as_well():
+    """A gate that is turned is mirrored in the other axis; nothing has no plane."""
+    turned = table(*((number, y, x, z, 1) for number, x, y, z in GATE))
+    assert mirror_plane(turned, CATALOGUE) == MirrorPlane(1, 7)
+    assert mirror_plane(table(), CATALOGUE) is None
 
 
 def test_one_more_brick_has_no_image():
@@ -44,6 +52,7 @@ def test_no_symmetry_no_images():
     rng = np.random.default_rng(1)
     rows = [("3005", int(x), int(y), 3 * z) for z, (x, y) in enumerate(rng.integers(0, 30, (40, 2)))]
     assert (mirror_images(table(*rows), CATALOGUE) == NOBODY).all()
+    assert mirror_plane(table(*rows), CATALOGUE) is None
 
 
 def test_images_are_mutual():

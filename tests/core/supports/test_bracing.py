@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from legorize_addon.core.building.mirror import boxes
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.progress import silent
@@ -124,8 +125,9 @@ def test_pillars_that_bear_little_are_left_out():
     bricks = table(("3005", 0, 0, 0), ("3008", 0, 0, 3))
     pillars = [table(("3005", x, 0, 0)) for x in range(1, 8)]
     tested = partial(_tested, Assembly(bricks, CATALOGUE), clutch=HOLD, progress=silent)
-    assembly, found = _with_fewer(tested(pillars), pillars, tested)
+    (assembly, found), left = _with_fewer(tested(pillars), pillars, tested)
     after = assembly.bricks
+    assert len(left) == len(after) - len(bricks)
     assert found.stable
     assert 1 <= len(after) - len(bricks) <= 2
     assert same(after.take(np.arange(len(bricks))), bricks)
@@ -142,3 +144,19 @@ def test_contacts_that_stay_are_told_by_their_pillars():
         kept = np.array([*left, 1], dtype=bool)[_pillar_of(every, pillars)].all(axis=0)
         for name in ("point", "direction", "least"):
             assert np.array_equal(getattr(every[1].statics.contacts, name)[kept], getattr(fewer, name))
+
+
+def test_pillars_of_a_symmetric_model_are_mirrored():
+    """Two long arms of one stud each: the pillar under the left one moves to the image of that under the right one.
+
+    A brick that hangs there makes it shorter by the height of a brick.
+    """
+    rows = [("3003", 20, 0, 3 * level) for level in range(4)]
+    rows += [("3007", x, 0, 12) for x in (13, 21)]
+    rows += [("3007", x, 0, 15) for x in (6, 28)]
+    rows += [("3001", x, 0, 18) for x in (6, 32)]
+    after, _, found = propped(table(*rows, ("3005", 31, 0, 12)))
+    assert found.stable
+    pillars = after.take(np.flatnonzero(after.role == Role.SUPPORT_KEPT))
+    outline = boxes(pillars, CATALOGUE)
+    assert set(outline[outline[:, 0] == outline[:, 1], 0].tolist()) == {41 - 31, 31}

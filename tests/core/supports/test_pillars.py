@@ -11,7 +11,7 @@ from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.statics.stability import stability
 from legorize_addon.core.supports.boxes import INSIDE_COLOUR
-from legorize_addon.core.supports.pillars import add_inner_pillars, add_pillars
+from legorize_addon.core.supports.pillars import add_inner_pillars, add_pillars, places_below
 from tests.core.standing import CATALOGUE, table
 
 
@@ -81,3 +81,12 @@ def test_pillars_stand_on_no_slope_and_hold_no_fall():
     bricks, graph, n = carried(("3665", 0, 0, 6), ("3003", 5, 0, 0))
     assert graph.n_floating == graph.collisions == 0
     assert set(map(tuple, bricks.corner[n:, :2].tolist())) == {(0, 0)}
+
+
+@pytest.mark.parametrize("between", [False, True])
+def test_pillars_between_the_bricks_that_are_asked_about(between):
+    """Under the free end of an arm there is room down to a brick below it, if that may be stood on."""
+    assembly = Assembly(table(("3008", 0, 0, 0), ("3005", 0, 0, 3), ("3010", 0, 0, 6)), CATALOGUE)
+    found = places_below(assembly, np.ones(3, dtype=bool), between=between)
+    assert found.on_brick.all()
+    assert list(zip(found.x.tolist(), found.length.tolist(), strict=True)) == [(1, 3), (2, 3), (3, 3)] * between
