@@ -128,7 +128,7 @@ class Panels:
         table, step = shot.submodel, shot.step
         before = first = self._views.get(table, FRONT)
         fresh = not len(shot.before)
-        found = []
+        found: list[tuple[Scene, View | None]] = []
         for scene in self._scenes(shot, first):
             if shot.step.action == Action.REMOVE and scene.view.below:
                 # one looks at it from below, and leaves it standing
