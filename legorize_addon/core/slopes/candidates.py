@@ -15,6 +15,7 @@ from ..model import COLOUR_ANY, Catalogue
 from ..units import PLATES_PER_BRICK
 from .forms import Form
 from .site import MARGIN, Site
+from .tilt import as_steep, surface_facing
 
 _BRICK: Final = 0.2
 _PLATE: Final = 0.15
@@ -70,16 +71,20 @@ def candidates(site: Site, among: tuple[Form, ...], catalogue: Catalogue, *, pri
         Each could be built: it claims nothing but cells of the shell and open air, in a colour in which the part is
         made and that pays, keeps free what cannot be joined to it, holds to the shell, and opens no hole.
     """
-    found = [_of_form(site, number, form, catalogue, price) for number, form in enumerate(among)]
+    facing = surface_facing(site)
+    found = [_of_form(site, facing, number, form, catalogue, price) for number, form in enumerate(among)]
     return Candidates(*(np.concatenate([getattr(each, name) for each in found]) for name in Candidates.__slots__))
 
 
-def _of_form(site: Site, number: int, form: Form, catalogue: Catalogue, price: float) -> Candidates:
+def _of_form(
+    site: Site, facing: NDArray[np.float32], number: int, form: Form, catalogue: Catalogue, price: float
+) -> Candidates:
     """List the places of one form."""
     cells = site.flat(form.cells)
     place = _places(site, form, cells)
     place = place[site.room[place[:, None] + cells].all(axis=1)]
     place = place[_may_stand(site, form, place)]
+    place = place[as_steep(site, form, facing, place)]
     gain = _gain(site, form, place[:, None] + cells)
     pays = gain > 0
     place, gain = place[pays], gain[pays]

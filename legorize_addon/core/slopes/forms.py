@@ -9,13 +9,16 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Ints, Mask
+from ..arrays import Floats, Ints, Mask
 from ..model import Catalogue, Part, columns, solid
 from ..slicing import ACROSS, UP
-from ..units import PLATES_PER_BRICK
+from ..units import PLATE, PLATES_PER_BRICK, STUD
 
 PARTS: Final = UP * ACROSS * ACROSS
 """Small parts of a cell."""
+
+_FINE: Final = 16
+"""Parts of a stud and of a plate, to measure how steep a slope is: 6 % too little at most."""
 
 SIDES: Final = ((0, 0, -1), (0, 0, 1), (0, -1, 0), (0, 1, 0))
 """Steps (z, y, x) to the cells beside a cell."""
@@ -45,6 +48,8 @@ class Form:
         Cells beside it that are seen past its open sides.
     columns : (k, 4) int64 array
         First cell of each column (z, y, x), and how many it claims.
+    facing : (3,) float64 array
+        Which way its slope faces: the area as seen along x, y and z, outwards, in mm².
     """
 
     part: int
@@ -58,6 +63,7 @@ class Form:
     holding: Ints
     beside: Ints
     columns: Ints
+    facing: Floats
 
 
 @lru_cache
@@ -105,7 +111,21 @@ def _form(part: Part, row: int, turn: int) -> Form:
         holding=_at(facts.xy, low - 1)[facts.socket],
         beside=_beside(cells, fill),
         columns=np.column_stack([_at(facts.xy, low), high - low]),
+        facing=_facing(part, turn),
     )
+
+
+def _facing(part: Part, turn: int) -> Floats:
+    """Return which way the columns face that a slope does not fill."""
+    filled = solid(part, turn, _FINE, _FINE)
+    filled = filled[~filled.all(axis=(1, 2, 3))].astype(np.float64)
+    # the first and the last small part are a little nearer to each other than the faces of the column
+    along_z, along_y, along_x = (
+        np.take(filled, 0, axis).mean(axis=(1, 2)).sum() - np.take(filled, -1, axis).mean(axis=(1, 2)).sum()
+        for axis in (1, 2, 3)
+    )
+    high = part.height * PLATE
+    return np.array([STUD * high * along_x, STUD * high * along_y, STUD * STUD * along_z])
 
 
 def _at(xy: NDArray[np.int32], level: Ints) -> Ints:
