@@ -11,24 +11,28 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Floats, Ints, Mask
+from ..arrays import Ints, Mask
 from ..slicing import ACROSS, UP
 from ..units import PLATE, STUD
 from .forms import Form
 from .site import Site
 
 _LEAST: Final = 0.25
-"""How far from upright and from level the surface is at least, as a share of how far the slope is."""
+"""How far from upright and from level the surface is at least, as a share of how far the slope is.
+
+At 24 studs the mean gap grows by .001 to .005 studs with it (fox, spot, horse), and faces are nearer to the surface's
+own by .5 to .7 degrees (spot, horse); with .5 spot loses .009 studs. Pictures of a mug and a tree are rid of splinters.
+"""
 
 
-def as_steep(site: Site, form: Form, facing: Floats, place: Ints) -> Mask:
+def as_steep(site: Site, form: Form, facing: NDArray[np.float32], place: Ints) -> Mask:
     """Return where the surface in the cells that a slope fills in part is about as steep as the slope.
 
     Parameters
     ----------
     site : Site
     form : Form
-    facing : (n_cells, 3) float array
+    facing : (n_cells, 3) float32 array
         Which way the surface in each cell of the site faces.
     place : (n,) int64 array
         Flat indices of the slope's corner in the site.
@@ -71,12 +75,14 @@ def surface_facing(site: Site) -> NDArray[np.float32]:
         )
     ):
         along = 2 - axis
-        ahead, behind = (size * each.mean(axis=(1, 2))[row] for each in (first, last))
+        # sums of single precision would differ between machines
+        filled = ((size * each.mean(axis=(1, 2), dtype=np.float64)).astype(np.float32) for each in (first, last))
+        ahead, behind = (np.moveaxis(each[row], along, 0) for each in filled)
+        own = np.moveaxis(area[..., axis], along, 0)
         # between two cells lies the mean of the small parts on both of its sides
-        ahead, behind, own = (np.moveaxis(each, along, 0) for each in (ahead, behind, area[..., axis]))
         between = (behind[:-1] + ahead[1:]) / 2
         own[1:] += between
         own[:-1] -= between
         if axis == 2:
-            area[0, ..., 2] += ahead[0]  # the ground goes on below; at all other edges nothing is inside
+            own[0] += ahead[0]  # the ground goes on below; at all other edges nothing is inside
     return area.reshape(-1, 3)
