@@ -18,6 +18,7 @@ from .run import Run
 from .settings import Settings
 from .slicing import Grid
 from .slope_stages import find_slopes
+from .slopes import Slopes
 from .statics import Stability
 from .strength import check_final
 from .supports import AssemblyPlan, walk_apart
@@ -56,12 +57,14 @@ def find_planes(
     return mesh, frame, planes
 
 
-def given_bricks(run: Run, made: Draft) -> tuple[Draft, Bricks | None]:
+def given_bricks(run: Run, made: Draft) -> tuple[Draft, Slopes | None]:
     """Return what lies in the cells before the other bricks are laid, jumpers and slopes, and the cells for it."""
     given = None
     if made.planes:
         with run.stage("surface"):
-            given, cells = run.once(_find_jumpers, made)
+            jumpers, cells = run.once(_find_jumpers, made)
+            # a jumper has to stay
+            given = Slopes(jumpers, np.full(len(jumpers), np.inf), -1 - np.arange(len(jumpers)))
             made = replace(made, hollow=cells)
     if run.settings.surface == "slopes":
         with run.stage("surface"):
@@ -79,14 +82,18 @@ def _find_jumpers(run: Run, made: Draft) -> tuple[Bricks, UnitGrid]:
     return jumpers, with_fixed(cells, jumpers, run.catalogue)
 
 
-def _join_slopes(run: Run, jumpers: Bricks | None, slopes: Bricks, planes: tuple[Plane, ...]) -> Bricks:
+def _join_slopes(run: Run, jumpers: Slopes | None, slopes: Slopes, planes: tuple[Plane, ...]) -> Slopes:
     """Return jumpers, if there are any, and the slopes that do not reach through their planes."""
     if jumpers is None:
         return slopes
-    low = slopes.corner[:, 2]
-    high = low + run.catalogue.height[slopes.part]
+    low = slopes.bricks.corner[:, 2]
+    high = low + run.catalogue.height[slopes.bricks.part]
     through = np.any([(low < plane.level) & (high > plane.level) for plane in planes], axis=0)
-    return concatenate([jumpers, slopes.take(~through)])
+    return Slopes(
+        concatenate([jumpers.bricks, slopes.bricks.take(~through)]),
+        np.concatenate([jumpers.worth, slopes.worth[~through]]),
+        np.concatenate([jumpers.pair, slopes.pair[~through]]),
+    )
 
 
 def lie_apart(

@@ -31,7 +31,7 @@ from .half_stages import Levels, given_bricks, lie_apart, remarks_on_half_studs,
 from .limits import check_limits, check_size
 from .memo import Trial
 from .mesh import TriangleMesh
-from .model import Assembly, Bricks, UnitGrid
+from .model import Assembly, UnitGrid
 from .mosaic import Covered, Picture
 from .mosaic_estimate import estimate_mosaic
 from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic, wall_cells
@@ -52,6 +52,7 @@ from .run import Run
 from .settings import Settings
 from .shortage import with_enough_parts
 from .slope_stages import lay_with_slopes
+from .slopes import Slopes
 from .stages import cut_pieces, hollow_by, make_plan, plan_pieces
 from .statics import Stability
 from .stock import Owned
@@ -162,7 +163,7 @@ def _beyond_paper(run: Run, made: Draft, plan: AssemblyPlan) -> Beyond | None:
 
 
 def _put_up(
-    run: Run, shell: UnitGrid, edits: Edits, scale: float, slopes: Bricks | None = None
+    run: Run, shell: UnitGrid, edits: Edits, scale: float, slopes: Slopes | None = None
 ) -> tuple[Assembly, UnitGrid, Stability, ByHand]:
     """Lay the bricks of cells around slopes, edit them, and let them hold and stand; return their cells as well."""
     with run.stage("layout"):
@@ -306,11 +307,10 @@ def _judge(
         found = check_final(run, final)
     proof = _prove(run, plan)
     run.progress.finish()
-    told = _notes(run, found, plan, proof, owned)
     return Judged(
         settings=settings, scale=scale, corner=np.zeros(3), left_out=given.left_out, assembly=final, stability=found,
         supports=plan, joints=(), prices=run.parts.prices, owned=owned, proof=proof,
-        notes=(*given.notes, *notes, *told), timings=run.timings,
+        notes=(*given.notes, *notes, *_notes(run, found, plan, proof, owned)), timings=run.timings,
     )  # fmt: skip
 
 

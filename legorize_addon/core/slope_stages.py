@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from functools import partial
+from typing import Final
 
 from .build import Draft
-from .layout import Manner, lay_around_slopes, lay_fixed
+from .layout import Manner, lay_around, lay_around_slopes, lay_fixed, owners_of, paying, with_fixed
 from .layout.joining import add_ties
-from .model import Bricks, UnitGrid
+from .model import Bricks, UnitGrid, concatenate
 from .run import Run
-from .slopes import choose_slopes
+from .slopes import Slopes, choose_slopes
 from .stages import lay_bricks
 
+_HOPE: Final = 0.5
+"""Share of their price at which slopes are tried: what they save in parts shows only when the model is laid."""
 
-def find_slopes(run: Run, made: Draft) -> Bricks:
+
+def find_slopes(run: Run, made: Draft) -> Slopes:
     """Choose the slopes of a model."""
     settings = run.settings
     return choose_slopes(
@@ -21,19 +26,19 @@ def find_slopes(run: Run, made: Draft) -> Bricks:
         made.grid,
         made.hollow,
         run.parts.joining,
-        price=settings.slope_price,
+        price=_HOPE * settings.slope_price,
         plates=settings.plates != "none",
         symmetric=settings.symmetric,
     )
 
 
-def lay_with_slopes(run: Run, shell: UnitGrid, slopes: Bricks | None) -> tuple[Bricks, UnitGrid]:
+def lay_with_slopes(run: Run, shell: UnitGrid, given: Slopes | None) -> tuple[Bricks, UnitGrid]:
     """Lay the bricks around slopes, if there are any; return the cells that they cover as well.
 
-    Slopes that keep the model from hanging together are left out.
+    Slopes that cost more parts than they are worth are left out, and those that keep the model from hanging together.
     """
     layout = run.settings.layout
-    if slopes is None or not len(slopes) or layout == "learned":
+    if given is None or not len(given.bricks) or layout == "learned":
         return lay_bricks(run, shell)
     manner, filler = Manner(layout, run.exchanges), run.filler
 
@@ -41,4 +46,12 @@ def lay_with_slopes(run: Run, shell: UnitGrid, slopes: Bricks | None) -> tuple[B
         there = partial(lay_fixed, grid, fixed=fixed, manner=manner, rng=run.rng, filler=filler, progress=run.progress)
         return add_ties(run.parts.laid(there), grid, run.parts.joining, plates=run.settings.plates != "none")
 
-    return lay_around_slopes(shell, slopes, run.catalogue, lay)
+    def lay_roughly(fixed: Bricks) -> Bricks:
+        """Lay the cells the fast way, from the same random numbers each time, and join nothing."""
+        cells = with_fixed(shell, fixed, run.catalogue)
+        around = Manner("fast", run.exchanges, beside=owners_of(fixed, cells, run.catalogue))
+        bricks = lay_around(cells, run.catalogue, around, rng=deepcopy(run.rng), filler=filler, progress=run.progress)
+        return concatenate([fixed, bricks])
+
+    pays = paying(given.bricks, given.worth, given.pair, run.catalogue, lay_roughly, price=run.settings.slope_price)
+    return lay_around_slopes(shell, given.bricks.take(pays), run.catalogue, lay)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from legorize_addon.core import slope_stages
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.model.unit_grid import Fill
 from legorize_addon.core.pipeline import legorize
@@ -35,6 +36,23 @@ def test_a_ball_has_slopes(ball):
     assert ball.stability.stable
     assert ball.assembly.catalogue.exists_in(ball.bricks.part, ball.bricks.colour).all()
     assert (ball.hollow.cover == Fill.FIXED).any()
+
+
+def test_slopes_that_do_not_pay(ball, monkeypatch):
+    """Which slopes are worth their parts is asked at the price that is set, and the others are not laid."""
+    asked = []
+
+    def none(slopes, worth, pair, catalogue, lay, *, price):
+        bricks = lay(slopes)
+        asked.append((len(slopes), price, np.isfinite(worth).all(), len(bricks) > len(slopes)))
+        return np.zeros(len(slopes), bool)
+
+    monkeypatch.setattr(slope_stages, "paying", none)
+    build = legorize(sphere(10), replace(SETTINGS, surface="slopes", slope_price=0.2))
+    ((count, *others),) = asked
+    assert count >= np.count_nonzero(sloped(ball))
+    assert others == [0.2, True, True]
+    assert not sloped(build).any()
 
 
 def test_none_by_default():

@@ -8,6 +8,7 @@ from .around import lay_around
 from .fixed import owners_of, with_fixed
 from .lay import FILLER, Manner, lay, lay_fixed, lay_unjoined
 from .lay_learned import lay_learned
+from .paying import paying
 from .recolour import recolour_visible
 from .slopes import lay_around_slopes
 from .tops import Smoothed, smooth_tops
@@ -27,6 +28,7 @@ __all__ = [
     "lay_learned",
     "lay_unjoined",
     "owners_of",
+    "paying",
     "recolour_visible",
     "smooth_tops",
     "with_fixed",

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from .choice import choose_slopes
+from .choice import Slopes, choose_slopes
 
 __all__ = [
+    "Slopes",
     "choose_slopes",
 ]

@@ -39,6 +39,8 @@ class Candidates:
         Flat index of the corner in the site.
     score : (n,) float64 array
         Volume gained less the price of the parts and of wrong colours, in cells a plate high.
+    worth : (n,) float64 array
+        The same without the price of the parts.
     colour : (n,) int16 array
         LDraw code.
     """
@@ -46,6 +48,7 @@ class Candidates:
     form: Ints
     place: Ints
     score: Floats
+    worth: Floats
     colour: Ints
 
     def take(self, rows: Ints | Mask) -> Candidates:
@@ -93,7 +96,7 @@ def _of_form(
     # its image may have a better colour
     fits = (score > 0) & np.isfinite(wrong)
     place = place[fits]
-    return Candidates(np.full(len(place), number), place, (score - wrong)[fits], code[fits])
+    return Candidates(np.full(len(place), number), place, (score - wrong)[fits], (gain - wrong)[fits], code[fits])
 
 
 def _places(site: Site, form: Form, cells: Ints) -> Ints:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,21 +20,21 @@ FORMS = slopes_of(CATALOGUE, plates=True)
 def test_a_ramp_gets_its_slopes():
     """A 2 x 4 slope lies on a ramp of four studs, and one of 2 x 3 beside it on a ramp of seven."""
     grid = cells_of_ramp()
-    bricks = choose_slopes(ramp(), grid, grid, CATALOGUE, price=0.5, plates=True)
+    bricks = choose_slopes(ramp(), grid, grid, CATALOGUE, price=0.5, plates=True).bricks
     assert [CATALOGUE.parts[row].number for row in bricks.part] == ["3037"]
     assert bricks.corner.tolist() == [[5, 1, 3]]
     assert bricks.turn.tolist() == [0]
     assert (bricks.colour == RED).all()
     assert bricks.step.tolist() == [1]
     grid = cells_of_ramp(7)
-    bricks = choose_slopes(ramp(7), grid, grid, CATALOGUE, price=0.5, plates=True)
+    bricks = choose_slopes(ramp(7), grid, grid, CATALOGUE, price=0.5, plates=True).bricks
     assert sorted(CATALOGUE.parts[row].number for row in bricks.part) == ["3037", "3038"]
 
 
 def test_nothing_pays():
     """A single slope that takes a part more is chosen where that costs little, and not where it costs much."""
     grid = cells_of_ramp(1)
-    bricks = [choose_slopes(ramp(1), grid, grid, CATALOGUE, price=price, plates=True) for price in (0.1, 10.0)]
+    bricks = [choose_slopes(ramp(1), grid, grid, CATALOGUE, price=price, plates=True).bricks for price in (0.1, 10.0)]
     assert [CATALOGUE.parts[row].number for row in bricks[0].part] == ["3040b"]
     assert not len(bricks[1])
 
@@ -47,7 +48,7 @@ def test_as_one_after_the_other(places):
     places = sorted(set(places))
     form, place, score = np.array(places, np.int64).reshape(-1, 3).T
     place = place + site.shape[1] * site.shape[2] + 40
-    found = Candidates(form, place, score.astype(float), np.full(len(form), RED))
+    found = Candidates(form, place, score.astype(float), score.astype(float), np.full(len(form), RED))
     claims, keeps = {}, {}
     for which, claimed, kept in rows(site, FORMS, found):
         for row, one, other in zip(which.tolist(), claimed.tolist(), kept.tolist(), strict=True):
@@ -64,6 +65,17 @@ def test_as_one_after_the_other(places):
 def test_no_two_in_one_cell():
     """Chosen slopes do not collide."""
     grid = cells_of_ramp(7)
-    bricks = choose_slopes(ramp(7), grid, grid, CATALOGUE, price=0.0, plates=True)
+    bricks = choose_slopes(ramp(7), grid, grid, CATALOGUE, price=0.0, plates=True).bricks
     assert len(bricks) >= 2
     assert contact_graph(bricks, CATALOGUE).collisions == 0
+
+
+def test_what_slopes_are_worth():
+    """What a slope is worth does not depend on the price of parts, and a wider one on a ramp is worth more."""
+    found = [
+        choose_slopes(ramp(width), cells_of_ramp(width), cells_of_ramp(width), CATALOGUE, price=price, plates=True)
+        for width, price in ((1, 0.1), (1, 0.2), (4, 0.1))
+    ]
+    assert [len(each.bricks) for each in found] == [1, 1, 1]
+    assert found[0].worth.tolist() == found[1].worth.tolist()
+    assert found[2].worth.tolist() == pytest.approx((4 * found[0].worth).tolist())
