@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .animated_tree import FIRST, FRAMES, animated_tree
 from .assembly_columns import ASIDE, JOINED, REMOVED, TIER, there_after, way_after
-from .brick_points import MARGIN, NO_MARGIN, box_corners, middles, positions, read_columns
+from .brick_points import MARGIN, NO_MARGIN, box_corners, middles, positions, read_column, read_columns
 from .brick_tree import EXPLODE, HEAT_MAP, HEAT_PARTS, PALE, PARTS, STEPS, brick_tree
 from .builds import (
     LAYER_KEY,
@@ -135,6 +135,7 @@ __all__ = [
     "previewed",
     "read_bricks",
     "read_bricks_text",
+    "read_column",
     "read_columns",
     "set_detail",
     "set_input",

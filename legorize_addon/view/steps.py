@@ -23,6 +23,7 @@ from ..scene import (
     bricks_modifier,
     check_whole,
     point_objects,
+    read_column,
     read_columns,
     set_input,
     state_of,
@@ -59,7 +60,7 @@ def explode(build: bpy.types.Collection, share: float) -> None:
     """
     check_steps(build)
     state_of(build).exploded = share
-    above = [points for points in point_objects(build) if read_columns([points.data], [TIER])[TIER].any()]
+    above = [points for points in point_objects(build) if read_column(points.data, TIER).any()]
     _set(above, EXPLODE, _lift(build))
 
 
@@ -125,7 +126,8 @@ def ways(build: bpy.types.Collection, found: Sequence[bpy.types.Object], steps: 
 
 def _changes(points: bpy.types.Object, low: int, high: int) -> bool:
     """Tell whether something is placed, taken out or joined in a row of steps."""
-    columns = read_columns([points.data], ["step", REMOVED, JOINED]).values()
+    # in whatever order
+    columns = (read_column(points.data, name) for name in ("step", REMOVED, JOINED))
     return any(((low <= column) & (column < high)).any() for column in columns)
 
 

@@ -266,9 +266,19 @@ def test_cut_build_is_cleared_as_a_whole() -> None:
 def test_sliders_move_fifty_thousand_bricks(tmp_path) -> None:
     """The benchmark tells a time for each slider; whether it is short, is the benchmark's to say."""
     assert benchmark.main(["sliders", "--out", str(tmp_path)]) == 0
-    [rows] = json.loads((tmp_path / "sliders.json").read_text(encoding="utf-8"))["tables"].values()
-    sliders = ["top layer", "section x", "section y", "section z", "explode", "step", "a role's switch"]
+    [[made], rows] = json.loads((tmp_path / "sliders.json").read_text(encoding="utf-8"))["tables"].values()
+    assert all(made[what] > 0 for what in ("cpu_seconds", "mb_of_memory", "mb_of_file"))
+    sliders = [
+        "top layer",
+        "only this layer",
+        "section x",
+        "section y",
+        "section z",
+        "explode",
+        "step",
+        "a role's switch",
+    ]
     assert [row["slider"] for row in rows] == sliders
-    assert all(row["median_ms"] > 0 for row in rows)
+    assert all(row["median_ms"] > 0 and row["median_cpu_ms"] > 0 for row in rows)
     [build] = builds(bpy.context.scene)
     assert len(shown_bricks(build)) == 50_000
