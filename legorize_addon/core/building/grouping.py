@@ -50,7 +50,7 @@ _FAR: Final = 2**31
 """A stud square beyond all others."""
 
 
-def group(items: Items, before: Rows, *, progress: Progress = silent) -> list[list[int]]:
+def group(items: Items, before: Rows, *, copies: int = 1, progress: Progress = silent) -> list[list[int]]:
     """Put items into steps.
 
     Parameters
@@ -58,6 +58,8 @@ def group(items: Items, before: Rows, *, progress: Progress = silent) -> list[li
     items : Items
     before : (m, 2) int32 array
         Items of which the first must be in place before the second.
+    copies : int, optional
+        How many of all this are built at once: steps have room for as many of each brick.
     progress : Progress, optional
         Told how many are in steps, in between.
 
@@ -66,14 +68,14 @@ def group(items: Items, before: Rows, *, progress: Progress = silent) -> list[li
     list of list of int
         The items of each step, in the order in which they are put on.
     """
-    return _Grouping(Atoms(items, before)).steps(progress) if len(items) else []
+    return _Grouping(Atoms(items, before, copies), MANY // copies).steps(progress) if len(items) else []
 
 
 class _Grouping:
     """Atoms on their way into steps."""
 
-    def __init__(self, atoms: Atoms) -> None:
-        self.atoms, self.n = atoms, len(atoms)
+    def __init__(self, atoms: Atoms, many: int) -> None:
+        self.atoms, self.n, self.many = atoms, len(atoms), many
         self.box, self.level, self.lot, self.size = atoms.box, atoms.level, atoms.lot, atoms.size
         self.temporary, self.tile, self.image = atoms.temporary, atoms.tile, atoms.image
         # twice the middle: places are only compared
@@ -88,7 +90,7 @@ class _Grouping:
         n_done = 0
         while n_done < self.n:
             progress("supports", n_done / self.n)
-            step = self._filled([self._seed()], MANY)
+            step = self._filled([self._seed()], self.many)
             n_done += len(step) + len(self._mirrored(step))
         found = Tidying(self.atoms, self.found).steps()
         return [[item for atom in step for item in self.atoms.members[atom]] for step in found]

@@ -110,8 +110,8 @@ class Atoms:
         Bricks of a step at most.
     """
 
-    def __init__(self, items: Items, before: Rows) -> None:
-        """Make the atoms of items that follow each other in some order."""
+    def __init__(self, items: Items, before: Rows, copies: int = 1) -> None:
+        """Make the atoms of items that follow each other in some order, of which some copies are built at once."""
         atom = _numbers(items)
         first = np.unique(atom, return_index=True)[1]
         self.members: list[list[int]] = [[] for _ in first]
@@ -131,7 +131,7 @@ class Atoms:
         self.image = np.where(image == np.arange(len(first)), NOBODY, image)
         edges = of_nodes(before, atom, len(first))
         self.below, self.above = stacked(edges, len(first))
-        self.most = TILE_MOST if items.tile.any() else MOST
+        self.most = (TILE_MOST if items.tile.any() else MOST) // copies
 
     def __len__(self) -> int:
         """Return the number of atoms."""

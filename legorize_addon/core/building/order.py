@@ -159,13 +159,25 @@ class _Writer:
     def _build_alike(self, number: int, others: Sequence[int]) -> None:
         """Build a submodel, together with equal ones that belong near it."""
         alike, rows = [number], self.planner.all_rows(number)
-        most = MOST // len(rows)
+        most = self._copies(number)
         for other in others:
             near = [*rows, *self.planner.all_rows(other)] if self._alike(other, number) else []
             if near and other != number and len(alike) < most and span(self.planner.box[near]) <= REACH:
                 alike, rows = [*alike, other], near
         self.like.update(dict.fromkeys(alike, min(alike)))
         self.build(sorted(alike))
+
+    def _copies(self, number: int) -> int:
+        """Return how many equal submodels can be built at once: what is built of them at a time is one step."""
+        if self.planner.submodels[number].kind == Kind.SUBASSEMBLY:
+            return MOST // len(self.planner.all_rows(number))
+        steps = self.planner.tables[number].steps
+        inside = [put.submodel for step in steps for put in step if put.submodel != NOBODY]
+        largest = max(
+            len(self._rows_in([put for put in step if put.submodel == NOBODY or self._small(put.submodel)]))
+            for step in steps
+        )
+        return min([MOST // largest, *(MOST // len(self.planner.all_rows(each)) for each in inside)])
 
     def _small(self, number: int) -> bool:
         """Whether a submodel is built in the step that puts it on."""

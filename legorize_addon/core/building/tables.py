@@ -10,6 +10,7 @@ import numpy as np
 from ..arrays import Ints, Mask
 from ..model import NOBODY, Bricks, Catalogue, Rows, stacked
 from ..progress import Progress, part, silent
+from .alike import COPIES, alike_pieces
 from .blocking import column_pairs
 from .grouping import group
 from .halves import match_halves
@@ -68,19 +69,48 @@ class Planner:
         # of what is supports alone, nothing is left to be joined
         pieces = [each for each in np.unique(piece[~self.temporary]).tolist() if each != lowest]
         numbers = {each: self._add(Kind.PIECE, MAIN, each) for each in pieces}
+        alike = alike_pieces(self.bricks, self.box, pieces)
+        first = {each: int(piece[next(iter(row_of))]) for each, row_of in alike.items()}
         for turn, (each, number) in enumerate(numbers.items()):
             share = part(progress, turn / (2 * len(numbers)), (turn + 1) / (2 * len(numbers)))
-            self._plan(number, np.flatnonzero(piece == each), {}, share)
+            if each in alike:
+                self._copy(numbers[first[each]], number, alike[each])
+                self.shape[number] = self.shape[numbers[first[each]]] = ("piece", first[each])
+            else:
+                copies = COPIES if each in first.values() else 1
+                self._plan(number, np.flatnonzero(piece == each), {}, share, copies=copies)
         given = {number: np.flatnonzero((piece == each) & ~self.temporary) for each, number in numbers.items()}
-        first = ~np.isin(piece, pieces)
-        self._plan(MAIN, np.flatnonzero(first | ~self.temporary), given, part(progress, 0.5, 1.0))
+        main = ~np.isin(piece, pieces)
+        self._plan(MAIN, np.flatnonzero(main | ~self.temporary), given, part(progress, 0.5, 1.0))
 
     def _add(self, kind: Kind, parent: int, piece: int) -> int:
         number = len(self.submodels)
         self.submodels.append(Submodel(number, kind, parent, piece, np.zeros(0, dtype=np.int64), number))
         return number
 
-    def _plan(self, number: int, rows: Ints, given: Mapping[int, Ints], progress: Progress = silent) -> None:
+    def _copy(self, first: int, number: int, row_of: Mapping[int, int]) -> None:
+        """Plan a submodel like another one, whose bricks and its own are equal up to their place."""
+
+        def put(one: Put) -> Put:
+            if one.brick != NOBODY:
+                return replace(one, brick=row_of[one.brick])
+            inside = self._add(Kind.SUBASSEMBLY, number, self.submodels[number].piece)
+            self._copy(one.submodel, inside, row_of)
+            self.shape[inside] = self.shape[one.submodel]
+            self.low[inside] = self.bricks.corner[self.all_rows(inside)].min(axis=0).astype(np.int64)
+            return replace(one, submodel=inside)
+
+        table, rows = self.tables[first], self.submodels[first].rows.tolist()
+        self.tables[number] = Table(
+            [[put(one) for one in step] for step in table.steps],
+            [[row_of[brick] for brick in step] for step in table.removals],
+        )
+        of_both = np.array([row_of[row] for row in rows], dtype=np.int64)
+        self.submodels[number] = replace(self.submodels[number], rows=of_both)
+
+    def _plan(
+        self, number: int, rows: Ints, given: Mapping[int, Ints], progress: Progress = silent, *, copies: int = 1
+    ) -> None:
         """Plan how the bricks of a submodel are put on, of which some are submodels already."""
         node, own = np.arange(len(rows)), np.ones(len(rows), dtype=bool)
         submodel = {}
@@ -94,11 +124,10 @@ class Planner:
         pieces = {int(np.searchsorted(used, first)): each for first, each in submodel.items()}
         units = self._units(number, rows, node, own)
         of_unit = self._submodels(number, rows, node, units, pieces)
-        steps, placed = self._grouped(
-            rows, units, of_unit, progress, small=self.submodels[number].kind == Kind.SUBASSEMBLY
-        )
+        small = self.submodels[number].kind == Kind.SUBASSEMBLY
+        steps, placed = self._grouped(rows, units, of_unit, progress, small=small, copies=copies)
         gone = rows[own & self.temporary[rows]]
-        self.tables[number] = Table(steps, self._removals(gone))
+        self.tables[number] = Table(steps, self._removals(gone, copies))
         self.submodels[number] = replace(self.submodels[number], rows=placed)
 
     def _plan_small(self, number: int, rows: Ints) -> None:
@@ -181,7 +210,7 @@ class Planner:
         return found
 
     def _grouped(
-        self, rows: Ints, units: Units, of_unit: dict[int, int], progress: Progress, *, small: bool
+        self, rows: Ints, units: Units, of_unit: dict[int, int], progress: Progress, *, small: bool, copies: int
     ) -> tuple[list[list[Put]], Ints]:
         """Return the steps of a table, and the bricks that are placed there themselves, in order."""
         n = int(units.unit.max(initial=NOBODY)) + 1
@@ -194,7 +223,7 @@ class Planner:
             steps = [in_turn(range(n), below, items.box, items.level)]
         else:
             parts = (np.flatnonzero(which) for which in (~loose, loose))
-            steps = [step for part in parts for step in _some(items, units.before, part, progress)]
+            steps = [step for part in parts for step in _some(items, units.before, part, copies, progress)]
         pressed = units.pressed[first]
         puts = [
             [
@@ -251,7 +280,7 @@ class Planner:
         mutual = found[found[:n]] == np.arange(n)
         return np.where(mutual & (found[:n] != np.arange(n)), found[:n], NOBODY)
 
-    def _removals(self, gone: Ints) -> list[list[int]]:
+    def _removals(self, gone: Ints, copies: int) -> list[list[int]]:
         """Return the steps in which supports are taken out, from below."""
         if not len(gone):
             return []
@@ -261,11 +290,13 @@ class Planner:
         level = self.bricks.corner[gone, 2].astype(np.int64)
         ones, all_ = np.ones(n, dtype=np.int64), np.ones(n, dtype=bool)
         tile = np.zeros(n, dtype=np.int64)
-        steps = group(Items(self.box[gone], level, level, ones, self.lot[gone], all_, nothing, tile), before)
+        steps = group(
+            Items(self.box[gone], level, level, ones, self.lot[gone], all_, nothing, tile), before, copies=copies
+        )
         return [gone[step].tolist() for step in steps]
 
 
-def _some(items: Items, before: Rows, which: Ints, progress: Progress) -> list[list[int]]:
+def _some(items: Items, before: Rows, which: Ints, copies: int, progress: Progress) -> list[list[int]]:
     """Return the steps of some of the items."""
     local = np.full(len(items), NOBODY, dtype=np.int64)
     local[which] = np.arange(len(which))
@@ -274,7 +305,7 @@ def _some(items: Items, before: Rows, which: Ints, progress: Progress) -> list[l
     image = np.where(image == NOBODY, NOBODY, local[image])
     fields = {name: getattr(items, name)[which] for name in Items.__slots__ if name != "image"}
     inside = inside[(inside != NOBODY).all(axis=1)].astype(np.int32)
-    steps = group(Items(**fields, image=image), inside, progress=progress)
+    steps = group(Items(**fields, image=image), inside, copies=copies, progress=progress)
     return [which[step].tolist() for step in steps]
 
 

@@ -12,7 +12,7 @@ from .closeup import LOCATOR
 from .fonts import width, wrapped
 from .icons import arrow, hold_sign, turn_sign
 from .lots import GREY, Callout, callout, entries_of, placed
-from .panels import Panel, Panels
+from .panels import Panel, Panels, built_at_once
 from .picture import MM
 
 BOX: Final[Rgb] = (221, 235, 247)
@@ -35,7 +35,7 @@ def title_of(panels: Panels, panel: Panel) -> str:
         return "Take out the supports"
     if len(panel.new) > len(panel.placed):
         return f"Put on {_names(panels.names, panel.shot.joined)}"
-    return panels.names[panel.shot.submodel]
+    return built_at_once(panels.steps, panels.names, panel.shot.submodel)
 
 
 def _names(names: Mapping[int, str], joined: Sequence[int]) -> str:

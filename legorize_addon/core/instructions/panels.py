@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -241,6 +241,12 @@ def _held(assembly: Assembly, steps: Steps, temporary: Mask) -> frozenset[int]:
     contacts = building_contacts(assembly, temporary=temporary)
     towers, leaning = unbalanced(steps, assembly, contacts.pairs)
     return frozenset(each.step for each in (*towers, *leaning))
+
+
+def built_at_once(steps: Steps, names: Mapping[int, str], table: int) -> str:
+    """Return what stands over a table: its name, or those of the equal pieces that are built at once."""
+    pieces = [str(each.piece + 1) for each in steps.submodels if each.kind == Kind.PIECE and each.like == table]
+    return f"Pieces {' and '.join(pieces)}" if len(pieces) > 1 else names[table]
 
 
 def submodel_names(steps: Steps) -> dict[int, str]:

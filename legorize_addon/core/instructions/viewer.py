@@ -16,6 +16,7 @@ from ..arrays import Floats, Ints, Mask
 from ..building import Action, Steps
 from ..model import NOBODY, Bricks, Catalogue, Part, column_facts, lines, stud_columns, stud_middles, turned
 from .lots import shown_rgb
+from .panels import built_at_once
 
 NEVER: Final = 0xFFFF
 """Step of what does not happen."""
@@ -82,7 +83,7 @@ def viewer_data(
         "owner": _packed(_known(steps.submodel_of(len(bricks))), "<u2"),
         "parent": [max(each.parent, 0) for each in steps.submodels],
         "joined": joined.tolist(),
-        "names": [names[each.number] for each in steps.submodels],
+        "names": [built_at_once(steps, names, each.number) for each in steps.submodels],
         "table": [step.submodel for step in steps],
         "page": [pages[number] + 1 for number in range(len(steps))],
     }

@@ -61,6 +61,15 @@ def test_a_large_layer_is_laid_in_small_steps_near_each_other():
     assert max(span(box[step]) for step in found) <= REACH
 
 
+def test_of_two_at_once_a_step_has_half():
+    """Where two equal floors are laid together, a step has at most six bricks of each."""
+    box = floor(24, 16)
+    sizes = [len(step) for step in group(items(box, np.zeros(len(box))), NONE, copies=2)]
+    assert sum(sizes) == len(box)
+    assert max(sizes) <= MOST // 2
+    assert np.mean(np.array(sizes) >= FEW) > 0.9
+
+
 def test_few_kinds_in_a_step():
     """Of parts in 40 kinds spread at random, a step holds few."""
     rng = np.random.default_rng(2)
@@ -301,7 +310,7 @@ def test_steps_are_those_of_the_plain_rules(seed):
         due=level + rng.integers(0, 9, n),
     )
     atoms = Atoms(made, before.astype(np.int32))
-    grouping = _Grouping(atoms)
+    grouping = _Grouping(atoms, MANY)
     grouping.steps(silent)
     assert grouping.found == Plain(atoms).steps()
 
@@ -310,7 +319,7 @@ def first_step(places, **columns):
     """Return the first step of parts of one stud, given where they lie in x."""
     x = np.array(places)
     made = items(np.stack([x, x, 0 * x, 0 * x], axis=1), columns.pop("level", 0 * x), **columns)
-    grouping = _Grouping(Atoms(made, NONE))
+    grouping = _Grouping(Atoms(made, NONE), MANY)
     grouping.steps(silent)
     return grouping.found[0]
 
@@ -349,7 +358,7 @@ def test_what_a_new_kind_a_plate_and_an_image_are_worth(studs, other, nearer):
         columns["level"] = [0, 0, 0, 0]
         atoms = Atoms(items([[x, x, 0, 0] for x in (*places, 60)], [0] * 5, image=[*other["image"], NOBODY]),
                       np.array([[4, 3]], np.int32))  # fmt: skip
-        grouping = _Grouping(atoms)
+        grouping = _Grouping(atoms, MANY)
         grouping.steps(silent)
         found = grouping.found[0]
     else:

@@ -9,7 +9,7 @@ from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.steps import Kind
 from legorize_addon.core.instructions.lattice import FRONT, View
 from legorize_addon.core.instructions.panel_layout import title_of
-from legorize_addon.core.instructions.panels import Panels, submodel_names
+from legorize_addon.core.instructions.panels import Panels, built_at_once, submodel_names
 from legorize_addon.core.instructions.shades import SUPPORT_TINT
 from legorize_addon.core.instructions.sightlines import ENOUGH
 from legorize_addon.core.model.assembly import Assembly
@@ -116,3 +116,17 @@ def test_a_look_from_below_does_not_move_the_model(monkeypatch):
     assert panel.view.below
     assert panel.turned is None
     assert panels._views[shot.submodel] == View(3)
+
+
+def test_equal_pieces_are_named_together():
+    """What two pieces are built on says which; each is put on by its own name."""
+    floor = [(LONG, 0, 2 * y, 0, 0, 4, 0, 0, 0) for y in range(4)]
+    feet = [(BRICK, 4 * k, 2, 3 * z, 0, 1, 0, 1 + k, 0) for k in range(2) for z in (1, 2, 3)]
+    plan = plan_assembly(Assembly(table([*floor, *feet]), CATALOGUE), deepest=3)
+    names = submodel_names(plan.steps)
+    assert [built_at_once(plan.steps, names, number) for number in (0, 1)] == ["", "Pieces 2 and 3"]
+    panels = panels_of(plan)
+    found = [panel for shot in panels.shots for panel in panels.of(shot)]
+    titles = [title_of(panels, panel) for panel in found]
+    assert [title for title in titles if "iece" in title] == ["Pieces 2 and 3", "Put on piece 2", "Put on piece 3"]
+    assert [panel.shot.times for panel in found if title_of(panels, panel) == "Pieces 2 and 3"] == [2]
