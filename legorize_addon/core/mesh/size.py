@@ -86,7 +86,7 @@ def check_any(grid: UnitGrid, mesh: TriangleMesh, *, keep_thin: bool) -> None:
     if grid.solid.any():
         return
     size = np.ptp(mesh.vertices, axis=0)
-    model = f"The model would be {size[0]:.2g} x {size[1]:.2g} x {size[2]:.2g} mm"
+    model = f"The model would be {' x '.join(f'{round(float(along), 1):,g}' for along in size)} mm"
     small = (size < (STUD, STUD, BRICK)).all()
     if not (small or keep_thin):
         raise SettingsError(

@@ -34,3 +34,13 @@ def test_thin_walls_are_told_apart_from_a_small_model(size):
         check_any(nothing, box((0, 0, 0), size), keep_thin=False)
     with pytest.raises(SettingsError, match=r" mm, too thin for one brick .*: choose a larger size\.$"):
         check_any(nothing, box((0, 0, 0), size), keep_thin=True)
+
+
+def test_sizes_of_flat_models_are_plain_numbers():
+    """No power of ten is shown, however thin a sheet is or however large."""
+    cells = np.zeros((1, 3, 2, 2), np.uint8)
+    nothing = UnitGrid(np.full(cells.shape, COLOUR_EMPTY, np.int16), cells + Fill.EMPTY, cells, np.zeros(3))
+    with pytest.raises(SettingsError, match=r"would be 152 x 1,480 x 0 mm, but"):
+        check_any(nothing, box((0, 0, 0), (152, 1480, 3.5e-8)), keep_thin=False)
+    with pytest.raises(SettingsError, match=r"would be 150\.4 x 0\.5 x 12 mm, but"):
+        check_any(nothing, box((0, 0, 0), (150.44, 0.5, 12)), keep_thin=False)
