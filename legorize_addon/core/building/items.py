@@ -15,6 +15,9 @@ from .blocking import of_nodes
 MOST: Final = 12
 """Bricks of a step at most, but of a sub-assembly that is larger by itself."""
 
+SMALL: Final = 4
+"""Bricks of a sub-assembly at most that is built in the step that puts it on: fewer than a step of its own is worth."""
+
 TILE_MOST: Final = 16
 """Bricks of a step in a mosaic at most."""
 

@@ -19,13 +19,10 @@ from ..arrays import Mask
 from ..model import NOBODY, Assembly, Bricks, Catalogue, Role, Rows
 from ..progress import Progress, silent
 from .contacts import building_contacts
-from .items import MOST, REACH, span
+from .items import MOST, REACH, SMALL, span
 from .moves import Action, Moves
 from .steps import MAIN, Kind, Steps
 from .tables import Planner, Put, Shape, Table
-
-SMALL: Final = 4
-"""Bricks of a sub-assembly at most that is built in the step that puts it on: fewer than a step of its own is worth."""
 
 SOON: Final = 12
 """Steps ahead for which an equal sub-assembly is built together with the first."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -15,10 +16,11 @@ from .blocking import column_pairs
 from .grouping import group
 from .halves import match_halves
 from .items import MOST, Items, in_turn
+from .leaning import Leaning
 from .mirror import boxes, mirror_images
 from .steps import MAIN, Kind, Submodel
 from .tiles import tiles_of
-from .units import Units, find_units
+from .units import Hangers, Units, find_units
 
 Shape = tuple[object, ...]
 
@@ -47,6 +49,7 @@ class Planner:
         self.bricks, self.catalogue, self.pairs, self.temporary = bricks, catalogue, pairs, temporary
         self.box, self.level = boxes(bricks, catalogue), bricks.corner[:, 2].tolist()
         self.below, _ = stacked(pairs, len(bricks))
+        self.leaning = Leaning(bricks, catalogue, self.box)
         self.rank = _off_middle(self.box)
         self.lot = _numbers(np.column_stack([bricks.part, bricks.colour]))
         stays = np.flatnonzero(~temporary)
@@ -185,7 +188,8 @@ class Planner:
         pairs = pairs[(pairs != NOBODY).all(axis=1)]
         below = column_pairs(self.bricks.take(rows), self.catalogue)
         ground = self._ground(number, level, own, below)
-        units = find_units(node, level, pairs, below, ground=ground, rank=self.rank[rows], piece=~own)
+        hangers = Hangers(self.rank[rows], partial(self.leaning, rows[np.unique(node, return_index=True)[1]]))
+        units = find_units(node, level, pairs, below, ground=ground, hangers=hangers, piece=~own)
         image = np.where(own & (self.image[rows] != NOBODY), local[self.image[rows]], NOBODY)
         # what is built elsewhere is whole
         return match_halves(units, np.where(own[image], image, NOBODY), pairs)

@@ -9,8 +9,9 @@ as one unit. What rests on the unit is held from then on.
 from __future__ import annotations
 
 import heapq
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -20,6 +21,34 @@ from .blocking import knots, of_nodes, unique_pairs
 
 LARGEST: Final = 0.25
 """Share of the bricks on a table that one sub-assembly of them has at most: a larger one is no detail any more."""
+
+
+Leans = Callable[[Sequence[int]], bool]
+"""Tells of some nodes whether they would fall over by themselves."""
+
+_Turn = tuple[bool, int, bool, int, int]
+"""Whether a node is a piece, its level, whether it comes after others of that, its rank and its number."""
+
+
+def _never(_: Sequence[int]) -> bool:
+    """Let everything stand."""
+    return False
+
+
+class Hangers(NamedTuple):
+    """Which of the bricks of one level takes along first what hangs.
+
+    Attributes
+    ----------
+    rank : (n,) int64 array
+        The one of the least rank. Equal ranks of mirrored bricks give mirrored units.
+    leans : callable
+        Tells of some nodes whether they would fall over on a table: those with
+        which a brick does so are left to others.
+    """
+
+    rank: Ints
+    leans: Leans = _never
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,7 +80,7 @@ def find_units(
     below: Rows,
     *,
     ground: Mask,
-    rank: Ints | None = None,
+    hangers: Hangers | None = None,
     piece: Mask | None = None,
 ) -> Units:
     """Find what goes on together.
@@ -69,9 +98,8 @@ def find_units(
         Lower and upper brick of those in a stud column, see :func:`column_pairs`.
     ground : (n,) bool array
         Bricks that stand on the table.
-    rank : (n,) int64 array, optional
-        Which of the bricks of one level takes along first what hangs: the one of
-        the least rank. Equal ranks of mirrored bricks give mirrored units.
+    hangers : Hangers, optional
+        Which of the bricks of one level takes along first what hangs.
     piece : (n,) bool array, optional
         Bricks of pieces that were built elsewhere: those that share their number
         with others if it is not given.
@@ -80,9 +108,9 @@ def find_units(
     -------
     Units
     """
-    rank = np.zeros(len(node), dtype=np.int64) if rank is None else rank
+    hangers = Hangers(np.zeros(len(node), dtype=np.int64)) if hangers is None else hangers
     piece = (np.bincount(node, minlength=1) > 1)[node] if piece is None else piece
-    return _Hanging(node, level, pairs, below, ground, rank, piece).units()
+    return _Hanging(node, level, pairs, below, ground, hangers, piece).units()
 
 
 def presses(assembly: Assembly, below: Rows, node: Ints) -> bool:
@@ -111,15 +139,16 @@ class _Hanging:
     """The search for units among nodes: single bricks, and pieces that are built already."""
 
     def __init__(
-        self, node: Ints, level: Ints, pairs: Rows, below: Rows, ground: Mask, rank: Ints, piece: Mask
+        self, node: Ints, level: Ints, pairs: Rows, below: Rows, ground: Mask, hangers: Hangers, piece: Mask
     ) -> None:
+        self.leans = hangers.leans
         self.node, self.n = node, int(node.max(initial=NOBODY)) + 1
         self.piece = np.zeros(self.n, dtype=bool)
         self.piece[node[piece]] = True
         self.level = np.full(self.n, np.iinfo(np.int64).max)
         np.minimum.at(self.level, node, level)
         self.rank = np.zeros(self.n, dtype=np.int64)
-        self.rank[node] = rank
+        self.rank[node] = hangers.rank
         self.pairs, self.blocks = of_nodes(pairs, node, self.n), of_nodes(below, node, self.n)
         self.under, self.over = stacked(self.pairs, self.n)
         self.held = np.zeros(self.n, dtype=bool)
@@ -140,12 +169,17 @@ class _Hanging:
 
     def _gather(self, standing: list[int]) -> None:
         """Let held bricks take along what hangs under them, the lowest first."""
-        agenda: list[tuple[bool, int, int, int]] = []
+        agenda: list[_Turn] = []
         self._hold(standing, agenda)
         while agenda:
-            *_, head = heapq.heappop(agenda)
+            of_piece, level, late, rank, head = heapq.heappop(agenda)
             hanging = self._below(head)
             if not hanging:
+                continue
+            if not (of_piece or late) and self.leans([head, *hanging]):
+                # others of its level may take along what hangs, and stand with it
+                self.hanger[hanging] = NOBODY
+                heapq.heappush(agenda, (of_piece, level, True, rank, head))
                 continue
             if self.piece[[head, *hanging]].any():
                 # a piece is finished when it is joined
@@ -155,14 +189,15 @@ class _Hanging:
             self.held[hanging] = True
             self._hold([one for each in hanging for one in self.over[each]], agenda)
 
-    def _hold(self, found: list[int], agenda: list[tuple[bool, int, int, int]]) -> None:
+    def _hold(self, found: list[int], agenda: list[_Turn]) -> None:
         """Mark bricks as held, and all that rests on them."""
         while found:
             each = found.pop()
             if not self.held[each]:
                 self.held[each] = True
                 # a piece takes nothing along: it is asked when nobody else does
-                heapq.heappush(agenda, (bool(self.piece[each]), int(self.level[each]), int(self.rank[each]), each))
+                turn = (bool(self.piece[each]), int(self.level[each]), False, int(self.rank[each]), each)
+                heapq.heappush(agenda, turn)
                 found += self.over[each]
 
     def _below(self, head: int) -> list[int]:

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from legorize_addon.core.building import tables
 from legorize_addon.core.building.contacts import building_contacts
-from legorize_addon.core.building.items import MOST
+from legorize_addon.core.building.items import MOST, SMALL
 from legorize_addon.core.building.moves import Action
-from legorize_addon.core.building.order import SMALL, plan_steps
+from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.steps import Kind
 from legorize_addon.core.building.tables import Planner, _due, _off_middle
 from legorize_addon.core.model.assembly import Assembly

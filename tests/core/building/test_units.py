@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.building.blocking import column_pairs
-from legorize_addon.core.building.units import LARGEST, find_units, presses
+from legorize_addon.core.building.units import LARGEST, Hangers, find_units, presses
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.contacts import contact_graph
 from tests.core.building.heaps import reached
@@ -102,8 +102,21 @@ def test_rank_decides_who_takes_along_what_hangs():
     pairs, below = contact_graph(bricks, CATALOGUE).pairs, column_pairs(bricks, CATALOGUE)
     for first, expected in ((2, [2, 4]), (3, [3, 4])):
         rank = (np.arange(5) != first).astype(np.int64)
-        found = find_units(np.arange(5), level, pairs, below, ground=level == 0, rank=rank)
+        found = find_units(np.arange(5), level, pairs, below, ground=level == 0, hangers=Hangers(rank))
         assert expected in groups(found)
+
+
+def test_what_leans_is_left_to_others():
+    """Of two beams over a plate the first takes it along, but not if it leans with it and the other does not."""
+    rows = ("3003", 0, 0, 0), ("3003", 6, 0, 0), ("3010", 0, 0, 3), ("3010", 4, 0, 3), ("3023", 3, 0, 2)
+    bricks = table(*rows)
+    level = bricks.corner[:, 2].astype(np.int64)
+    pairs = contact_graph(bricks, CATALOGUE).pairs
+    below = column_pairs(bricks, CATALOGUE)
+    for leaning, expected in (((), [2, 4]), ((2,), [3, 4]), ((3,), [2, 4]), ((2, 3), [2, 4])):
+        hangers = Hangers(np.zeros(5, np.int64), lambda nodes, leaning=leaning: nodes[0] in leaning)
+        found = find_units(np.arange(5), level, pairs, below, ground=level == 0, hangers=hangers)
+        assert groups(found)[2 if expected[0] == 2 else 3] == expected
 
 
 def test_a_brick_takes_along_what_a_piece_would_leave_to_be_pressed():
@@ -223,7 +236,7 @@ def test_units_are_those_of_the_plain_rules(seed):
     ground &= rng.random(n) < rng.choice([0.4, 1])
     piece = (np.bincount(node) > 1)[node]
     told = {"piece": piece | (node == rng.integers(0, n))} if rng.random() < 0.5 else {}
-    found = find_units(node, level, pairs, below, ground=ground, rank=rank, **told)
+    found = find_units(node, level, pairs, below, ground=ground, hangers=Hangers(rank), **told)
     columns = (each.tolist() for each in (node, level, pairs, below, ground, rank, told.get("piece", piece)))
     plain = Plain(*columns)
     expected = [
