@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import product
 from typing import Final
 
 import numpy as np
 
 from ..arrays import Ints
 from ..layout import smooth_tops
-from ..model import SUPPORTS, Bricks, Catalogue, column_facts, stud_columns
+from ..layout.problem import Bar
+from ..model import SUPPORTS, Bricks, Catalogue, column_facts, footprint, stud_columns
 from .edit import LAYS, Cell, Edit
 from .outcomes import ruled
 from .rules import Rule, rules_of
@@ -20,6 +23,7 @@ NO_BRICK: Final = "the model has no brick there any more"
 OUTSIDE: Final = "it would stand out of the grid of the model"
 ALOFT: Final = "nothing would hold it there"
 TAKEN: Final = "what another edit laid is in its way"
+NARROW: Final = "only a part of one stud fits there: what is beside it is empty, has another colour, or must stay"
 
 
 def apply_edits(
@@ -129,13 +133,50 @@ def _lay(work: Workpiece, edit: Edit, cells: Sequence[Cell], missing: int) -> st
     return ALOFT if reason and not len(rows) else reason
 
 
+def _widened(work: Workpiece, edit: Edit, gone: Ints, bar: Bar) -> str:
+    """Lay a part of two studs where a part of one has to go, and others around it; return why not."""
+    reason = NARROW
+    for put in _wider(work, edit):
+        rows = np.union1d(gone, work.rows_in(sorted(put.cells(work.catalogue))))
+        if not work.may_change(np.setdiff1d(rows, gone)):
+            continue
+        reason = work.relay(rows, put=put, bars=[bar])
+        if not reason:
+            # another edit may take it away again
+            work.fix(int(put.rows_of(work.bricks, work.catalogue)[0]), fixed=False)
+            return ""
+    return reason
+
+
+def _wider(work: Workpiece, edit: Edit) -> Iterator[Edit]:
+    """Yield the bricks of two studs that can lie on the stud of another one in the colours that are seen there."""
+    catalogue, own = work.catalogue, edit.part_of(work.catalogue)
+    for part in catalogue.parts:
+        squares = len(footprint(part, 0))
+        if part.use != "model" or (squares, part.height) != (2, own.height):
+            continue
+        for turn, second in product(range(2), range(2)):
+            dx, dy = footprint(part, turn)[second].tolist()
+            x, y, z = edit.cell
+            put = Edit("force", part.number, turn, (x - dx, y - dy, z), edit.colour)
+            cells = work.inside(put.cells(catalogue))
+            if len(work.filled(cells)) < 2 * part.height:
+                continue
+            colours = work.shown(cells) or {edit.colour}
+            if len(colours) == 1 and catalogue.exists_in(catalogue.part_row(part.number), *colours):
+                yield replace(put, colour=min(colours))
+
+
 def _forbid(work: Workpiece, edit: Edit, cells: Sequence[Cell], rows: Ints) -> str:
     """Lay others in the place of a part, and keep it away."""
     part = work.catalogue.part_row(edit.part)
     bar, gone = work.bar(part, cells), rows[work.bricks.part[rows] == part]
-    if not work.may_change(gone):
+    if not work.may_go(gone):
         return TAKEN
     reason = work.relay(gone, bars=[bar]) if len(gone) else ""
+    if reason and len(footprint(edit.part_of(work.catalogue), 0)) == 1:
+        # a window is laid in bricks where bricks fit: a single plate among them finds no other plate to join
+        reason = _widened(work, edit, gone, bar)
     if not reason:
         work.keep(bar)
     return reason

@@ -83,6 +83,7 @@ class Workpiece:
         self.owner[:n_z, :n_y, :n_x] = graph.owner
         self._laid_for_model = (self.catalogue.used_for("model") | self.catalogue.used_for("tiles"))[bricks.part]
         self._laid_for_model &= ~np.isin(bricks.role, SUPPORTS)
+        self._chosen_before = self.catalogue.used_for("surface")[bricks.part]
 
     def inside(self, cells: Set[Cell]) -> list[Cell]:
         """Return the cells that lie in the grid, sorted."""
@@ -104,9 +105,20 @@ class Workpiece:
         """Tell whether no edit put one of these bricks there, and none is a support or of a base."""
         return not self.fixed[rows].any() and bool(self._laid_for_model[rows].all())
 
-    def fix(self, row: int) -> None:
-        """Let a brick stay."""
-        self.fixed[row] = True
+    def may_go(self, rows: Ints) -> bool:
+        """Tell whether bricks may change, or are slopes, in whose place others can lie."""
+        return not self.fixed[rows].any() and bool((self._laid_for_model | self._chosen_before)[rows].all())
+
+    def fix(self, row: int, *, fixed: bool = True) -> None:
+        """Let a brick stay, or no longer."""
+        self.fixed[row] = fixed
+
+    def shown(self, cells: Sequence[Cell]) -> set[int]:
+        """Return the colours that are seen on filled cells, or that edits gave them."""
+        filled, at = self.owner != NOBODY, _at(cells)
+        own = np.where(visible(filled, outer_air(filled))[at], self.bricks.colour[self.owner[at]], COLOUR_ANY)
+        colour = np.where(self.settled[at] == COLOUR_ANY, own, self.settled[at])
+        return set(colour[colour != COLOUR_ANY].tolist())
 
     def lie_in(self, rows: Ints, cells: Sequence[Cell]) -> Mask:
         """Return which bricks, (k,), have no cell but these."""

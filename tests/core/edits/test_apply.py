@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.edits import apply_edits, edit_of, outcomes_of
+from legorize_addon.core.edits.apply import NARROW
 from legorize_addon.core.model import Role, concatenate, contact_graph
 from tests.core.any_bricks import CATALOGUE, multiset, table
 from tests.core.edits.models import (
@@ -163,6 +164,45 @@ def test_what_is_locked_survives_other_edits():
     ]
     found, _ = apply_edits(bricks, CATALOGUE, [lock, *others])
     assert len(lock.rows_of(found, CATALOGUE)) == 1
+
+
+def on_a_brick(*above):
+    """Return a 2 x 4 brick with parts on it: rows of number, x, y, turn, colour, two of them never in one cell."""
+    rows = [(ROW(BRICK_2X4), 0, 0, 0, 0, RED, 0, 0, 0)]
+    return table([*rows, *((ROW(part), x, y, 3, turn, colour, 0, 0, 1) for part, x, y, turn, colour in above)])
+
+
+def test_a_lone_plate_beside_a_brick_is_forbidden():
+    """Windows are laid in bricks where these fit: the brick makes room for a plate of two studs all the same."""
+    bricks = on_a_brick(("3024", 0, 0, 0, RED), (BRICK_1X1, 1, 0, 0, RED))
+    found, refused = apply_edits(bricks, CATALOGUE, [edit_of("forbid", bricks, 1, CATALOGUE)])
+    assert refused == {}
+    there = (found.corner == (0, 0, 3)).all(axis=1)
+    assert [CATALOGUE.parts[row].title for row in found.part[there]] == ["Plate 1 x 2"]
+    assert contact_graph(found, CATALOGUE).n_components == 1
+    assert not contact_graph(found, CATALOGUE).collisions
+    # what was laid instead is no edit itself
+    later = edit_of("forbid", found, int(np.flatnonzero(there)[0]), CATALOGUE)
+    assert "edit" not in apply_edits(found, CATALOGUE, [later])[1].get(0, "")
+
+
+@pytest.mark.parametrize("beside", [[], [(BRICK_1X1, 1, 0, 0, WHITE)]])
+def test_where_only_one_stud_fits_the_refusal_says_so(beside):
+    """Beside it there is nothing, or another colour."""
+    bricks = on_a_brick((BRICK_1X1, 0, 0, 0, RED), *beside)
+    found, refused = apply_edits(bricks, CATALOGUE, [edit_of("forbid", bricks, 1, CATALOGUE)])
+    assert refused == {0: NARROW}
+    assert found is bricks
+
+
+def test_a_slope_is_forbidden():
+    """Bricks and plates lie in its place, and no other edit is said to be in the way."""
+    slope = next(part.number for part in CATALOGUE.parts if part.title == "Slope 45 2 x 1")
+    bricks = on_a_brick((slope, 0, 0, 0, RED))
+    found, refused = apply_edits(bricks, CATALOGUE, [edit_of("forbid", bricks, 1, CATALOGUE)])
+    assert refused == {}
+    assert not (found.part == ROW(slope)).any()
+    assert len(found) > 1
 
 
 def test_a_part_is_forbidden():
