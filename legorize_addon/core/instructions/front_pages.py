@@ -128,14 +128,14 @@ def _signs(panels: Panels) -> Iterator[tuple[list[Item], str]]:
     if any(each.kind != Kind.MAIN for each in panels.steps.submodels):
         yield (
             [rectangle(2, 0, 18, 11, Paint(fill=SUB))],
-            ("Behind what is built by itself on the table, and put on as a whole later; 2x means two of it."),
+            ("Behind what is built on the table by itself and put on as a whole later; 2x means: build two."),
         )
     if any(panels.loose(shot) for shot in panels.shots):
         yield _squares(), "Squares of one stud each, where groups stand apart: they tell how far."
     if any(panels.may_lift(shot) for shot in panels.shots):
         yield (
             [lines(np.array([[(11.0, 0.0), (11.0, 11.0)]]), Paint(stroke=LIFTED, width=0.7, dash=(1.8, 1.2)))],
-            "Blue lines: drawn above their places, which they would hide. Push them straight down along the lines.",
+            "Blue lines: new bricks drawn above their places, which they would hide. Push them down along the lines.",
         )
     yield [Text("7b", 5, 9, 9, bold=True)], "A step whose bricks hide each other has several pictures: a, b, ..."
 

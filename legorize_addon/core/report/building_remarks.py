@@ -53,9 +53,9 @@ def remarks_on_split(supports: AssemblyPlan, *, most: int) -> tuple[str, ...]:
     if most == 1 or len(supports.pieces) > 1:
         return ()
     hanging = any(len(piece.need.bricks) for piece in supports.pieces)
-    cuts = f"no cut would save {SAVING:.0%} of its supports"
+    cuts = f"no cut that was tried saves {SAVING:.0%} of its supports"
     saving = cuts if hanging else "it needs no supports that a cut could save"
-    return (f"The model stays in one piece, although split allows {most}: {saving}.",)
+    return (f"The model stays in one piece, although {most} are allowed: {saving}.",)
 
 
 def remarks_on_proof(proof: Proof | None) -> tuple[str, ...]:
@@ -119,7 +119,7 @@ def _by_hand(supports: AssemblyPlan) -> Iterator[str]:
         one, steps = len(supports.leaning) == 1, sorted({tower.step for tower in supports.leaning})
         yield (
             f"{count_of(len(supports.leaning), 'sub-assembly', 'sub-assemblies')} would fall over on the table while "
-            f"{'it is' if one else 'they are'} built, because the lowest bricks are not below the middle: hold "
+            f"{'it is' if one else 'they are'} built, because the weight is not above the lowest bricks: hold "
             f"{'it' if one else 'them'} in {'step' if len(steps) == 1 else 'steps'} {_named(steps)}."
         )
     slim = slim_stacks(supports.assembly)
