@@ -320,11 +320,13 @@ def plan_pieces(
     if not joints or not run.settings.supported:
         return plan, joints
     alone, barred = run.once(make_plan, whole), frozenset[int]()
-    for _ in range(CUTS):
+    for left in reversed(range(CUTS)):
         # what is left in the air either way weighs more than any support
         hanging, before = (len(each.walk.in_air) for each in (plan, alone))
         if hanging < before or (hanging == before and pays(len(alone.removed), len(plan.removed))):
             return plan, joints
+        if not left:
+            break
         barred |= {joints[-1].level}
         cut, joints = run.once(cut_pieces, whole, barred)
         if not joints:

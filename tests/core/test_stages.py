@@ -89,3 +89,17 @@ def test_the_next_cut_is_tried_where_one_saves_too_little(monkeypatch):
     assert barred[1:] == [frozenset({9}), frozenset({9, 6})]
     # without supports nobody counts them
     assert stages.plan_pieces(run_of(supports="none"), "whole", *cuts[frozenset()])[0] == plans["first"]
+
+
+def test_no_cut_is_planned_in_vain(monkeypatch):
+    """Of more cuts than may be tried, each is planned once, and each plan is weighed."""
+    planned = []
+
+    def plan(run, assembly):
+        planned.append(assembly)
+        return SimpleNamespace(removed=range(10), walk=SimpleNamespace(in_air=()))
+
+    monkeypatch.setattr(stages, "make_plan", plan)
+    monkeypatch.setattr(stages, "cut_pieces", lambda run, whole, no: (len(no), (SimpleNamespace(level=len(no)),)))
+    assert stages.plan_pieces(run_of(), "whole", 0, (SimpleNamespace(level=0),))[1] == ()
+    assert planned == [0, "whole", *range(1, stages.CUTS)]
