@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints
 from ..geometry import beyond, corners, hull
-from ..model import Assembly, Bricks, Catalogue, Rows, column_facts, middles, stud_columns
+from ..model import NOBODY, Assembly, Bricks, Catalogue, Rows, column_facts, middles, stud_columns
 from ..progress import Progress, silent
 from .moves import Action
 from .steps import MAIN, Kind, Steps
@@ -149,13 +149,19 @@ def falling(
     list of Tipping
         As :func:`tipping`.
     """
-    towers = _Towers(assembly.bricks, assembly.catalogue, pairs, floor)
+    # of many small tables each looks at its own bricks alone
+    there = np.unique(np.array([row for _, rows in arrivals for row in rows], dtype=np.int64))
+    local = np.full(len(assembly), NOBODY, dtype=np.int64)
+    local[there] = np.arange(len(there))
+    inside = local[pairs]
+    inside = inside[(inside != NOBODY).all(axis=1)]
+    towers = _Towers(assembly.bricks.take(there), assembly.catalogue, inside, floor, there)
     found = []
     changed: set[int] = set()
     for number, (step, rows) in enumerate(arrivals):
         if number % _PAUSE == 0:
             progress("supports", number / len(arrivals))
-        changed.update([towers.place(row) for row in rows])
+        changed.update([towers.place(row) for row in local[rows].tolist()])
         if number + 1 == len(arrivals) or arrivals[number + 1][0] != step:
             for tower in sorted({towers.root(each) for each in changed}):
                 found += towers.fallen_or_propped(tower, step, prop)
@@ -165,24 +171,28 @@ def falling(
 
 def _arrivals(steps: Steps, table: int) -> Iterator[tuple[int, list[int]]]:
     """Yield which bricks come to a table in which step, until the first is taken out there."""
-    moves = steps.moves
+    moves, joins = steps.moves, steps.moves.action == Action.JOIN
+    onto = np.array([each.parent for each in steps.submodels])[moves.submodel] == table
+    rows = np.flatnonzero(np.where(joins, onto, (moves.submodel == table) | (moves.action == Action.REMOVE)))
     gone: set[int] = set()
     columns = (moves.action, moves.brick, moves.submodel, moves.step)
-    for action, brick, submodel, step in zip(*(column.tolist() for column in columns), strict=True):
+    for action, brick, submodel, step in zip(*(column[rows].tolist() for column in columns), strict=True):
         if action == Action.REMOVE:
             if submodel == table:
                 return
             gone.add(brick)
-        elif action == Action.JOIN and steps.submodels[submodel].parent == table:
+        elif action == Action.JOIN:
             yield step, [row for row in steps.all_rows(submodel).tolist() if row not in gone]
-        elif action == Action.PLACE and submodel == table:
+        else:
             yield step, [brick]
 
 
 class _Towers:
     """Bricks in place, as trees of a union-find; the root of each knows weight, moments and feet."""
 
-    def __init__(self, bricks: Bricks, catalogue: Catalogue, pairs: Rows, floor: int) -> None:
+    def __init__(self, bricks: Bricks, catalogue: Catalogue, pairs: Ints, floor: int, named: Ints) -> None:
+        # what others call these bricks
+        self.named = named
         n = len(bricks)
         brick, columns = stud_columns(bricks, catalogue)
         mass = catalogue.mass[bricks.part]
@@ -221,7 +231,8 @@ class _Towers:
     def fallen_or_propped(self, tower: int, step: int, prop: Prop) -> list[Tipping]:
         """Return a tower if it falls over whatever is put under it."""
         while self.falls(tower):
-            found = Tipping(step, np.array(sorted(self.members[tower])), self._middle(tower), corners(self.feet[tower]))
+            bricks = self.named[sorted(self.members[tower])]
+            found = Tipping(step, bricks, self._middle(tower), corners(self.feet[tower]))
             square = prop(found)
             if square is None:
                 self.fallen[tower] = True

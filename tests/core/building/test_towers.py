@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
+from legorize_addon.core.building import towers
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action, Moves
 from legorize_addon.core.building.order import plan_steps
@@ -206,6 +207,18 @@ def test_a_sub_assembly_that_leans_is_named(arm, plates, falls):
     pairs = building_contacts(Assembly(bricks, CATALOGUE), temporary=gone).pairs
     steps = plan_steps(bricks, CATALOGUE, pairs, temporary=gone)
     assert [each.kind for each in steps.submodels] == [Kind.MAIN, Kind.SUBASSEMBLY]
-    towers, leaning = unbalanced(steps, Assembly(bricks, CATALOGUE), pairs)
-    assert towers == ()
+    upright, leaning = unbalanced(steps, Assembly(bricks, CATALOGUE), pairs)
+    assert upright == ()
     assert [found.bricks.tolist() for found in leaning] == [[16 + k for k in range(len(rows))]] * falls
+
+
+def test_a_table_looks_at_its_own_bricks(monkeypatch):
+    """Many small pieces take as long as one large model, not each as long as all."""
+    seen = []
+    bricks = table(*(("3005", 4 * each, 0, level) for each in range(6) for level in (0, 3)))
+    bricks = replace(bricks, piece=np.repeat(np.arange(6, dtype=np.int16), 2))
+    pairs = contact_graph(bricks, CATALOGUE).pairs
+    steps = plan_steps(bricks, CATALOGUE, pairs, temporary=np.zeros(len(bricks), bool))
+    monkeypatch.setattr(towers, "middles", lambda some, catalogue: seen.append(len(some)) or middles(some, catalogue))
+    unbalanced(steps, Assembly(bricks, CATALOGUE), pairs)
+    assert sorted(seen) == [2] * 5 + [12]
