@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Final
 
@@ -17,6 +18,9 @@ from ..scene import hand_remark, n_deleted, read_bricks
 from .build import OnBuild
 from .properties import current_build
 from .settings_properties import label
+
+_NO_NAME: Final = re.compile(r'[\x00-\x1f<>:"/\\|?*]')
+"""Characters that names of files cannot have in Windows, with those that they cannot have elsewhere."""
 
 VIEWS: Final = [*((view, label(view), "") for view in AZIMUTH), ("section", "Section", "Onto the cut")]
 
@@ -38,7 +42,7 @@ class Exporting(OnBuild, ExportHelper):
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Ask for the file; its name is proposed."""
-        self.filepath = proposed_path(current_build(context.scene), self.filename_ext)
+        self.filepath = proposed_path(title_of(current_build(context.scene)), self.filename_ext)
         return ExportHelper.invoke(self, context, event)
 
 
@@ -150,9 +154,10 @@ def title_of(build: bpy.types.Collection) -> str:
     return build.name.removeprefix("Legorize ")
 
 
-def proposed_path(build: bpy.types.Collection, suffix: str) -> str:
+def proposed_path(title: str, suffix: str) -> str:
     """Return the path of a file that is named like a model, beside the scene's own."""
-    name = f"{title_of(build)}{suffix}"
+    # objects may be called what no file can be: a slash would be a folder
+    name = f"{_NO_NAME.sub('_', title)}{suffix}"
     return str(Path(bpy.data.filepath).with_name(name)) if bpy.data.filepath else name
 
 

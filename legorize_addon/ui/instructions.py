@@ -135,7 +135,7 @@ class OnPaper(OnBuild, Browsing):
 
     def propose(self, context: bpy.types.Context) -> None:
         """Name the file like the model, beside the scene's own."""
-        self.filepath = proposed_path(current_build(context.scene), self.suffix)
+        self.filepath = proposed_path(title_of(current_build(context.scene)), self.suffix)
 
     def _show(self, context: bpy.types.Context, order: Any, paths: tuple[Path, ...]) -> set[str]:
         self.report({"INFO"}, rpt("Wrote {}.").format(", ".join(map(str, paths))))

@@ -11,7 +11,7 @@ from bpy.props import EnumProperty
 
 from ..core.presets import PRESETS, preset_values
 from ..core.settings import Settings
-from .settings_properties import set_settings, settings_of, value_of
+from .settings_properties import set_settings, value_of
 
 FOLDER: Final = "legorize"
 """Below Blender's own folder of presets."""
@@ -36,10 +36,10 @@ def look_of(settings: Any) -> str | None:
     return found
 
 
-def with_look(settings: Settings, word: str) -> Settings:
-    """Return settings with a look, in their size unless the look has one."""
+def with_look(settings: Any, word: str) -> Settings:
+    """Return a look, in the size of settings unless it has one; nothing else of these is read, as it may be wrong."""
     values = preset_values(word)
-    kept = {} if _SIZE & values.keys() else {name: getattr(settings, name) for name in _SIZE}
+    kept = {} if _SIZE & values.keys() else {name: value_of(getattr(settings, name)) for name in _SIZE}
     return Settings(**{**kept, **values})
 
 
@@ -58,7 +58,7 @@ class LEGORIZE_OT_look(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Set all settings, the size only if the look has one."""
         group = context.scene.legorize.settings
-        set_settings(group, with_look(settings_of(group), self.look))
+        set_settings(group, with_look(group, self.look))
         return {"FINISHED"}
 
 

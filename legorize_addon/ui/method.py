@@ -19,7 +19,7 @@ from ..scene import builds_of, damage, read_bricks, state_of
 from ..view import STEPS, MethodView, has_trajectories, show_method
 from . import job
 from .build import Browsing, Working
-from .export import chosen_path
+from .export import chosen_path, proposed_path
 from .live import leave_preview
 from .properties import LINE_ITEMS, current_build
 from .requests import BuildRequest, build_request, by_uid, chosen_sources
@@ -161,8 +161,8 @@ class LEGORIZE_OT_write_method(Browsing, bpy.types.Operator):
 
     def propose(self, context: bpy.types.Context) -> None:
         """Name the folder like the objects, beside the scene's own file."""
-        name = f"{' + '.join(source.name for source in chosen_sources(context))} method"
-        self.filepath = str(Path(bpy.data.filepath).with_name(name)) if bpy.data.filepath else name
+        names = " + ".join(source.name for source in chosen_sources(context))
+        self.filepath = proposed_path(names, " method")
 
     def _take_order(self, context: bpy.types.Context) -> FilesRequest:
         drafted = _drafted(context)

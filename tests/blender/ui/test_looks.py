@@ -45,6 +45,14 @@ def test_a_look_leaves_the_size_and_is_told() -> None:
     assert look_of(group) is None
 
 
+def test_a_look_helps_out_of_settings_that_exclude_each_other() -> None:
+    """What no model can be built with is replaced, not read."""
+    group = bpy.context.scene.legorize.settings
+    group.dithering, group.one_to_one, group.size_by, group.cm = "ordered", True, "cm", 20.0
+    assert bpy.ops.legorize.look(look="bricks") == {"FINISHED"}
+    assert (chosen().dithering, chosen().cm) == ("none", 20.0)
+
+
 def test_own_looks_come_back() -> None:
     """All settings are saved under a name, and set again by it; a second click removes them."""
     group = bpy.context.scene.legorize.settings
