@@ -45,15 +45,19 @@ def settings_page() -> str:
         "# Settings",
         "",
         "This page is generated from `legorize_addon/core/settings.py`, where each setting is declared once. The panel",
-        "and the command line have the same settings. A setting that is on or off has two flags, `--name` and",
-        "`--no-name`.",
+        "and the command line have the same settings: first stands the name in the panel, then the flag. A setting",
+        "that is on or off has two flags, `--name` and `--no-name`.",
     ]
     group = None
     for entry in fields(Settings):
         if entry.metadata["group"] != group:
             group = entry.metadata["group"]
             lines += ["", f"## {group}"]
-        lines += ["", f"`{flag(entry)}`", f": {plain(help_text(entry))} {limits(entry)}"]
+        lines += [
+            "",
+            f"*{plain(entry.metadata['name'])}*: `{flag(entry)}`",
+            f": {plain(help_text(entry))} {limits(entry)}",
+        ]
     return "\n".join([*lines, ""])
 
 

@@ -25,8 +25,8 @@ class LEGORIZE_OT_show_weakest(OnBuild, bpy.types.Operator):
     bl_idname = "legorize.show_weakest"
     bl_label = "Show Weakest Brick"
     bl_description = (
-        "Show the heat map, hide the layers above the weakest brick, and turn the view to it; Top Layer shows the "
-        "layers again"
+        "Show the heat map, hide the layers above the weakest brick, and turn the view to it; the panel Layers "
+        "shows them again"
     )
     bl_options = {"REGISTER", "UNDO"}
 
@@ -63,7 +63,7 @@ class LEGORIZE_OT_show_worst_colour(OnBuild, bpy.types.Operator):
     bl_label = "Show Worst Colour"
     bl_description = (
         "Show the colour errors, hide the layers above the brick that differs most from the texture, and turn the view "
-        "to it; Top Layer shows the layers again"
+        "to it; the panel Layers shows them again"
     )
     bl_options = {"REGISTER", "UNDO"}
 

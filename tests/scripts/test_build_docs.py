@@ -27,7 +27,7 @@ def test_every_setting_is_described() -> None:
     page = build_docs.settings_page()
     for entry in fields(Settings):
         name = entry.name.replace("_", "-")
-        assert f"`--{name}" in page
+        assert f"*{build_docs.plain(entry.metadata['name'])}*: `--{name}" in page
         assert build_docs.plain(entry.metadata["text"]) in page
         assert all(build_docs.plain(f"{word}: {text}") in page for word, text in entry.metadata["words"].items())
         assert f"## {entry.metadata['group']}\n" in page
