@@ -32,6 +32,9 @@ DISCLAIMER: Final = (
 
 _MM_PER_CM: Final = 10.0
 
+_SIGN: Final = 12.0
+"""mm from one sign to the next at least: as high as they are."""
+
 _VALUE, _WHAT = 7.5, 3.6
 """mm of the letters of a figure on the cover, and of what it is."""
 
@@ -87,15 +90,16 @@ def how_to_read(panels: Panels, paper: Paper, number: int, remarks: Sequence[str
     """Return the page that tells what colours and signs mean, as far as this model has them, and remarks."""
     items: list[Item] = [Text("How to read the steps", MARGIN, MARGIN + 8, 9, bold=True)]
     y = MARGIN + 22.0
-    signs = list(_signs(panels))
+    signs = [(sign, wrapped(text, 5, paper.width - 2 * MARGIN - 32)) for sign, text in _signs(panels)]
     below = sum(6.5 * len(wrapped(remark, 5, paper.width - 2 * MARGIN)) + 4 for remark in remarks)
     # closer together where there are many
-    room = (paper.height - MARGIN - FOOT - y - below) / len(signs)
-    for sign, text in signs:
+    least = [max(_SIGN, 6.5 * len(told) + 1) for _, told in signs]
+    spare = (paper.height - MARGIN - FOOT - y - below - sum(least)) / len(signs)
+    for (sign, told), high in zip(signs, least, strict=True):
         items.append(moved(sign, MARGIN, y))
-        for row, line in enumerate(wrapped(text, 5, paper.width - 2 * MARGIN - 32)):
+        for row, line in enumerate(told):
             items.append(Text(line, MARGIN + 30, y + 6 + 6.5 * row, 5))
-        y += min(19.0, max(room, 14.0))
+        y += min(19.0, high + max(spare, 0.0))
     for remark in remarks:
         rows = wrapped(remark, 5, paper.width - 2 * MARGIN)
         items += [Text(line, MARGIN, y + 6 + 6.5 * row, 5) for row, line in enumerate(rows)]

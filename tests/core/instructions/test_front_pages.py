@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from legorize_addon.core.building.steps import Kind
 from legorize_addon.core.instructions import front_pages
 from legorize_addon.core.instructions.canvas import Group, Text
 from legorize_addon.core.instructions.fonts import width
@@ -19,7 +21,7 @@ from legorize_addon.core.instructions.front_pages import (
     parts_pages,
 )
 from legorize_addon.core.instructions.lettering import Title
-from legorize_addon.core.instructions.paper import PAPERS
+from legorize_addon.core.instructions.paper import MARGIN, PAPERS
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.progress import duration
 from legorize_addon.core.shopping.shopping_list import shopping_list
@@ -146,3 +148,24 @@ def test_long_names_are_cut():
     shown = list(texts(cover(panels_of(arm()), Title("very long name " * 20), A4).items))
     assert shown[0].endswith("...")
     assert np.all([len(text) < 200 for text in shown])
+
+
+@pytest.mark.parametrize("name", ["A4", "Letter"])
+def test_all_signs_and_remarks_fit_on_their_page(name):
+    """A model that has every sign, and feet on both axes: nothing is off the page, nor on what is above it."""
+    plan = panels_of(arm())
+    every = SimpleNamespace(
+        temporary=plan.temporary,
+        tint=plan.tint,
+        steps=SimpleNamespace(
+            moves=SimpleNamespace(pressed=np.array([True])), submodels=[SimpleNamespace(kind=Kind.SUBASSEMBLY)]
+        ),
+        held={1},
+        shots=[0],
+        loose=lambda shot: True,
+        may_lift=lambda shot: True,
+    )
+    page = how_to_read(every, PAPERS[name], 2, ["Feet of two studs carry it at the front and at the back, " * 4] * 2)
+    lines = [item.y for item in page.items if isinstance(item, Text) and item.size == 5]
+    assert max(lines) < PAPERS[name].height - MARGIN
+    assert np.diff(lines).min() > 5
