@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from .build import Build, Draft
+from .building import still_alike
 from .errors import SettingsError
 from .half_studs import NEEDED, HalfStudsError, Plane, choose_planes, draw_together, lay_jumpers, set_apart
 from .layout import with_fixed
@@ -104,11 +105,12 @@ def lie_apart(
     Raises
     ------
     HalfStudsError
-        Something holds no longer that held while the model was drawn together.
+        Something holds no longer that held while the model was drawn together, or equal submodels differ.
     """
     apart = walk_apart(plan, set_apart(plan.assembly, planes))
     levels = tuple(plane.level for plane in planes)
-    if plan.walk.buildable and not apart.walk.buildable:
+    # submodels that are equal on one grid are written once
+    if (plan.walk.buildable and not apart.walk.buildable) or not still_alike(apart.steps, apart.assembly.bricks):
         raise HalfStudsError(levels)
     tested = check_final(run, apart.final)
     if (found.stable and not tested.stable) or (found.stands and not tested.stands):

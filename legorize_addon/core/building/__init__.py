@@ -9,6 +9,7 @@ from .moves import Action, Moves
 from .steps import MAIN, Kind, Step, Steps, Submodel
 
 if TYPE_CHECKING:
+    from .alike import still_alike
     from .alone import steps_alone
     from .blocking import column_pairs, tangled
     from .check import Walk, walk
@@ -25,6 +26,7 @@ else:
     # a scene needs the moves alone, long before anything is ordered
     __getattr__ = on_demand(
         __name__,
+        alike=("still_alike",),
         alone=("steps_alone",),
         blocking=("column_pairs", "tangled"),
         check=("Walk", "walk"),
@@ -66,6 +68,7 @@ __all__ = [
     "quarter_turns",
     "steps_alone",
     "steps_of",
+    "still_alike",
     "tangled",
     "tile_places",
     "tipping",

@@ -1,4 +1,4 @@
-"""Pieces of a split model that are equal up to their places, as wheels and hooves: they are built together."""
+"""Submodels that are equal up to their places, as wheels and hooves: they are built together."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from ..arrays import Ints
 from ..model import Bricks
 from .items import REACH, span
+from .steps import Steps
 
 COPIES = 2
 """Equal pieces that are built at once: each then has half a step of every picture."""
@@ -46,12 +47,27 @@ def alike_pieces(bricks: Bricks, box: Ints, pieces: Iterable[int]) -> dict[int, 
     return found
 
 
-def _looks(bricks: Bricks, rows: Ints) -> tuple[Ints, bytes]:
+def still_alike(steps: Steps, bricks: Bricks) -> bool:
+    """Return whether submodels that are written once are equal where their bricks lie half studs further on, too.
+
+    Parameters
+    ----------
+    steps : Steps
+        Planned for bricks on one grid.
+    bricks : Bricks
+        The same ones at their true places.
+    """
+    looks = [_looks(bricks, steps.all_rows(each.number), roles=False)[1] for each in steps.submodels]
+    return all(looks[each.number] == looks[each.like] for each in steps.submodels)
+
+
+def _looks(bricks: Bricks, rows: Ints, *, roles: bool = True) -> tuple[Ints, bytes]:
     """Return bricks in an order that depends on their places among each other alone, and what they look like."""
-    place = bricks.corner[rows].astype(np.int64)
-    place -= place.min(axis=0)
-    what = np.column_stack(
-        [place[:, ::-1], bricks.part[rows], bricks.turn[rows], bricks.colour[rows], bricks.role[rows]]
-    )
+    place = 2 * bricks.corner[rows].astype(np.int64)
+    if bricks.half is not None:
+        place[:, :2] += bricks.half[rows]
+    place -= place.min(axis=0, initial=np.iinfo(np.int64).max)
+    columns = [place[:, ::-1], bricks.part[rows], bricks.turn[rows], bricks.colour[rows]]
+    what = np.column_stack([*columns, bricks.role[rows]] if roles else columns)
     order = np.lexsort(what.T[::-1])
     return rows[order], what[order].astype(np.int64).tobytes()

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from legorize_addon.core.building.alike import alike_pieces
+from legorize_addon.core.building.alike import alike_pieces, still_alike
 from legorize_addon.core.building.check import walk
 from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.items import MOST, REACH
@@ -120,3 +120,15 @@ def test_supports_of_equal_pieces_count():
     ]
     assert list(alike(concatenate([bricks, *supports]))) == [2]
     assert alike(concatenate([bricks, *supports[:1]])) == {}
+
+
+def test_half_studs_part_what_was_equal():
+    """Equal pieces that are moved together stay equal; not where a part of one of them is moved alone."""
+    bricks = model(tower(0), tower(FEET))
+    steps, _ = planned(bricks)
+    assert any(each.like != each.number for each in steps.submodels)
+    half = np.zeros((len(bricks), 2), np.uint8)
+    half[bricks.piece > 0] = 1
+    assert still_alike(steps, replace(bricks, half=half))
+    half[(bricks.piece == 2) & (bricks.corner[:, 2] < 8)] = 0
+    assert not still_alike(steps, replace(bricks, half=half))
