@@ -7,7 +7,7 @@ counted both times.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Final
 
 import numpy as np
@@ -100,18 +100,14 @@ def _batches(low: Ints, high: Ints, unit: Ints, asked: Mask) -> Ints:
         Those that may go.
     """
     n_units = int(unit.max()) + 1
-    meets = np.ones((len(unit), len(unit)), bool)
-    for axis in range(3):
-        meets &= low[:, None, axis] < high[None, :, axis]
-    meets &= meets.T
-    near = np.zeros((n_units, n_units), bool)
-    one, other = np.nonzero(meets)
-    near[unit[one], unit[other]] = True
+    near: list[set[int]] = [set() for _ in range(n_units)]
+    for each, met in zip(unit.tolist(), _meeting(low, high, low, high), strict=True):
+        near[each].update(unit[met].tolist())
     may = np.ones(n_units, bool)
     may[unit[~asked]] = False
     batch = np.full(n_units, -1)
     for number in np.flatnonzero(may).tolist():
-        full = np.bincount(batch[near[number]] + 1, minlength=_BATCHES + 1)[1:] > 0
+        full = np.bincount(batch[list(near[number])] + 1, minlength=_BATCHES + 1)[1:] > 0
         if not full.all():
             batch[number] = full.argmin()
     return batch
@@ -119,7 +115,20 @@ def _batches(low: Ints, high: Ints, unit: Ints, asked: Mask) -> Ints:
 
 def _parts_in(low: Ints, high: Ints, first: Ints, last: Ints) -> Floats:
     """Return how many parts reach into windows."""
-    found = np.zeros(len(low))
-    for row in range(len(low)):
-        found[row] = np.count_nonzero(((first < high[row]) & (last > low[row])).all(axis=1))
-    return found
+    return np.array([len(met) for met in _meeting(low, high, first, last)], dtype=np.float64)
+
+
+def _meeting(low: Ints, high: Ints, first: Ints, last: Ints) -> Iterator[Ints]:
+    """Yield of each window the rows of the boxes that reach into it, looked for among those near it along one axis."""
+    if not len(first):
+        yield from (np.zeros(0, np.int64) for _ in low)
+        return
+    axis = int((last.max(axis=0) - first.min(axis=0)).argmax())
+    order = np.argsort(first[:, axis], kind="stable")
+    first, last = first[order], last[order]
+    longest = int((last - first)[:, axis].max())
+    begin = np.searchsorted(first[:, axis], low[:, axis] - longest, side="right").tolist()
+    end = np.searchsorted(first[:, axis], high[:, axis], side="left").tolist()
+    for row, (one, other) in enumerate(zip(begin, end, strict=True)):
+        met = ((first[one:other] < high[row]) & (last[one:other] > low[row])).all(axis=1)
+        yield order[one:other][met]
