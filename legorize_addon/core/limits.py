@@ -9,7 +9,7 @@ from typing import Any
 
 from .errors import BuildError, LimitError
 from .estimate import Estimate, megabytes
-from .model import Assembly, Bricks, load_catalogue
+from .model import Assembly, Bricks, Role, load_catalogue
 from .settings import Settings
 from .shopping import shopping_list
 
@@ -56,11 +56,11 @@ def check_size(bricks: Bricks, settings: Settings) -> None:
     Raises
     ------
     BuildError
-        There are no bricks.
+        There are no bricks, or none but supports that are taken out again.
     LimitError
         There are too many, or they lie too far apart.
     """
-    if not len(bricks):
+    if (bricks.role == Role.SUPPORT_OUTSIDE).all():
         raise BuildError("There are no bricks: open a file with bricks and plates.")
     found = shopping_list(Assembly(bricks, load_catalogue()))
     longest = max(found.cm)

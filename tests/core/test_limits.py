@@ -7,6 +7,7 @@ import pytest
 from legorize_addon.core.errors import BuildError, LimitError
 from legorize_addon.core.estimate import estimate
 from legorize_addon.core.limits import check_limits, check_size, within_limits
+from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.settings import Settings
 from tests.core.any_bricks import CATALOGUE
 from tests.core.any_bricks import table as bricks_of
@@ -93,3 +94,11 @@ def test_models_above_the_limits_are_refused(rows, changes, error, message):
     bricks = bricks_of([(ONE, *row, 0, 4, 0, 0, 0) for row in rows])
     with pytest.raises(error, match=message):
         check_size(bricks, Settings(**changes))
+
+
+def test_supports_alone_are_no_model():
+    """What is taken out again leaves nothing: a file of supports is refused, one with a brick that stays is not."""
+    rows = [(ONE, 0, 0, 0, 0, 4, int(Role.SUPPORT_OUTSIDE), 0, 0), (ONE, 0, 0, 3, 0, 4, 0, 0, 0)]
+    with pytest.raises(BuildError, match="There are no bricks"):
+        check_size(bricks_of(rows[:1]), Settings())
+    check_size(bricks_of(rows), Settings())
