@@ -6,6 +6,7 @@ import bpy
 import pytest
 
 from legorize_addon.core import pipeline
+from legorize_addon.core import stages as core_stages
 from legorize_addon.core.errors import BuildError
 from legorize_addon.scene import builds, read_bricks, state_of
 from legorize_addon.ui import updating
@@ -75,7 +76,7 @@ def test_a_failed_update_leaves_scene_and_memo(settings, monkeypatch):
 
     settings.supports = "tree"
     with monkeypatch.context() as patch:
-        patch.setattr(pipeline, "make_plan", fail)
+        patch.setattr(core_stages, "make_plan", fail)
         with pytest.raises(RuntimeError, match="No"):
             bpy.ops.legorize.update()
     assert builds(bpy.context.scene) == [build]
