@@ -23,6 +23,7 @@ from .properties import current_build
 from .reporting import Reporting, forget_status
 from .requests import BuildRequest, build_request, by_uid, chosen_sources
 from .session import SESSION
+from .setting_names import as_in_panel
 from .settings_properties import settings_of, take_renamed
 from .tab import redraw
 
@@ -153,7 +154,7 @@ class Building(Working):
         try:
             order.check_limits()
         except LimitError as reason:
-            ask(str(reason))
+            ask(as_in_panel(str(reason)))
             return {"CANCELLED"}
         return super()._begin(context, order)
 

@@ -21,6 +21,7 @@ from ..core.progress import duration
 from ..core.settings import Settings
 from . import job
 from .requests import by_uid, chosen_sources
+from .setting_names import as_in_panel
 from .settings_properties import settings_of
 from .tab import redraw
 
@@ -81,7 +82,7 @@ def expected(context: bpy.types.Context) -> tuple[str, ...]:
     try:
         return _lines(_known.mesh, settings_of(context.scene.legorize.settings))
     except LegorizeError as error:
-        return (str(error),)
+        return (as_in_panel(str(error)),)
 
 
 @lru_cache(maxsize=KEPT)

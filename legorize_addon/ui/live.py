@@ -25,6 +25,7 @@ from ..view import readable
 from . import job
 from .properties import current_build
 from .requests import by_uid, chosen_sources, replaced_by, resolved_settings
+from .setting_names import as_in_panel
 from .settings_properties import settings_of
 from .tab import draw_wrapped, redraw
 
@@ -105,7 +106,7 @@ def follow(context: bpy.types.Context) -> None:
     try:
         asked = sources, build.session_uid if build else 0, settings_of(context.scene.legorize.settings)
     except LegorizeError as error:
-        _live.said = str(error)
+        _live.said = as_in_panel(str(error))
         return
     if asked == _live.asked:
         return
@@ -140,7 +141,7 @@ def _tick() -> float | None:
     except StopIteration:
         _live.work = None
     except LegorizeError as error:
-        _live.work, _live.said = None, str(error)
+        _live.work, _live.said = None, as_in_panel(str(error))
         end_preview(context.scene, context.view_layer)
     else:
         return BETWEEN

@@ -43,6 +43,7 @@ from .parts import LEGORIZE_OT_export_list, LEGORIZE_OT_list_parts, LEGORIZE_OT_
 from .progress_text import progress_text
 from .properties import current_build
 from .requests import chosen_sources
+from .setting_names import as_in_panel
 from .settings_panels import GROUPS, SETTINGS_PANELS, SIZE, draw_settings
 from .tab import BuildTab, Tab, draw_wrapped
 from .updating import LEGORIZE_OT_build_beside, LEGORIZE_OT_update
@@ -181,7 +182,7 @@ class LEGORIZE_PT_result(BuildTab, bpy.types.Panel):
         for text in (*_figures(state.summary), *_building_figures(state.building)):
             column.label(text=text)
         for note in state.notes:
-            draw_wrapped(context, self.layout, note, "ERROR")
+            draw_wrapped(context, self.layout, as_in_panel(note), "ERROR")
         if step:
             draw_wrapped(context, self.layout, A_STEP, "INFO")
         else:

@@ -12,6 +12,7 @@ from ..core.errors import Cancelled, LegorizeError, enough_memory
 from . import job
 from .duplicates import adopt
 from .progress_text import STOPPED
+from .setting_names import as_in_panel
 
 SAID: Final = 6.0
 """Seconds for which a sentence stays in the status bar: about as long as one of Blender's own."""
@@ -27,7 +28,7 @@ class Reporting:
             with enough_memory():
                 return work(*arguments)
         except LegorizeError as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, as_in_panel(str(error)))
         except Cancelled:
             self.report({"INFO"}, rpt(STOPPED))
             bpy.context.window_manager.legorize_said = STOPPED

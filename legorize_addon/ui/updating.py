@@ -16,6 +16,7 @@ from .build import Building
 from .properties import current_build
 from .requests import BuildRequest, resolved_settings
 from .session import SESSION
+from .setting_names import as_in_panel
 from .settings_properties import settings_of
 
 if TYPE_CHECKING:
@@ -101,7 +102,7 @@ def _outlook(context: bpy.types.Context) -> str:
         settings = resolved_settings(settings_of(context.scene.legorize.settings))
         stages = reached(steps, Run.of(settings, Overall({}, silent)).answer)
     except LegorizeError as error:
-        return str(error)
+        return as_in_panel(str(error))
     done = (
         tip("Computed again: {}.").format(", ".join(stages)) if stages else tip("No setting has changed that counts.")
     )

@@ -528,7 +528,7 @@ def test_a_giant_is_refused_without_a_window(box) -> None:
     settings = bpy.context.scene.legorize.settings
     settings.limit_size = 5
     before = content()
-    with pytest.raises(RuntimeError, match=r"^Error: The model would be [^\n]*raise limit_size to 10\.\n?$"):
+    with pytest.raises(RuntimeError, match=r"^Error: The model would be [^\n]*raise Limits > Size \(cm\) to 10\.\n?$"):
         bpy.ops.legorize.build()
     assert content() == before
     assert bpy.ops.legorize.build(larger=True) == {"FINISHED"}
@@ -544,7 +544,7 @@ def test_a_giant_is_a_question_in_a_window(box, monkeypatch) -> None:
     order = operators.LEGORIZE_OT_build._take_order(pressed, bpy.context)
     assert operators.LEGORIZE_OT_build._begin(None, bpy.context, order) == {"CANCELLED"}
     [sentence] = asked
-    assert sentence.endswith("raise limit_size to 10.")
+    assert sentence.endswith("raise Limits > Size (cm) to 10.")
     assert job.running() is None
     assert bpy.ops.legorize.build_larger("EXEC_DEFAULT", reason=sentence) == {"FINISHED"}
     assert current_build(bpy.context.scene) is not None

@@ -69,7 +69,7 @@ def test_settings_that_exclude_each_other_are_told(cube) -> None:
     settings = bpy.context.scene.legorize.settings
     settings.hollow, settings.open_bottom = False, True
     [sentence] = expected(bpy.context)
-    assert sentence.startswith("open_bottom is on but hollow is off")
+    assert sentence.startswith("Inside > Open bottom is on but hollow is off")
 
 
 def test_nothing_is_said_of_nothing() -> None:

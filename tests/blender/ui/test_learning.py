@@ -139,7 +139,7 @@ def test_the_learned_layout_learns_its_own(ball, folder: Path, monkeypatch: pyte
     assert (found[0].of_fill, found[0].text, found[0].version) == (True, text, 2)
     assert Path(resolved(chosen())).read_text(encoding="utf-8") == text
     bpy.context.scene.legorize.settings.layout = "fast"
-    with pytest.raises(RuntimeError, match="learned_from is"):
+    with pytest.raises(RuntimeError, match="Bricks > Training file is"):
         bpy.ops.legorize.learn()
 
 

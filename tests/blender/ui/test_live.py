@@ -261,7 +261,7 @@ def test_what_is_too_large_is_refused(settings, monkeypatch) -> None:
     monkeypatch.undo()
     settings.hollow, settings.open_bottom = False, True
     assert not soon()
-    assert live._live.said.startswith("open_bottom is on")
+    assert live._live.said.startswith("Inside > Open bottom is on")
     settings.open_bottom = False
     live._live.mesh = None
     monkeypatch.setattr(live, "FACES", 5)
