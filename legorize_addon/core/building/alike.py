@@ -67,7 +67,7 @@ def _looks(bricks: Bricks, rows: Ints, *, roles: bool = True) -> tuple[Ints, byt
     if bricks.half is not None:
         place[:, :2] += bricks.half[rows]
     place -= place.min(axis=0, initial=np.iinfo(np.int64).max)
-    columns = [place[:, ::-1], bricks.part[rows], bricks.turn[rows], bricks.colour[rows]]
-    what = np.column_stack([*columns, bricks.role[rows]] if roles else columns)
+    role = bricks.role[rows] if roles else np.zeros(len(rows), np.uint8)
+    what = np.column_stack([place[:, ::-1], bricks.part[rows], bricks.turn[rows], bricks.colour[rows], role])
     order = np.lexsort(what.T[::-1])
     return rows[order], what[order].astype(np.int64).tobytes()
