@@ -105,6 +105,11 @@ class _Document:
                 yield from self._brick(row)
             for number in step.joined:
                 if self.steps.submodels[number].parent == submodel.number:
+                    piece, written = (self.steps.submodels[each].piece for each in (number, self._written(number)))
+                    if piece != written or (kind and kind[1] not in (0, piece)):
+                        # what is written once for several pieces is told apart where it is put on
+                        kind = [kind[0] if kind else int(Role.SHELL), piece]
+                        yield f"0 !LEGORIZE ROLE {Role(kind[0]).name} PIECE {piece}"
                     yield self._call(number)
             turn = self.turns[step.number] if submodel.number == step.submodel else 0
             if turn:
@@ -127,10 +132,14 @@ class _Document:
 
     def _call(self, number: int) -> str:
         """Return the line that puts a submodel where it belongs, wherever the one that is written stands."""
-        first = self.steps.submodels[number].like
+        first = self._written(number)
         x, y, z = (self._low(number) - self._low(first)).tolist() if first != number else (0, 0, 0)
         place = f"{round(x * STUD_LDU)} {round(-z * PLATE_LDU)} {round(y * STUD_LDU)}"
         return f"1 {MAIN_COLOUR} {place} {MATRICES[0]} {self.steps.submodels[first].name}.ldr"
+
+    def _written(self, number: int) -> int:
+        """Return the submodel that stands for one in the document."""
+        return self.steps.submodels[number].like
 
     def _low(self, number: int) -> np.ndarray:
         rows = self.steps.all_rows(number)

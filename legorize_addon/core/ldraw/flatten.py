@@ -181,7 +181,7 @@ def _table(items: list[tuple[Reference, int]], names: dict[str, int]) -> Parts:
 
 
 def _moved(parts: Parts, steps: int, call: Reference, step: int) -> Parts:
-    """Return the parts of a model where a line puts it, in the colour that this gives."""
+    """Return the parts of a model where a line puts it, in the colour and of the piece that this gives."""
     matrix = np.array(call.numbers[3:]).reshape(3, 3)
     # models that are stretched in each other come to numbers without end, and to none at all
     with np.errstate(over="ignore", invalid="ignore"):
@@ -190,6 +190,8 @@ def _moved(parts: Parts, steps: int, call: Reference, step: int) -> Parts:
             colour=np.where(parts.colour == MAIN_COLOUR, call.colour, parts.colour),
             matrix=matrix @ parts.matrix,
             place=parts.place @ matrix.T + np.array(call.numbers[:3]),
+            # equal pieces are written once
+            piece=np.full_like(parts.piece, call.piece) if call.piece else parts.piece,
             step=parts.step + step,
         )
 

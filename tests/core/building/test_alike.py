@@ -17,6 +17,7 @@ from legorize_addon.core.building.moves import Action
 from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.steps import Kind
 from legorize_addon.core.files.ldraw_mpd import write_mpd
+from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Role, concatenate
 from tests.core.files.flattened import afloat, bricks_of, read
@@ -108,6 +109,18 @@ def test_a_piece_with_a_large_sub_assembly_is_built_by_itself(hanging, times):
     pieces = [each.number for each in steps.submodels if each.kind == Kind.PIECE]
     assert {step.times for step in steps if step.submodel in pieces} == {times}
     assert all((steps.submodels[number].like == pieces[0]) == (times == 2) for number in pieces[1:])
+
+
+@pytest.mark.parametrize("hanging", [0, 4])
+def test_pieces_that_are_written_once_are_read_as_several(hanging):
+    """Each brick of a document comes back with its own piece, also where a sub-assembly of equal pieces is in them."""
+    bricks = model(*(tower(x, hanging=hanging) for x in (0, FEET, 2 * FEET)))
+    steps, _ = planned(bricks)
+    assert any(each.like != each.number for each in steps.submodels if each.kind == Kind.PIECE)
+    document = write_mpd(Assembly(bricks, CATALOGUE), steps, name="model.ldr", title="towers")
+    found = read_ldraw(document, CATALOGUE).bricks
+    told = [sorted(zip(map(tuple, each.corner.tolist()), each.piece.tolist(), strict=True)) for each in (found, bricks)]
+    assert told[0] == told[1]
 
 
 def test_supports_of_equal_pieces_count():
