@@ -77,12 +77,15 @@ def shots(steps: Steps, *, temporary: Mask) -> Iterator[Shot]:
         tables = [each for each in step.made if steps.submodels[each].like == each]
         for table in (*tables, step.submodel):
             there = on_table[table]
-            placed = step.bricks[np.isin(step.bricks, steps.submodels[table].rows)]
+            # what is taken out may have come within a sub-assembly
+            removed = step.action == Action.REMOVE
+            own = steps.all_rows(table) if removed else steps.submodels[table].rows
+            placed = step.bricks[np.isin(step.bricks, own)]
             joined = tuple(each for each in step.joined if steps.submodels[each].parent == table)
             came = np.concatenate([np.zeros(0, np.int64), *(_finished(steps, each, temporary) for each in joined)])
             times = steps.times(step, table)
             yield Shot(step, table, times, not tables, placed, joined, came, np.flatnonzero(there))
-            there[placed] = step.action != Action.REMOVE
+            there[placed] = not removed
             there[came] = True
 
 

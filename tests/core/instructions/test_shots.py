@@ -5,10 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from legorize_addon.core.building.contacts import building_contacts
 from legorize_addon.core.building.moves import Action
+from legorize_addon.core.building.order import plan_steps
 from legorize_addon.core.building.steps import MAIN
 from legorize_addon.core.instructions.shots import shots
+from legorize_addon.core.model.assembly import Assembly
 from tests.core.instructions.built import arm, pair
+from tests.core.standing import CATALOGUE, table
 
 
 @pytest.mark.parametrize("model", [arm, pair])
@@ -53,3 +57,13 @@ def test_pieces_are_put_on_whole():
     assert joined.step.submodel == MAIN
     upper = np.flatnonzero((plan.bricks.piece == 1) & ~plan.temporary)
     assert sorted(joined.came.tolist()) == upper.tolist()
+
+
+def test_a_support_that_came_within_a_sub_assembly_is_taken_out_in_a_picture():
+    """As in files of others: a plate that hangs from a brick, and goes again."""
+    bricks = table(("3005", 0, 0, 0), ("3004", 0, 0, 3), ("3024", 1, 0, 2))
+    gone = np.array([False, False, True])
+    contacts = building_contacts(Assembly(bricks, CATALOGUE), temporary=gone)
+    *_, last = shots(plan_steps(bricks, CATALOGUE, contacts.pairs, temporary=gone), temporary=gone)
+    assert last.step.action == Action.REMOVE
+    assert last.placed.tolist() == [2]
