@@ -18,9 +18,13 @@ import numpy as np
 from ..arrays import Ints, Mask
 from ..model import NOBODY, Assembly, Rows, components, stacked
 from .blocking import knots, of_nodes, unique_pairs
+from .items import MOST
 
 LARGEST: Final = 0.25
-"""Share of the bricks on a table that one sub-assembly of them has at most: a larger one is no detail any more."""
+"""Share of the bricks on a table that one sub-assembly of them has at most: a larger one is no detail any more.
+
+On small tables it may have as many bricks as a step, for otherwise what hangs on these would be pressed from below.
+"""
 
 
 Leans = Callable[[Sequence[int]], bool]
@@ -247,10 +251,14 @@ class _Hanging:
         return changed
 
     def _one_thing(self, members: Ints) -> bool:
-        """Whether bricks can be one sub-assembly: few, hanging together, without a piece."""
+        """Whether bricks can be one sub-assembly: few, not all of the table, hanging together, without a piece."""
         inside = np.zeros(self.n, dtype=bool)
         inside[members] = True
-        if self.piece[members].any() or self.pressed[members].any() or len(members) > LARGEST * self.n:
+        if (
+            self.piece[members].any()
+            or self.pressed[members].any()
+            or len(members) > min(max(LARGEST * self.n, MOST), self.n - 1)
+        ):
             return False
         found = components(self.pairs[inside[self.pairs].all(axis=1)], self.n)[members]
         return bool((found == found[0]).all())

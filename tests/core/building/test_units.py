@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.building.blocking import column_pairs
+from legorize_addon.core.building.items import MOST
 from legorize_addon.core.building.units import LARGEST, Hangers, find_units, presses
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.contacts import contact_graph
@@ -65,12 +66,25 @@ def test_units_that_each_wait_for_the_other_are_given_up():
     assert not found.loose.any()
 
 
-@pytest.mark.parametrize(("n", "together"), [(28, True), (27, False)])
-def test_units_that_each_wait_for_the_other_become_one(n, together):
-    """Hooks that a plate holds together are one sub-assembly, if it is at most a quarter of all bricks."""
+def test_units_that_each_wait_for_the_other_become_one():
+    """Hooks that a plate holds together are one sub-assembly, however few other bricks are on the table."""
     across = ("3023", 5, 0, 8, 1)
-    found = units(*HOOKS, across, *(("3003", 0, 6, 3 * k) for k in range(n - 10)))
-    assert (list(range(3, 10)) in groups(found)) == together
+    found = units(*HOOKS, across)
+    assert list(range(3, 10)) in groups(found)
+    assert not found.pressed.any()
+    # but never all that is on the table, which would be a table of its own again
+    found = units(*HOOKS[3:], across, ground=[True] * 2 + [False] * 5)
+    assert len(groups(found)) > 1
+
+
+@pytest.mark.parametrize(("n", "together"), [(52, True), (51, False)])
+def test_large_sub_assemblies_are_a_quarter_at_most(n, together):
+    """Of more bricks than a step has, a sub-assembly is at most a quarter of all."""
+    chains = [("3024", x, y, z) for x, y in ((3, 0), (2, 1)) for z in (8, 7, 6, 5)]
+    hooks = (*HOOKS[:5], *chains, ("3023", 3, 0, 4, 1), ("3023", 2, 0, 4, 1), ("3023", 5, 0, 8, 1))
+    found = units(*hooks, *(("3003", 0, 6, 3 * k) for k in range(n - len(hooks))))
+    assert len(hooks) - 3 == MOST + 1
+    assert (list(range(3, len(hooks))) in groups(found)) == together
     assert found.pressed.any() != together
 
 
@@ -210,7 +224,8 @@ class Plain:
                 continue
             inside = [pair for pair in self.pairs if members.issuperset(pair)]
             one = not any(self.piece[each] for each in members) and not members & self.pressed
-            if one and len(members) <= LARGEST * len(self.nodes) and reached([min(members)], inside) == members:
+            few = len(members) <= min(max(LARGEST * len(self.nodes), MOST), len(self.nodes) - 1)
+            if one and few and reached([min(members)], inside) == members:
                 self.join(members)
                 changes.append(knot)
             else:
