@@ -131,9 +131,9 @@ def test_progress_goes_from_0_to_the_end():
 
 
 LOOKS = {
-    "booklet": "e0b7071c1c5bd057",
-    "letter": "87c449caba632daf",
-    "print": "68eeae47e5e3ca5d",
+    "booklet": "b5c22eb6a2ecf834",
+    "letter": "224f3c0efd458236",
+    "print": "c6e3537cd768b3d9",
     "maps": "1702066b920b4d47",
     "actual size": "f92504fa044bd8ba",
     "viewer": "03f21d620ad213be",
