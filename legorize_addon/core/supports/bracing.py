@@ -22,6 +22,7 @@ from ..model import (
     Assembly,
     Bricks,
     ContactGraph,
+    Verdict,
     column_facts,
     components,
     stud_columns,
@@ -99,14 +100,17 @@ def add_bracing(
     pillars: list[Bricks] = []
     aimed = (1 - spare) * clutch
     first = tested(pillars, clutch=aimed) if known is None else (assembly, known)
-    propped = _with_more(partial(tested, clutch=aimed), first, pillars)
+    propped = _with_more(partial(tested, clutch=aimed), partial(tested, clutch=clutch), first, pillars)
     if not propped[1].stable:
         found = found or judged(assembly, effort=Effort(near=known, programme=0, neighbours=False))
         if found.stable:
             return assembly, found
-        aimed, propped = clutch, tested(pillars, clutch=clutch)
+        propped = tested(pillars, clutch=clutch, near=propped[1])
         if not propped[1].stable:
             return assembly, judged(assembly)
+        # what is left unused shall not shrink while pillars are left out
+        aimed = (1 - min(float(propped[1].margin.min(initial=spare)), spare)) * clutch
+        propped = tested(pillars, clutch=aimed, near=propped[1])
     tested = partial(tested, clutch=aimed)
     fewer, pillars = _with_fewer(propped, pillars, tested)
     if pillars:
@@ -116,10 +120,18 @@ def add_bracing(
     return more, judged(more, effort=Effort(near=proof))
 
 
-def _with_more(tested: Callable[..., Propped], propped: Propped, pillars: list[Bricks]) -> Propped:
-    """Put pillars under what yields, round after round, until the model stands or there is no place for more."""
+def _with_more(
+    tested: Callable[..., Propped], at_all: Callable[..., Propped], propped: Propped, pillars: list[Bricks]
+) -> Propped:
+    """Put pillars under what yields, round after round, until the model stands or there is no place for more.
+
+    Where it stays open whether as much is left unused as is wanted, and the model stands ``at_all``, there are no more:
+    many pillars would only prove sooner what a few may bear as well.
+    """
     for turn in range(min(ROUNDS, WORK // max(len(propped[0]), 1))):
         if propped[1].stable:
+            break
+        if propped[1].standing is Verdict.UNDECIDED and at_all(pillars, near=propped[1], rounds=1)[1].stable:
             break
         places = _chosen(*propped, fast=FAST / SOONER**turn)
         if not len(places):

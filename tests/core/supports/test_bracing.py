@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -12,9 +13,10 @@ from hypothesis import strategies as st
 from legorize_addon.core.building.mirror import boxes
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks, Role
+from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.progress import silent
 from legorize_addon.core.statics.forces import HOLD
-from legorize_addon.core.supports.bracing import _pillar_of, _tested, _with_fewer, add_bracing
+from legorize_addon.core.supports.bracing import _pillar_of, _tested, _with_fewer, _with_more, add_bracing
 from legorize_addon.core.supports.pillars import add_pillars
 from scripts.benchmarks.stablelego import stair
 from tests.core.standing import CATALOGUE, judged, table
@@ -118,6 +120,25 @@ def test_what_is_known_is_not_tested_again(bricks):
     other, again = add_bracing(assembly, None, clutch=HOLD, spare=0.2, known=known)
     assert same(one.bricks, other.bricks)
     assert found.verdict is again.verdict
+
+
+@pytest.mark.parametrize(
+    ("verdict", "at_all", "more"),
+    [(Verdict.UNDECIDED, True, False), (Verdict.UNDECIDED, False, True), (Verdict.COLLAPSES, True, True)],
+)
+def test_what_stays_open_gets_no_pillars_if_it_stands(verdict, at_all, more):
+    """A search that ends without an answer is no reason for pillars under what stands with less to spare."""
+    assembly = Assembly(table(("3005", 0, 0, 0), ("3008", 0, 0, 3)), CATALOGUE)
+    _, falls = _tested(assembly, (), clutch=HOLD, progress=silent)
+    facts = {name: getattr(falls, name) for name in ("stable", "tipping", "yielding", "statics")}
+    first, pillars = (assembly, Mock(standing=verdict, **facts)), []
+
+    def tested(pillars, **_):
+        return _tested(assembly, pillars, clutch=HOLD, progress=silent)
+
+    _, found = _with_more(tested, lambda *_, **__: (assembly, Mock(stable=at_all)), first, pillars)
+    assert bool(pillars) == more
+    assert found.stable == more
 
 
 def test_pillars_that_bear_little_are_left_out():
