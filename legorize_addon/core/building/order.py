@@ -174,7 +174,8 @@ class _Writer:
             len(self._rows_in([put for put in step if put.submodel == NOBODY or self._small(put.submodel)]))
             for step in steps
         )
-        return min([MOST // largest, *(MOST // len(self.planner.all_rows(each)) for each in inside)])
+        # where every step puts on large sub-assemblies alone, these decide
+        return min([MOST // max(largest, 1), *(MOST // len(self.planner.all_rows(each)) for each in inside)])
 
     def _small(self, number: int) -> bool:
         """Whether a submodel is built in the step that puts it on."""
