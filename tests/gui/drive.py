@@ -93,10 +93,11 @@ def build_undo_cancel(sample: str, seen: dict[str, Any]) -> Wait:
     yield from wait_until(lambda: job().running().seconds_left is not None)
     yield 0.3
     camera = start_screenshot("4-running")  # the work goes on meanwhile
-    yield 0.3
+    yield from wait_until(lambda: camera.poll() is not None)
+    assert camera.returncode == 0
+    assert running()
     yield from press("ESC")
     yield from wait_until(lambda: not running())
-    assert camera.wait(60) == 0
     yield 0.5
     seen["cancelled"] = scene_content(sample)
     seen["said"] = bpy.context.window_manager.legorize_said
