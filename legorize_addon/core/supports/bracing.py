@@ -110,7 +110,6 @@ def add_bracing(
             return assembly, judged(assembly)
         # what is left unused shall not shrink while pillars are left out
         aimed = (1 - min(float(propped[1].margin.min(initial=spare)), spare)) * clutch
-        propped = tested(pillars, clutch=aimed, near=propped[1])
     tested = partial(tested, clutch=aimed)
     fewer, pillars = _with_fewer(propped, pillars, tested)
     if pillars:
