@@ -261,7 +261,7 @@ class OnBuild(Reporting):
         elif not cls.mends and damage(current_build(context.scene)):
             cls.poll_message_set(damage(current_build(context.scene)).removesuffix("."))
         elif not cls.of_steps and shows_step(current_build(context.scene)):
-            cls.poll_message_set(A_STEP.removesuffix("."))
+            cls.poll_message_set(A_STEP)
         else:
             return True
         return False
