@@ -100,6 +100,7 @@ def lay_mosaic(run: Run, canvas: Canvas, colour: NDArray[np.int16]) -> Covered:
     found: list[Covered] = []
 
     def lay(catalogue: Catalogue) -> Bricks:
+        """Lay the base in parts of a catalogue, and keep what was found."""
         found.append(cover_base(studs, base, settings.mosaic, catalogue, tier=tier, rng=run.rng))
         return found[-1].bricks
 

@@ -88,6 +88,7 @@ class _Worker(threading.Thread, Generic[Result]):
         self.ended = False
 
     def run(self) -> None:
+        """Do the work in a thread of its own, and keep what came of it."""
         try:
             self._results.append(self._work(self._tell))
         except BaseException as error:  # noqa: BLE001 - raised again by result(), in the thread that asks for it
@@ -120,6 +121,7 @@ class _Worker(threading.Thread, Generic[Result]):
         self.join(pause)
 
     def result(self) -> Result:
+        """Return what came of the work, or raise what ended it."""
         if self._error is not None:
             raise self._error
         return self._results[0]

@@ -40,6 +40,7 @@ def on_demand(package: str, **modules: tuple[str, ...]) -> Callable[[str], Any]:
     homes = {name: module for module, names in modules.items() for name in names}
 
     def found(name: str) -> Any:
+        """Load a name where it is told, and keep it."""
         if name not in homes:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
         value = getattr(import_module(f"{package}.{homes[name]}"), name)

@@ -44,6 +44,7 @@ def lay_with_slopes(run: Run, shell: UnitGrid, given: Slopes | None) -> tuple[Br
     manner, filler = Manner(layout, run.exchanges), run.filler
 
     def lay(grid: UnitGrid, fixed: Bricks) -> tuple[Bricks, UnitGrid]:
+        """Lay the cells around slopes as the settings ask, and tie what is loose."""
         there = partial(lay_fixed, grid, fixed=fixed, manner=manner, rng=run.rng, filler=filler, progress=run.progress)
         return add_ties(run.parts.laid(there), grid, run.parts.joining, plates=run.settings.plates != "none")
 

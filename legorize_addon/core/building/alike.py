@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Final
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from ..model import Bricks
 from .items import REACH, span
 from .steps import Steps
 
-COPIES = 2
+COPIES: Final = 2
 """Equal pieces that are built at once: each then has half a step of every picture."""
 
 

@@ -140,6 +140,7 @@ class Booklet:
         document = Document(self._title.text)
 
         def shown() -> Iterator[tuple[Page, str]]:
+            """Yield the pages for the web, and put each into the other document on the way."""
             for each in self._all(progress):
                 if pdf is not None:
                     document.add(each.page, each.pdf)

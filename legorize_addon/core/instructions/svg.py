@@ -47,6 +47,7 @@ class _Writer:
         self._name, self._n = name, 0
 
     def written(self, items: Sequence[Item]) -> Iterator[str]:
+        """Yield the lines of items."""
         for item in items:
             if isinstance(item, Group):
                 yield from self._group(item)

@@ -54,6 +54,7 @@ class _Texels:
 
     @staticmethod
     def of(opacity: NDArray[np.uint8], least: float, *, clamp: bool) -> _Texels:
+        """Count the texels of an image that are seen."""
         seen = opacity >= least * 255
         table = np.zeros((seen.shape[0] + 1, seen.shape[1] + 1), dtype=np.int64)
         np.cumsum(np.cumsum(seen, axis=0, dtype=np.int64), axis=1, out=table[1:, 1:])
