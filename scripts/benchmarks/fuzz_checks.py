@@ -7,11 +7,14 @@ from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
+from scipy import ndimage
 
 from legorize_addon.core.build import Build
+from legorize_addon.core.colours.difference import ciede2000, lab_from_srgb
 from legorize_addon.core.model.bricks import SUPPORTS
 from legorize_addon.core.model.catalogue import Catalogue, Part
-from legorize_addon.core.model.unit_grid import COLOUR_ANY, Fill
+from legorize_addon.core.model.profiles import columns
+from legorize_addon.core.model.unit_grid import Fill
 from legorize_addon.core.report.checks import failed_checks
 from legorize_addon.core.report.report import report
 
@@ -49,11 +52,23 @@ def cells_of(build: Build, catalogue: Catalogue) -> list[set[Cell]]:
     return [
         {
             (z + up, y + dy, x + dx)
-            for dx, dy in _squares(catalogue.parts[part], turn)
-            for up in range(catalogue.parts[part].height)
+            for dx, dy, low, high in _columns(catalogue.parts[part], turn)
+            for up in range(low, high)
         }
         for part, turn, (x, y, z) in rows
     ]
+
+
+def _columns(part: Part, turn: int) -> Iterator[tuple[int, int, int, int]]:
+    """Return the stud squares of a part, and from which plate to which its cells are."""
+    if not part.sloped:
+        yield from ((x, y, 0, part.height) for x, y in _squares(part, turn))
+        return
+    facts = columns(part, turn)
+    yield from (
+        (x, y, low, high)
+        for (x, y), low, high in zip(facts.xy.tolist(), facts.low.tolist(), facts.high.tolist(), strict=True)
+    )
 
 
 def _squares(part: Part, turn: int) -> set[tuple[int, int]]:
@@ -95,15 +110,37 @@ def _colours(build: Build, catalogue: Catalogue) -> Iterator[str]:
     if never:
         yield f"{never} bricks were never made in their colour."
     shown = build.hollow.colour.reshape(-1, *build.hollow.colour.shape[2:])
-    wrong = sum(
-        code not in {int(shown[cell]) for cell in cells} - {COLOUR_ANY} and any(shown[cell] >= 0 for cell in cells)
-        for cells, code, role in zip(
-            cells_of(build, catalogue), bricks.colour.tolist(), bricks.role.tolist(), strict=True
+    lab, parts = lab_from_srgb(catalogue.rgb), cells_of(build, catalogue)
+    # small lots take other colours: any where nobody sees them, else close ones
+    hidden = _hidden(parts) if build.settings.few_lots else set()
+
+    def shows(code: int, cells: set[Cell]) -> bool:
+        """Return whether a colour is that of a cell, or close enough to it."""
+        rows = [codes.index(seen) for seen in {int(shown[cell]) for cell in cells} if seen >= 0]
+        return (
+            not rows
+            or code not in codes
+            or bool((ciede2000(lab[[codes.index(code)]], lab[rows]) <= build.settings.few_lots).any())
         )
+
+    wrong = sum(
+        not cells <= hidden and not shows(code, cells)
+        for cells, code, role in zip(parts, bricks.colour.tolist(), bricks.role.tolist(), strict=True)
         if role not in SUPPORTS
     )
     if wrong:
         yield f"{wrong} bricks show a colour that none of their cells has."
+
+
+def _hidden(parts: list[set[Cell]]) -> set[Cell]:
+    """Return the cells of bricks beside which there is no air from outside; the ground is none."""
+    cells = np.array([cell for each in parts for cell in each])
+    there = np.zeros(cells.max(axis=0) + 3, bool)
+    there[tuple((cells + 1).T)] = True
+    there[0] = True
+    air, _ = ndimage.label(~there)
+    seen = there & ndimage.binary_dilation(air == air[-1, 0, 0])
+    return set(map(tuple, (np.argwhere(there & ~seen) - 1).tolist()))
 
 
 def n_components(parts: list[set[Cell]]) -> int:
