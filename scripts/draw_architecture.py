@@ -28,7 +28,7 @@ ROOT: Final = Path(__file__).resolve().parents[1]
 PACKAGE: Final = ROOT / "legorize_addon"
 PICTURES: Final = ROOT / "docs" / "pictures"
 
-ALONE: Final = ("core.build", "core.stages", "core.drafting", "core.pipeline")
+ALONE: Final = ("core.build", "core.stages", "core.drafting", "core.erecting", "core.pipeline")
 """Modules that the picture shows like packages: they join the stages."""
 
 Graph = Mapping[str, frozenset[str]]

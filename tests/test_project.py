@@ -21,6 +21,7 @@ READERS = (
         "drafting",
         "existing",
         "run",
+        "painting",
         "stages",
         "strength",
         "slope_stages",

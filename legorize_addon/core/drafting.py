@@ -14,6 +14,7 @@ from .limits import check_limits
 from .mesh import Repairs, TriangleMesh
 from .model import UnitGrid
 from .native import watched
+from .painting import paint_draft
 from .progress import Overall, Progress, silent
 from .run import Run
 from .settings import Settings
@@ -68,7 +69,7 @@ def _draft_model(mesh: TriangleMesh, settings: Settings, seconds: dict[str, floa
     run = Run.of(settings, Overall(seconds, progress))
     made, _ = drafted(run, mesh)
     run.progress.finish()
-    return made
+    return paint_draft(run, made)
 
 
 def drafted(run: Run, given: TriangleMesh, barred: tuple[int, ...] = ()) -> tuple[Draft, tuple[str, ...]]:
@@ -85,6 +86,7 @@ def drafted(run: Run, given: TriangleMesh, barred: tuple[int, ...] = ()) -> tupl
     Returns
     -------
     draft : Draft
+        In the colours that were found, whatever replaces them.
     remarks : tuple of str
         On parts of the mesh that cannot be seen, on another size, and on feet.
     """

@@ -10,9 +10,9 @@ import numpy as np
 from .beyond import Beyond, beyond_paper
 from .build import Build, Draft, Judged, Mosaic
 from .building import Proof
-from .by_hand import ByHand, edit_bricks
 from .drafting import drafted, stand_up
 from .edits import NO_EDITS, Edits
+from .erecting import erect, put_up
 from .errors import SettingsError, enough_memory
 from .estimate import COUNTED, estimate
 from .existing import (
@@ -27,11 +27,11 @@ from .existing import (
     without_overlaps,
 )
 from .fitting import fit
-from .half_stages import Levels, given_bricks, lie_apart, remarks_on_half_studs, with_half_studs
+from .half_stages import Levels, remarks_on_half_studs, with_half_studs
 from .limits import check_limits, check_size
 from .memo import Trial
 from .mesh import TriangleMesh
-from .model import Assembly, UnitGrid
+from .model import Assembly
 from .mosaic import Covered, Picture
 from .mosaic_estimate import estimate_mosaic
 from .mosaic_stages import lay_mosaic, mosaic_canvas, mosaic_colours, remarks_on_mosaic, wall_cells
@@ -51,25 +51,16 @@ from .report import (
 from .run import Run
 from .settings import Settings
 from .shortage import with_enough_parts
-from .slope_stages import lay_with_slopes
-from .slopes import Slopes
-from .stages import cut_pieces, hollow_by, make_plan, plan_pieces
+from .stages import hollow_by, make_plan
 from .statics import Stability
 from .stock import Owned
 from .strength import (
-    brace,
-    carry,
     check_final,
     check_stability,
-    check_strong,
     prove,
-    show_colours,
-    strengthen_joints,
-    take_fewer_lots,
-    tie_parts,
 )
 from .supports import AssemblyPlan
-from .tile_stages import smooth_surface, without_proof
+from .tile_stages import without_proof
 from .unit_bricks import remarks_on_dithering
 
 
@@ -121,25 +112,14 @@ def _legorize(
     check_limits(expected := estimate(mesh, settings), settings)
     run = Run.of(settings, Overall(expected.stages, progress), trial)
     made, told = drafted(run, mesh, barred)
-    made, given = given_bricks(run, made)
-    assembly, shell, found, by_hand = _put_up(run, made.hollow, edits, made.scale, given)
-    with run.stage("pieces"):
-        assembly, found, exchanged = run.once(take_fewer_lots, assembly, found)
-        assembly, found, smoothed = run.once(smooth_surface, assembly, found, by_hand.made)
-        pieces = run.once(cut_pieces, assembly)
-    with run.stage("supports"):
-        plan, joints = plan_pieces(run, assembly, *pieces)
-    if made.planes or len(plan.final) > len(assembly):
-        with run.stage("stability again"):
-            found = run.once(check_final, plan.final)
-            if made.planes:
-                plan, found = run.once(lie_apart, plan, made.planes, found)
+    up = erect(run, made, edits)
+    made, plan, found, by_hand = up.made, up.plan, up.found, up.by_hand
     proof = _prove(run, plan)
     beyond = _beyond_paper(run, made, plan)
     run.progress.finish()
     notes = (
         *made.repairs.sentences(), *told, *remarks_on_dithering(made.mesh, settings.dithering), *run.learning,
-        *((beyond.sentence(),) if beyond else ()), *exchanged, *smoothed,
+        *((beyond.sentence(),) if beyond else ()), *up.remarks,
         *remarks_on_half_studs(made.planes, plan.final.bricks, run.catalogue),
         *remarks_on_edits(outcomes := by_hand.outcomes(plan.final), run.catalogue),
         *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
@@ -147,9 +127,10 @@ def _legorize(
     return Build(
         settings=settings, mesh=made.mesh, repairs=made.repairs, scale=made.scale, turn=made.turn,
         surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
-        hollow=shell, wanted=made.wanted, edits=by_hand.edits, outcomes=outcomes, unedited=without_proof(run, by_hand),
-        assembly=plan.final, stability=found, supports=plan, joints=joints, **run.parts.files, proof=proof,
-        notes=notes, timings=run.timings, beyond=asdict(beyond) if beyond else {}, planes=made.planes,
+        hollow=up.shell, wanted=made.wanted, edits=by_hand.edits, outcomes=outcomes,
+        unedited=without_proof(run, by_hand), assembly=plan.final, stability=found, supports=plan,
+        joints=up.joints, **run.parts.files, proof=proof, notes=notes, timings=run.timings, planes=made.planes,
+        beyond=asdict(beyond) if beyond else {},
     )  # fmt: skip
 
 
@@ -160,33 +141,6 @@ def _beyond_paper(run: Run, made: Draft, plan: AssemblyPlan) -> Beyond | None:
         return None
     hollowed, plates = hollow_by(settings, made.grid), settings.plates != "none"
     return beyond_paper(made, hollowed, plan.final.bricks, plates=plates, ties=sum(run.ties))
-
-
-def _put_up(
-    run: Run, shell: UnitGrid, edits: Edits, scale: float, slopes: Slopes | None = None
-) -> tuple[Assembly, UnitGrid, Stability, ByHand]:
-    """Lay the bricks of cells around slopes, edit them, and let them hold and stand; return their cells as well."""
-    with run.stage("layout"):
-        bricks, shell = run.once(lay_with_slopes, shell, slopes)
-    with run.stage("ties"):
-        before = len(bricks)
-        bricks, shell = run.once(tie_parts, bricks, shell)
-        run.ties.append(len(bricks) - before)
-    with run.stage("strengthening"):
-        bricks, shell, sparing = run.once(strengthen_joints, bricks, shell)
-        bricks = run.once(show_colours, bricks, shell)
-    by_hand = ByHand(edits, {}, bricks)
-    if edits.edits:
-        with run.stage("edits"):
-            # whether it returns the same object says whether there was anything to edit: no work for a memo
-            laid, (bricks, shell, by_hand) = bricks, edit_bricks(run, edits, scale, bricks, shell)
-            sparing = sparing if bricks is laid else None
-    with run.stage("stability"):
-        assembly = run.once(carry, Assembly(bricks, run.catalogue))
-        found = run.once(check_strong, assembly, sparing)
-    with run.stage("bracing"):
-        assembly, found = run.once(brace, assembly, found, sparing)
-    return assembly, shell, found, by_hand
 
 
 @enough_memory()
@@ -223,7 +177,7 @@ def _legorize_image(picture: Picture, settings: Settings, progress: Progress) ->
         goal, colour = mosaic_colours(run, picture, canvas)
     if settings.standing:
         shell, told = stand_up(run, wall_cells(run, canvas, colour))
-        assembly, _, found, _ = _put_up(run, shell, NO_EDITS, 1.0)
+        assembly, _, found, _ = put_up(run, shell, NO_EDITS, 1.0)
         covered = Covered(assembly.bricks, 0, 0)
     else:
         with run.stage("layout"):

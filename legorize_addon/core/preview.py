@@ -21,6 +21,7 @@ from .layout.learning import shipped
 from .memo import Memo, Trial
 from .mesh import Repairs, TriangleMesh, model_scale, scale_mesh
 from .model import Bricks, Catalogue, UnitGrid, load_catalogue
+from .painting import paint_cells
 from .progress import Overall, silent
 from .run import Run
 from .settings import Settings
@@ -136,7 +137,7 @@ def preview(mesh: TriangleMesh, settings: Settings, memo: Memo) -> Generator[Non
     yield
     grid, _, shell = hollowed(run, grid)
     yield
-    bricks = run.once(_lay, shell)
+    bricks = run.once(_lay, run.once(paint_cells, shell))
     memo.keep(trial)
     return Preview(bricks, run.catalogue, grid.origin, scale, studs, shown)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import Any, Final, cast
 
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 
 from .arrays import Floats, Mask
 from .build import Cut
-from .colours import Dominant, SurfaceColours, count_texels, image_colours, replaced, replacements
+from .colours import Dominant, SurfaceColours, count_texels, image_colours
 from .layout import Alike, Manner, lay, lay_learned
 from .layout.learning import FillLog
 from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
@@ -117,12 +116,7 @@ def find_colours(run: Run, mesh: TriangleMesh, given: TriangleMesh) -> SurfaceCo
     given that alpha does not hide.
     """
     found = run.once(find_dominant, mesh, given)
-    settings = run.settings
-    surface = found.as_bricks(run.catalogue, palette=run.palette, one_to_one=settings.one_to_one)
-    # what is mixed from the palette is replaced when it is mixed
-    if settings.dithering != "none":
-        return surface
-    return surface.replaced(replacements(settings.replace_colours, run.catalogue))
+    return found.as_bricks(run.catalogue, palette=run.palette, one_to_one=run.settings.one_to_one)
 
 
 def find_dominant(run: Run, mesh: TriangleMesh, given: TriangleMesh) -> Dominant:
@@ -190,8 +184,6 @@ def make_unit_grid(
     raster = Raster(lattice, levels_of(cut.slices.heights, cut.layer, cut.plate, lattice))
     grid = unit_bricks(mesh, trajectories, surface, raster, rules, catalogue=run.catalogue, progress=run.progress)
     check_any(grid, mesh, keep_thin=settings.keep_thin)
-    if settings.dithering != "none":
-        grid = replace(grid, colour=replaced(grid.colour, replacements(settings.replace_colours, run.catalogue)))
     return grid if facing is None else add_backing(grid, facing, depth=settings.backing)
 
 

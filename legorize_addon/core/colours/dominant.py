@@ -50,7 +50,7 @@ class SurfaceColours:
         Dominant colour of every texel, one array an image; row 0 is v = 0.
     borders : tuple of (h + 1, w + 1) int32 arrays
         Summed-area tables of the texels whose brick colour differs from that of
-        the texel to the right or above.
+        the texel to the right or above, before a user replaced any.
     clamp : (n_images,) bool array
         Whether coordinates outside an image take its edge texel; else it repeats.
     nearest : (m,) int16 array, optional
@@ -68,9 +68,7 @@ class SurfaceColours:
         """Return the same with some brick colours replaced by others, LDraw codes by LDraw codes."""
         if not pairs:
             return self
-        codes = replaced(self.codes, pairs)
-        borders = tuple(border_table(codes[labels]) for labels in self.labels)
-        return replace(self, codes=codes, borders=borders, nearest=self.codes)
+        return replace(self, codes=replaced(self.codes, pairs), nearest=self.codes)
 
     def at(self, image: NDArray[np.integer], uv: Floats) -> Codes:
         """Return the brick colours at points of the images.
