@@ -202,6 +202,11 @@ class Wanted(NamedTuple):
         """Whether there is a film."""
         return bool(self.animate or self.turntable)
 
+    @property
+    def rendered_film(self) -> bool:
+        """Whether its frames are rendered here."""
+        return self.film and self.frames
+
     def check(self) -> None:
         """Refuse flags without effect."""
         for name in IN_PICTURE:
@@ -559,7 +564,12 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
             "method maps": 0.1 * wanted.method,
         }
         later["booklet"] = 3.0 * wanted.instructions
-        later["pictures"] = float(wanted.any_picture) + 20.0 * (wanted.film and wanted.frames)
+        later["pictures"] = float(wanted.any_picture)
+        later["contact sheet"] = 0.5 * wanted.contact_sheet
+        # most of the bar; how long a frame takes is known after the first ones
+        later["film"] = 20.0 * wanted.rendered_film
+        if wanted.rendered_film:
+            line.meter.leave_open()
         built = 1 / (1 + sum(later.values()))
         build = make(part(line, 0.0, built))
         build = replace(build, timings={**seconds, **build.timings})
@@ -580,8 +590,7 @@ def run(taken: Taken, out: Path, settings: Settings, wanted: Wanted) -> int:
             with rest.stage("booklet") as progress, writing(out):
                 write_booklet(build, folder, wanted, source.stem, progress)
         if wanted.any_picture:
-            with rest.stage("pictures") as progress:
-                show(build, folder, wanted, Source(source.stem, objects, notes=build.notes), progress)
+            show(build, folder, wanted, Source(source.stem, objects, notes=build.notes), rest, line.meter)
         files = [path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()]
         left = [name for name in changed(out) if name not in files]
         stop.too_late()
@@ -684,18 +693,18 @@ class Line:
 
     def __init__(self, stream: TextIO) -> None:
         self._stream, self._changes = stream, stream.isatty()
-        self._meter, self._last, self._width = Meter(), ("", 0.0), 0
+        self.meter, self._last, self._width = Meter(), ("", 0.0), 0
         self._seen: set[str] = set()
 
     def __call__(self, stage: str, share: float) -> None:
         """Show the progress, unless it is shown already."""
-        self._meter(stage, share)
+        self.meter(stage, share)
         # stages that ask for parts of others by turns would fill a page with their names
         known = stage == self._last[0] if self._changes else stage in self._seen
         if known and share < self._last[1] + (0.01 if self._changes else 0.1):
             return
         self._seen.add(stage)
-        left = self._meter.seconds_left
+        left = self.meter.seconds_left
         text = f"{share:4.0%} {stage}" + (f", {duration(left)} left" if left else "")
         # blanks cover what was longer
         self._stream.write(f"\r{text:{self._width}}" if self._changes else f"{text}\n")
@@ -713,24 +722,27 @@ class Line:
             self._stream.flush()
 
 
-def show(build: Finished, folder: Path, wanted: Wanted, source: Source, progress: Progress) -> None:
+def show(build: Finished, folder: Path, wanted: Wanted, source: Source, rest: Overall, meter: Meter) -> None:
     """Put the bricks into the scene, and write the wanted pictures and files."""
     scene = bpy.context.scene
-    shown = show_result(scene, build, source, mm_per_unit=mm_per_unit())
-    if wanted.render:
-        view = wanted.view or ("section" if wanted.section else "front_right")
-        with pictured(shown, build, wanted, source.name) as pose, pose, quiet():
-            render_still(scene, folder / "render.png", view=view, outlines=wanted.outlines)
+    with rest.stage("pictures"):
+        shown = show_result(scene, build, source, mm_per_unit=mm_per_unit())
+        if wanted.render:
+            view = wanted.view or ("section" if wanted.section else "front_right")
+            with pictured(shown, build, wanted, source.name) as pose, pose, quiet():
+                render_still(scene, folder / "render.png", view=view, outlines=wanted.outlines)
     if wanted.contact_sheet:
-        path = folder / "contact-sheet.png"
-        with quiet():
-            render_contact_sheet(scene, shown, path, pictures=wanted.contact_sheet, outlines=wanted.outlines)
+        options = {"pictures": wanted.contact_sheet, "outlines": wanted.outlines}
+        with rest.stage("contact sheet") as progress:
+            path = folder / "contact-sheet.png"
+            render_contact_sheet(scene, shown, path, **options, progress=progress, around=quiet)
     if wanted.film:
         film = make_film(scene, shown, Cut(wanted.animate, wanted.turntable))
         if wanted.frames:
             (folder / "frames").mkdir()
-            with quiet():
-                render_frames(film, folder / "frames", progress)
+            meter.start_anew()
+            with rest.stage("film") as progress:
+                render_frames(film, folder / "frames", progress, around=quiet)
         # a render farm takes the scene that a file was saved with
         if wanted.save_blend and bpy.context.window:
             bpy.context.window.scene = film

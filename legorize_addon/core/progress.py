@@ -120,20 +120,32 @@ class Meter:
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock, self._start = clock, clock()
         self._first: str | None = None
+        self._done_before = 0.0
+        self._open = False
         self.told = ("Starting", 0.0)
 
     def __call__(self, stage: str, share: float) -> None:
         """Keep a report."""
-        self._first = self._first or stage
+        self._first = stage if self._first is None else self._first
         self.told = (stage, share)
+
+    def leave_open(self) -> None:
+        """Give no time left until :meth:`start_anew`: nobody knows yet how long the longest part will take."""
+        self._open = True
+
+    def start_anew(self) -> None:
+        """Judge the rest by what is done from now on: its pace has nothing to do with what was done before."""
+        self._start, self._done_before = self._clock(), self.told[1]
+        self._open, self._first = False, ""
 
     @property
     def seconds_left(self) -> float | None:
         """Seconds that the rest takes at the speed so far; ``None`` (unknown) in the first stage."""
         stage, share = self.told
-        if self._first in (stage, None) or share < _SOONEST:
+        done = share - self._done_before
+        if self._open or self._first in (stage, None) or done < _SOONEST * (1 - self._done_before):
             return None
-        return (self._clock() - self._start) * (1 - share) / share
+        return (self._clock() - self._start) * (1 - share) / done if share < 1 else 0.0
 
 
 def duration(seconds: float) -> str:

@@ -84,7 +84,7 @@ def load(source: Path, *, frame: int | None = None, names: Sequence[str] = (), u
         with quiet():
             bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         at_rest = frame is None and kind in ANIMATED
-        with tempfile.TemporaryDirectory(prefix="legorize-") as folder:
+        with tempfile.TemporaryDirectory(dir=bpy.app.tempdir) as folder:
             path, lost = without_lost_places(source, Path(folder))
             losses += lost
             losses += _import_at_rest(source, kind, path) if at_rest else _run(source, kind, path)
@@ -145,7 +145,7 @@ def _import_at_rest(source: Path, kind: str, path: Path) -> tuple[str, ...]:
         losses = _run(source, kind, path, use_anim=False)
         animated = fbx_is_animated(source)
     else:
-        with tempfile.TemporaryDirectory(prefix="legorize-") as folder:
+        with tempfile.TemporaryDirectory(dir=bpy.app.tempdir) as folder:
             copy = without_animation(path, Path(folder))
             losses = _run(source, kind, copy or path)
         animated = copy is not None

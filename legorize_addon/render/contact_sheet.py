@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Final
 
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.files import replacing
+from ..core.progress import Progress, silent
 from ..view import animate, animation_of, check_steps, highlight_step, highlighted, n_steps, show_steps, steps_done
 from .still import render_still
 
@@ -29,6 +31,8 @@ def render_contact_sheet(
     samples: int = 8,
     resolution: tuple[int, int] = (480, 360),
     outlines: bool = False,
+    progress: Progress = silent,
+    around: Callable[[], AbstractContextManager[object]] = nullcontext,
 ) -> None:
     """Write pictures of a build at evenly spaced building steps, row by row; the last one shows the finished model.
 
@@ -48,6 +52,11 @@ def render_contact_sheet(
         Width and height of each picture in pixels.
     outlines : bool, optional
         Whether dark lines tell the bricks apart.
+    progress : Progress, optional
+        Told after each picture; it may stop the work.
+    around : callable, optional
+        Makes what surrounds each render, such as one that keeps its lines off
+        the screen; progress is told outside.
 
     Raises
     ------
@@ -56,16 +65,19 @@ def render_contact_sheet(
     """
     check_steps(build)
     before, bright, moving = steps_done(build), highlighted(build), animation_of(build)
-    with replacing(path, "picture") as partial, tempfile.TemporaryDirectory() as folder:
+    with replacing(path, "picture") as partial, tempfile.TemporaryDirectory(dir=bpy.app.tempdir) as folder:
         frame, taken = Path(folder) / "frame.png", []
         try:
             highlight_step(build, visible=False)
-            for steps in even_steps(n_steps(build), pictures):
+            options = {"outlines": outlines, "whole_building": True}
+            wanted = even_steps(n_steps(build), pictures)
+            progress("contact sheet", 0.0)
+            for steps in wanted:
                 show_steps(build, steps)
-                render_still(
-                    scene, frame, samples=samples, resolution=resolution, outlines=outlines, whole_building=True
-                )
+                with around():
+                    render_still(scene, frame, samples=samples, resolution=resolution, **options)
                 taken.append(_pixels(frame))
+                progress("contact sheet", len(taken) / len(wanted))
         finally:
             show_steps(build, before)
             highlight_step(build, visible=bright)

@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 import shutil
 import tempfile
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -105,7 +107,13 @@ def make_film(
     return film
 
 
-def render_frames(film: bpy.types.Scene, folder: Path, progress: Progress) -> None:
+def render_frames(
+    film: bpy.types.Scene,
+    folder: Path,
+    progress: Progress,
+    *,
+    around: Callable[[], AbstractContextManager[object]] = nullcontext,
+) -> None:
     """Render all frames of a film into a folder, one file each.
 
     Parameters
@@ -116,6 +124,9 @@ def render_frames(film: bpy.types.Scene, folder: Path, progress: Progress) -> No
         It exists; the files are 0001.png and so on.
     progress : Progress
         Told after each frame; it may stop the work.
+    around : callable, optional
+        Makes what surrounds each render, such as one that keeps its lines off
+        the screen; progress is told outside.
 
     Raises
     ------
@@ -125,13 +136,16 @@ def render_frames(film: bpy.types.Scene, folder: Path, progress: Progress) -> No
     first, last, path = film.frame_start, film.frame_end, film.render.filepath
     try:
         # a single picture of a scene that no window shows would be of the frame in which it was made
-        with tempfile.TemporaryDirectory() as place:
+        # and a folder of the session goes even if the process is ended in the middle of a frame
+        with tempfile.TemporaryDirectory(dir=bpy.app.tempdir) as place:
             film.render.filepath = str(Path(place) / "frame")
+            progress("film", 0.0)
             for number in range(first, last + 1):
-                progress("film", (number - first) / (last + 1 - first))
                 film.frame_start = film.frame_end = number
-                bpy.ops.render.render("EXEC_DEFAULT", animation=True, scene=film.name)
+                with around():
+                    bpy.ops.render.render("EXEC_DEFAULT", animation=True, scene=film.name)
                 shutil.move(Path(place) / f"frame{number:04d}.png", folder / f"{number:04d}.png")
+                progress("film", (number + 1 - first) / (last + 1 - first))
     except (OSError, RuntimeError) as error:
         raise BuildError(f"The film cannot be written ({str(error).strip()}): choose another folder.") from error
     finally:

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from dataclasses import fields
 from functools import partial
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import bpy
 import numpy as np
@@ -482,6 +482,29 @@ def test_film(script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert script.main([str(file), "--out", str(tmp_path / "out"), *ARM, "--turntable", "2"]) == 0
     frames = {"frames/0001.png", "frames/0002.png"}
     assert set(contents(tmp_path / "out")) == FILES | SUPPORT_FILES | frames
+
+
+def test_progress_of_pictures_is_shown(
+    script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Films and contact sheets have their lines, though what renders print is hidden; no time is given before a film.
+
+    Lines go to the stream of the process, as the renders' own do.
+    """
+    small = {"samples": 1, "resolution": (32, 24)}
+    for name in ("make_film", "render_contact_sheet"):
+        monkeypatch.setattr(script, name, partial(getattr(script, name), **small))
+    add_arm()
+    file = save(tmp_path / "arm.blend")
+    monkeypatch.setattr(script, "sys", SimpleNamespace(stdout=os.fdopen(os.dup(1), "w"), stderr=sys.stderr))
+    flags = [*ARM, "--contact-sheet", "2", "--turntable", "12"]
+    assert script.main([str(file), "--out", str(tmp_path / "out"), *flags]) == 0
+    lines = [line for line in capfd.readouterr().out.splitlines() if line[:4].strip().endswith("%")]
+    tenths = [int(line[:3]) for line in lines if line[5:].startswith("film")]
+    assert len(tenths) > 5
+    assert tenths[-1] == 100
+    assert any(line[5:].startswith("contact sheet") for line in lines)
+    assert not [line for line in lines if " left" in line and not line[5:].startswith("film")]
 
 
 def test_saved_scene_can_be_legorized_again(script: ModuleType, tmp_path: Path) -> None:

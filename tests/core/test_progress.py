@@ -79,6 +79,28 @@ def test_time_left_is_told_from_the_second_stage_on():
     assert meter.seconds_left == 0
 
 
+def test_time_left_goes_by_what_is_done_since_a_new_start():
+    """What cannot be foreseen is not told; then 100 frames of 3 s take 300 s, however short the rest of the bar is."""
+    now = [0.0]
+    meter = Meter(lambda: now[0])
+    meter("first", 0.0)
+    meter.leave_open()
+    now[0] = 10
+    meter("second", 0.5)
+    assert meter.seconds_left is None
+    meter("film", 0.8)
+    now[0] = 20
+    meter.start_anew()
+    meter("film", 0.8)
+    assert meter.seconds_left is None
+    for frame in (1, 40, 99):
+        now[0] = 20 + 3 * frame
+        meter("film", 0.8 + 0.2 * frame / 100)
+        assert meter.seconds_left == pytest.approx(3 * (100 - frame))
+    meter("film", 1.0)
+    assert meter.seconds_left == 0
+
+
 @pytest.mark.parametrize(
     ("seconds", "words"), [(0.2, "1 s"), (44.6, "45 s"), (60, "1 min"), (200, "3 min"), (5400, "1.5 h")]
 )

@@ -83,7 +83,7 @@ def test_each_frame_is_a_file(tmp_path: Path) -> None:
     told: list[float] = []
     render_frames(film, tmp_path, lambda stage, share: told.append(share))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["0002.png", "0003.png", "0004.png"]
-    assert told == pytest.approx([0, 1 / 3, 2 / 3])
+    assert told == pytest.approx([0, 1 / 3, 2 / 3, 1])
     assert (film.frame_start, film.frame_end, film.render.filepath) == (2, 4, "//frames/")
     red = [_red(tmp_path / f"{number:04d}.png") for number in (2, 3, 4)]
     assert red[0] < red[2]
