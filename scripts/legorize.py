@@ -85,6 +85,7 @@ try:
     from legorize_addon.scene.model import Source
     from legorize_addon.scene.section import AXES, Section
     from legorize_addon.scene.state import state_of
+    from legorize_addon.view.colour_errors import show_colour_errors
     from legorize_addon.view.heat_map import show_heat_map
     from legorize_addon.view.method import STEPS, MethodView, show_method
     from legorize_addon.view.show_result import show_result
@@ -104,7 +105,9 @@ Timed = Callable[[str], AbstractContextManager[None]]
 SIZES: Final = ("size_by", "width", "height", "scale", "cm", "parts", "budget")
 """Settings that exclude each other; each of the others also chooses itself in the first."""
 
-IN_PICTURE: Final = ("view", "section", "outlines", "heat_map", "explode", "show_supports", "top_layer")
+IN_PICTURE: Final = (
+    *("view", "section", "outlines", "heat_map", "colour_errors", "explode", "show_supports", "top_layer"),
+)
 """Flags that only change the picture."""
 
 LAST_FRAME: Final = 1_048_574
@@ -173,6 +176,7 @@ class Wanted(NamedTuple):
     section: Section | None
     outlines: bool
     heat_map: bool
+    colour_errors: bool
     explode: float
     show_supports: bool
     contact_sheet: int
@@ -214,6 +218,8 @@ class Wanted(NamedTuple):
             if getattr(self, name) and not drawn:
                 flag = name.replace("_", "-")
                 raise SettingsError(f"--{flag} only changes the picture: add --render, or leave it out.")
+        if self.heat_map and self.colour_errors:
+            raise SettingsError("A picture has one kind of colours: leave --heat-map or --colour-errors out.")
         if self.picture_of != "model":
             self._check_step()
         if self.single_layer and not self.top_layer:
@@ -227,7 +233,7 @@ class Wanted(NamedTuple):
         """Refuse what a step of the method has not got."""
         if not self.render:
             raise SettingsError("--picture-of only changes the picture: add --render, or leave it out.")
-        for name in ("heat_map", "explode", "show_supports"):
+        for name in ("heat_map", "colour_errors", "explode", "show_supports"):
             if getattr(self, name):
                 flag = name.replace("_", "-")
                 raise SettingsError(f"--{flag} is for the finished model: leave it or --picture-of out.")
@@ -252,6 +258,8 @@ def main(arguments: Sequence[str]) -> int:
         wanted = Wanted(**{name: options.pop(name) for name in Wanted._fields})
         wanted.check()
         taken.check()
+        if wanted.colour_errors and (taken.is_picture or taken.is_bricks):
+            raise SettingsError("Only meshes have a texture to compare with: leave --colour-errors out.")
         if (wanted.method or wanted.picture_of != "model") and (taken.is_picture or taken.is_bricks):
             raise SettingsError("--method and --picture-of show how meshes are built: leave them out.")
         if wanted.bound and taken.is_picture:
@@ -342,6 +350,11 @@ def add_pictures(made: Parser) -> None:
     made.add_argument(
         "--heat-map", action="store_true", help="colour each brick in the picture by the friction that it has left"
     )
+    made.add_argument(
+        "--colour-errors", action="store_true",
+        help="colour each brick in the picture by how far its colour is from the texture (CIEDE2000): blue not at "
+             "all, yellow 11, red 22 and more",
+    )  # fmt: skip
     made.add_argument(
         "--explode", metavar="SHARE", type=share, default=0.0,
         help="draw the pieces of a split model apart in the picture, by a share of the model's height",
@@ -774,6 +787,8 @@ def posed(shown: bpy.types.Collection, wanted: Wanted) -> Iterator[None]:
     cut_away(shown, wanted.section or Section())
     if wanted.heat_map:
         show_heat_map(shown, visible=True)
+    if wanted.colour_errors:
+        show_colour_errors(shown, visible=True)
     if wanted.explode:
         explode(shown, wanted.explode)
     layers = state_of(shown).layers
@@ -788,6 +803,8 @@ def posed(shown: bpy.types.Collection, wanted: Wanted) -> Iterator[None]:
         explode(shown, 0.0)
     if wanted.heat_map:
         show_heat_map(shown, visible=False)
+    if wanted.colour_errors:
+        show_colour_errors(shown, visible=False)
     cut_away(shown, Section())
 
 

@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import bpy
 import numpy as np
@@ -28,11 +28,9 @@ def render_contact_sheet(
     path: Path,
     *,
     pictures: int,
-    samples: int = 8,
-    resolution: tuple[int, int] = (480, 360),
-    outlines: bool = False,
     progress: Progress = silent,
     around: Callable[[], AbstractContextManager[object]] = nullcontext,
+    **look: Any,
 ) -> None:
     """Write pictures of a build at evenly spaced building steps, row by row; the last one shows the finished model.
 
@@ -46,17 +44,13 @@ def render_contact_sheet(
         PNG file to write, in a folder that exists.
     pictures : int
         How many; a build of fewer steps has one for each.
-    samples : int, optional
-        Light paths a pixel.
-    resolution : tuple of two int, optional
-        Width and height of each picture in pixels.
-    outlines : bool, optional
-        Whether dark lines tell the bricks apart.
     progress : Progress, optional
         Told after each picture; it may stop the work.
     around : callable, optional
         Makes what surrounds each render, such as one that keeps its lines off
         the screen; progress is told outside.
+    **look : Any
+        What :func:`.render_still` takes; by default 8 samples and 480 x 360 pixels.
 
     Raises
     ------
@@ -69,13 +63,13 @@ def render_contact_sheet(
         frame, taken = Path(folder) / "frame.png", []
         try:
             highlight_step(build, visible=False)
-            options = {"outlines": outlines, "whole_building": True}
+            look = {"samples": 8, "resolution": (480, 360), "whole_building": True} | look
             wanted = even_steps(n_steps(build), pictures)
             progress("contact sheet", 0.0)
             for steps in wanted:
                 show_steps(build, steps)
                 with around():
-                    render_still(scene, frame, samples=samples, resolution=resolution, **options)
+                    render_still(scene, frame, **look)
                 taken.append(_pixels(frame))
                 progress("contact sheet", len(taken) / len(wanted))
         finally:

@@ -29,8 +29,9 @@ GROUND: Final = (0.62, 0.62, 0.62)
 GROUND_REACH: Final = 400.0
 """Half the side of the ground, in diagonals of the model: the horizon stays out of the picture."""
 
-# direction from which it shines (azimuth from the camera, elevation), strength, size in degrees
-SUNS: Final = ((-50.0, 50.0, 1.9, 10.0), (75.0, 25.0, 0.3, 60.0))
+# direction from which it shines (azimuth from the camera, elevation), strength, size in degrees; the last one stands
+# behind the model, large and low: tops reflect it, as plastic in a photograph, and seams between them are seen
+SUNS: Final = ((-50.0, 50.0, 1.5, 10.0), (75.0, 25.0, 0.3, 60.0), (165.0, 30.0, 0.6, 70.0))
 
 
 @contextmanager

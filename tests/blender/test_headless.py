@@ -30,6 +30,7 @@ from legorize_addon.core.settings import Settings
 from legorize_addon.core.shopping.formats import FORMATS
 from legorize_addon.scene.builds import builds as scene_builds
 from legorize_addon.scene.collections import read_bricks
+from legorize_addon.view.colour_errors import colour_errors_shown
 from legorize_addon.view.heat_map import heat_map_shown
 from legorize_addon.view.steps import exploded, steps_done
 from legorize_addon.view.visibility import shown_bricks, shown_corners
@@ -300,22 +301,29 @@ def test_view_of_the_picture(
     assert seen == [view]
 
 
-def test_outlines_and_heat_map_in_the_picture(
-    script: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("flag", "is_shown"), [("--heat-map", heat_map_shown), ("--colour-errors", colour_errors_shown)]
+)
+def test_outlines_and_other_colours_in_the_picture(
+    flag: str,
+    is_shown: Callable[[bpy.types.Collection], bool],
+    script: ModuleType,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Both are there while the picture is taken; the saved scene shows the bricks in their own colours."""
     seen = []
 
     def look(scene: bpy.types.Scene, path: Path, *, view: str, outlines: bool) -> None:
-        seen.append((view, outlines, [heat_map_shown(build) for build in scene_builds(scene)]))
+        seen.append((view, outlines, [is_shown(build) for build in scene_builds(scene)]))
 
     monkeypatch.setattr(script, "render_still", look)
     add_box(BOX)
-    flags = ["--outlines", "--heat-map", "--render", "--save-blend", "--width", "4"]
+    flags = ["--outlines", flag, "--render", "--save-blend", "--width", "4"]
     assert script.main([str(save(tmp_path / "box.glb")), "--out", str(tmp_path / "out"), *flags]) == 0
     assert seen == [("front_right", True, [True])]
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out" / "build.blend"))
-    assert not any(map(heat_map_shown, scene_builds(bpy.context.scene)))
+    assert not any(map(is_shown, scene_builds(bpy.context.scene)))
 
 
 def add_arm() -> None:
@@ -423,6 +431,7 @@ def test_picture_of_a_layer_of_a_step(script: ModuleType, tmp_path: Path, monkey
     [
         (["--picture-of", "hollowing"], "add --render"),
         (["--render", "--picture-of", "hollowing", "--heat-map"], "finished model"),
+        (["--render", "--picture-of", "hollowing", "--colour-errors"], "finished model"),
         (["--render", "--single-layer"], "add --top-layer"),
         (["--top-layer", "2"], "add --render"),
         (["--render", "--top-layer", "0"], "number of a layer"),
@@ -605,6 +614,8 @@ def test_every_setting_is_a_flag(script: ModuleType) -> None:
         (["--animate", "0"], "'0' is not a whole number from 1 to 10000"),
         (["--outlines"], "--outlines only changes the picture: add --render"),
         (["--heat-map"], "--heat-map only changes the picture: add --render"),
+        (["--colour-errors"], "--colour-errors only changes the picture: add --render"),
+        (["--render", "--heat-map", "--colour-errors"], "one kind of colours: leave --heat-map or --colour-errors out"),
         (["--show-supports"], "--show-supports only changes the picture: add --render"),
         (["--explode", "0.5"], "--explode only changes the picture: add --render"),
         (["--explode", "1.5", "--render"], "'1.5' is not a number from 0 to 1"),
