@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator
 from typing import Final
@@ -178,4 +179,9 @@ def same(first: Build, second: Build) -> bool:
         np.array_equal(getattr(first.supports.bricks, name), getattr(second.supports.bricks, name))
         for name in first.bricks.__slots__
     )
-    return tables and first.notes == second.notes
+    return tables and _timeless(first.notes) == _timeless(second.notes)
+
+
+def _timeless(notes: tuple[str, ...]) -> list[str]:
+    """Return remarks without the seconds that something took."""
+    return [re.sub(r"[\d.,]+ s\b", "", note) for note in notes]

@@ -26,7 +26,7 @@ from ..model import (
 )
 from ..units import PLATES_PER_BRICK
 from .boxes import INSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, merge_upwards, sizes_in
-from .stacks import widen
+from .stacks import cells_in, widen
 
 GROUND: Final = 30
 """Plates that a pillar to a brick may be longer than one to the ground."""
@@ -107,14 +107,22 @@ def add_inner_pillars(assembly: Assembly, rows: Ints) -> Assembly:
 def _pillars(assembly: Assembly, slim: Sequence[Boxes], colours: Sequence[int], role: Role) -> list[Bricks]:
     """Return pillars as bricks, high ones wider where there is room beside all others."""
     catalogue, low = assembly.catalogue, np.array([*assembly.graph.low, 0, 0, 0], dtype=np.int32)
-    free, boxes, found = assembly.graph.owner == NOBODY, list(slim), []
-    for number, colour in enumerate(colours):
-        others = [*boxes[:number], *boxes[number + 1 :]]
-        wide = widen(boxes[number], free, sizes_in(catalogue, colour), np.concatenate([*others, boxes[number][:0]]))
-        boxes[number] = wide
+    free, taken, found = assembly.graph.owner == NOBODY, np.zeros(assembly.graph.owner.shape, np.int64), []
+    for boxes in slim:
+        _count(taken, boxes, 1)
+    for boxes, colour in zip(slim, colours, strict=True):
+        _count(taken, boxes, -1)
+        wide = widen(boxes, free & (taken == 0), sizes_in(catalogue, colour))
+        _count(taken, wide, 1)
         upright = merge_upwards(wide, catalogue, colour) + low
         found.append(bricks_of_boxes(upright, catalogue, colour=colour, role=role))
     return found
+
+
+def _count(taken: Ints, boxes: Boxes, by: int) -> None:
+    """Count boxes among those that take cells, in place."""
+    for box in boxes.tolist():
+        taken[cells_in(box)] += by
 
 
 def _under(assembly: Assembly, mine: Mask) -> tuple[Boxes, int]:

@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ..arrays import Ints, Mask
-from ..model import NOBODY, SUPPORTS, Assembly, Rows
+from ..model import NOBODY, SUPPORTS, Assembly
 from ..units import PLATES_PER_BRICK
 from .boxes import Area, Boxes, boxes_of, cells_of
 
@@ -57,7 +57,7 @@ def slim_stacks(assembly: Assembly) -> SlimStacks:
     return SlimStacks(top, height)
 
 
-def widen(boxes: Boxes, free: Mask, sizes: Collection[tuple[int, int, int]], taken: Rows | None = None) -> Boxes:
+def widen(boxes: Boxes, free: Mask, sizes: Collection[tuple[int, int, int]]) -> Boxes:
     """Make stacks of a single stud wider below their highest four bricks, as far as there is room.
 
     Parameters
@@ -68,8 +68,6 @@ def widen(boxes: Boxes, free: Mask, sizes: Collection[tuple[int, int, int]], tak
         Cells in which supports may be.
     sizes : collection of (int, int, int)
         Longer side, shorter side and height of the parts there are.
-    taken : (k, 6) int32 array, optional
-        Other boxes, which are left as they are.
 
     Returns
     -------
@@ -79,7 +77,7 @@ def widen(boxes: Boxes, free: Mask, sizes: Collection[tuple[int, int, int]], tak
     runs = [run for run in _runs(boxes) if _height(boxes[run]) > SLIM]
     if not runs:
         return boxes
-    bench = _Bench(boxes, free, sizes, boxes[:0] if taken is None else taken)
+    bench = _Bench(boxes, free, sizes)
     for run in runs:
         bench.widen(run)
     return bench.boxes()
@@ -104,16 +102,14 @@ def _runs(boxes: Boxes) -> Iterator[list[int]]:
 class _Bench:
     """Boxes on their way to wider ones."""
 
-    def __init__(self, boxes: Boxes, free: Mask, sizes: Collection[tuple[int, int, int]], others: Boxes) -> None:
+    def __init__(self, boxes: Boxes, free: Mask, sizes: Collection[tuple[int, int, int]]) -> None:
         self.rows = boxes.tolist()
         self.kept = [True] * len(self.rows)
         self.free, self.sizes = free, sizes
         self.owner = np.full(free.shape, NOBODY, dtype=np.int64)
         self.middle = (free.shape[2] / 2, free.shape[1] / 2)
         for row, box in enumerate(self.rows):
-            self.owner[_cells(box)] = row
-        for box in others.tolist():
-            self.owner[_cells(box)] = len(self.rows)
+            self.owner[cells_in(box)] = row
 
     def boxes(self) -> Boxes:
         """Return the boxes as they are now."""
@@ -138,17 +134,17 @@ class _Bench:
     def _put(self, row: int, place: Area) -> None:
         """Let a box grow, and take in those that lie in its way."""
         box = [*place[:2], self.rows[row][2], *place[2:], PLATES_PER_BRICK]
-        for other in np.unique(self.owner[_cells(box)]).tolist():
+        for other in np.unique(self.owner[cells_in(box)]).tolist():
             if other != NOBODY:
                 self.kept[other] = False
         self.rows[row], self.kept[row] = box, True
-        self.owner[_cells(box)] = row
+        self.owner[cells_in(box)] = row
 
     def _below(self, row: int) -> Area | None:
         """Return the area of the box on which a box stands."""
         x, y, z = self.rows[row][:3]
         below = int(self.owner[z - 1, y, x]) if z else NOBODY
-        if not 0 <= below < len(self.rows):
+        if below == NOBODY:
             return None
         at_x, at_y, _, a, b, _ = self.rows[below]
         return at_x, at_y, a, b
@@ -184,15 +180,16 @@ class _Bench:
     def _fits(self, place: Area, z: int) -> bool:
         """Whether there is such a part, and room for it beside single studs that it takes in."""
         x, y, a, b = place
-        cells = _cells([x, y, z, a, b, PLATES_PER_BRICK])
+        cells = cells_in([x, y, z, a, b, PLATES_PER_BRICK])
         if min(x, y) < 0 or (max(a, b), min(a, b), PLATES_PER_BRICK) not in self.sizes:
             return False
         if self.free[cells].shape != (PLATES_PER_BRICK, b, a) or not self.free[cells].all():
             return False
         inside = set(self.owner[cells].ravel().tolist()) - {NOBODY}
-        return all(each < len(self.rows) and self.rows[each][2:] == [z, 1, 1, PLATES_PER_BRICK] for each in inside)
+        return all(self.rows[each][2:] == [z, 1, 1, PLATES_PER_BRICK] for each in inside)
 
 
-def _cells(box: list[int]) -> tuple[slice, slice, slice]:
+def cells_in(box: list[int]) -> tuple[slice, slice, slice]:
+    """Return the cells of a box as an index of an array (n_z, n_y, n_x)."""
     x, y, z, a, b, height = box
     return slice(z, z + height), slice(y, y + b), slice(x, x + a)

@@ -89,9 +89,10 @@ def test_wide_bricks_lie_on_the_foot():
 
 
 def test_other_supports_keep_their_place():
-    """What is given as taken is left out: the stack grows to the other side."""
-    other = np.array([[6, 0, 0, 1, 9, 30], [0, 6, 0, 6, 1, 30]], dtype=np.int32)
-    boxes = widen(pillars([(5, 5, 30)]), np.ones((30, 9, 9), dtype=bool), SIZES, other)
+    """Where others are is not free: the stack grows to the other side."""
+    free = np.ones((30, 9, 9), dtype=bool)
+    free[:, :, 6] = free[:, 6, :6] = False
+    boxes = widen(pillars([(5, 5, 30)]), free, SIZES)
     assert {tuple(each) for each in boxes[boxes[:, 3] == 2][:, :2].tolist()} == {(4, 4)}
 
 
