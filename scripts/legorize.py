@@ -623,7 +623,7 @@ def work_on_mesh(source: Path, taken: Taken, settings: Settings, timed: Timed) -
     with timed("import"):
         objects, left_out, up = load(source, frame=taken.frame, names=taken.object, up=settings.up)
     with timed("read"), quiet():
-        mesh, remarks = read_rendered(objects, bpy.context)
+        mesh, remarks = read_rendered(objects, bpy.context, weight=settings.weight)
 
     def build(progress: Progress) -> Finished:
         """Legorize it."""

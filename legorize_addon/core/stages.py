@@ -14,7 +14,7 @@ from .build import Cut
 from .colours import Dominant, SurfaceColours, count_texels, image_colours
 from .layout import Alike, Manner, lay, lay_learned
 from .layout.learning import FillLog
-from .mesh import Repairs, TriangleMesh, check_any, model_scale, repair, scale_mesh, turn_upright
+from .mesh import Repairs, TriangleMesh, check_any, emphasised, model_scale, repair, scale_mesh, turn_upright
 from .model import COLOUR_ANY, Assembly, Bricks, Catalogue, Fill, UnitGrid
 from .progress import Progress, silent
 from .run import Run
@@ -70,17 +70,20 @@ def _in_plates(settings: Settings) -> bool:
 
 
 def prepare_mesh(run: Run, mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs, Floats, float, tuple[str, ...]]:
-    """Return the mesh as it is built, its repairs, turn and scale, and remarks on parts that cannot be seen."""
+    """Return the mesh as it is built, its repairs, turn and scale, and remarks on what was not seen or weighted."""
     settings = run.settings
     mesh, repairs = repair(mesh)
     mesh, turn = turn_upright(mesh, settings.up)
     least, scale = settings.least_alpha, partial(_scale, settings=settings)
     mesh, repairs, share = seen_part(mesh, repairs, least=least, scale=scale)
     factor = scale(mesh)
-    mesh = scale_mesh(mesh, factor)
+    mesh = emphasised(scale_mesh(mesh, factor), settings.emphasis if settings.weight else 0.0)
     # where nothing can be seen, all of it was used
     mesh = reduce_images(mesh, least=least * (share < 1), mean=settings.fine_texture == "mean")
-    return mesh, repairs, turn, factor, remarks_on_unseen(share, least=least)
+    told = remarks_on_unseen(share, least=least)
+    if settings.weight and settings.emphasis and mesh.weight is None:
+        told += (f"The weight {settings.weight!r} is 0 everywhere: no part of the surface counts more than others.",)
+    return mesh, repairs, turn, factor, told
 
 
 def place_grid(run: Run, mesh: TriangleMesh, scale: float) -> tuple[TriangleMesh, float, Grid, tuple[str, ...]]:

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from .objects import read_objects
     from .outlines import read_outline
     from .pictures import load_picture, picture_from
+    from .weights import weight_names
 else:
     # the panel only asks what has a surface
     __getattr__ = on_demand(
@@ -18,6 +19,7 @@ else:
         objects=("read_objects",),
         outlines=("read_outline",),
         pictures=("load_picture", "picture_from"),
+        weights=("weight_names",),
     )
 
 __all__ = [
@@ -27,4 +29,5 @@ __all__ = [
     "picture_from",
     "read_objects",
     "read_outline",
+    "weight_names",
 ]

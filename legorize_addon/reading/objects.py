@@ -25,6 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
+from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -37,12 +38,44 @@ from .images import Album
 from .left_out import LeftOut
 from .shown import Shown, shown, when_rendered
 from .surface import Surface, read_surface, slot_materials, slot_paints
+from .weights import Weights
 
-Piece = Surface | Bakeable
+
+class Piece(NamedTuple):
+    """A mesh that is shown, apart from Blender's data.
+
+    Attributes
+    ----------
+    surface : Surface or Bakeable
+    weight : (n_v,) float64 array or None
+        What its vertices have been painted with.
+    """
+
+    surface: Surface | Bakeable
+    weight: Floats | None
+
+
+class Painted(NamedTuple):
+    """The same with its colours.
+
+    Attributes
+    ----------
+    surface : Surface
+    uvs : (n_f, 3, 2) float64 array
+        Coordinates in the images of an album.
+    image : (n_f,) int32 array
+        Image of each face, -1 where it is coloured by its corners.
+    weight : (n_v,) float64 array or None
+    """
+
+    surface: Surface
+    uvs: Floats
+    image: np.ndarray
+    weight: Floats | None
 
 
 def read_objects(
-    objects: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph
+    objects: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph, *, weight: str = ""
 ) -> tuple[TriangleMesh, tuple[str, ...]]:
     """Read objects as one mesh, as the viewport shows them.
 
@@ -52,6 +85,8 @@ def read_objects(
         Those that make no surface (lights, cameras, ...) are left out.
     depsgraph : bpy.types.Depsgraph
         Up to date.
+    weight : str, optional
+        Vertex group or attribute that says where likeness counts more; objects without it count as usual.
 
     Returns
     -------
@@ -64,14 +99,16 @@ def read_objects(
     ------
     MeshError
         If there is nothing to read, an image does not fit in memory, or a colour cannot be baked.
+    SettingsError
+        No object has that weight, or it is not from 0 to 1.
     """
-    album, left_out = Album(), LeftOut()
-    pieces = _pieces(depsgraph, list(objects), album, left_out)
-    return _read(pieces, depsgraph.scene, album, left_out)
+    album, left_out, weights = Album(), LeftOut(), Weights(weight)
+    pieces = _pieces(depsgraph, list(objects), album, left_out, weights)
+    return _read(pieces, depsgraph.scene, album, left_out, weights)
 
 
 def read_rendered(
-    objects: Iterable[bpy.types.Object], context: bpy.types.Context
+    objects: Iterable[bpy.types.Object], context: bpy.types.Context, *, weight: str = ""
 ) -> tuple[TriangleMesh, tuple[str, ...]]:
     """Read objects as one mesh, as renders of the context's view layer show them.
 
@@ -81,6 +118,8 @@ def read_rendered(
         As for :func:`read_objects`; those that renders do not show are left out too.
     context : bpy.types.Context
         Its scene has the objects.
+    weight : str, optional
+        As for :func:`read_objects`.
 
     Returns
     -------
@@ -91,32 +130,33 @@ def read_rendered(
 
     Raises
     ------
-    MeshError
+    MeshError, SettingsError
         As :func:`read_objects` does.
     """
-    album, left_out = Album(), LeftOut()
-    read = partial(_pieces, objects=list(objects), album=album, left_out=left_out)
-    return _read(when_rendered(context, read), context.scene, album, left_out)
+    album, left_out, weights = Album(), LeftOut(), Weights(weight)
+    read = partial(_pieces, objects=list(objects), album=album, left_out=left_out, weights=weights)
+    return _read(when_rendered(context, read), context.scene, album, left_out, weights)
 
 
 def _pieces(
-    depsgraph: bpy.types.Depsgraph, objects: list[bpy.types.Object], album: Album, left_out: LeftOut
+    depsgraph: bpy.types.Depsgraph, objects: list[bpy.types.Object], album: Album, left_out: LeftOut, weights: Weights
 ) -> list[Piece]:
     """Return the surfaces that are shown, apart from Blender's data: baking adds to it, which ends all walks in it."""
-    found = [_piece(each, album, left_out) for each in shown(objects, depsgraph)]
+    found = [_piece(each, album, left_out, weights) for each in shown(objects, depsgraph)]
     return [piece for piece in found if piece is not None]
 
 
 def _read(
-    pieces: list[Piece], scene: bpy.types.Scene, album: Album, left_out: LeftOut
+    pieces: list[Piece], scene: bpy.types.Scene, album: Album, left_out: LeftOut, weights: Weights
 ) -> tuple[TriangleMesh, tuple[str, ...]]:
     left_out.check()
+    weights.check()
     painted = [_painted(piece, album) for piece in pieces]
     mm = scene.unit_settings.scale_length * MM_PER_METRE
     return _joined(painted, mm, album), (*left_out.sentences(), *album.remarks)
 
 
-def _piece(each: Shown, album: Album, left_out: LeftOut) -> Piece | None:
+def _piece(each: Shown, album: Album, left_out: LeftOut, weights: Weights) -> Piece | None:
     """Return the surface of a mesh that is shown; none if it has no size or no faces."""
     if left_out.by_matrix(each):
         return None
@@ -125,29 +165,31 @@ def _piece(each: Shown, album: Album, left_out: LeftOut) -> Piece | None:
     try:
         if left_out.by_mesh(each, mesh):
             return None
-        paints = slot_paints(each.mesh, mesh, each.values, album)
+        paints, weight = slot_paints(each.mesh, mesh, each.values, album), weights.of(each.mesh, mesh)
         if None in paints:
             album.remark(f"The colours of {each.mesh.name!r} are made by nodes: they were baked to an image.")
-            return Bakeable.of(each.mesh.name, mesh, each.matrix, paints, slot_materials(each.mesh, mesh), each.values)
-        return read_surface(mesh, each.matrix, paints)
+            own = slot_materials(each.mesh, mesh)
+            return Piece(Bakeable.of(each.mesh.name, mesh, each.matrix, paints, own, each.values), weight)
+        return Piece(read_surface(mesh, each.matrix, paints), weight)
     finally:
         each.mesh.to_mesh_clear()
 
 
-def _painted(found: Surface | Bakeable, album: Album) -> tuple[Surface, Floats, np.ndarray]:
-    """Return a surface, its image coordinates and the image of each face (-1: coloured by its corners)."""
+def _painted(piece: Piece, album: Album) -> Painted:
+    """Return a surface with its colours; baking keeps the vertices as they are."""
+    found = piece.surface
     if isinstance(found, Surface):
-        return found, *found.images(album)
+        return Painted(found, *found.images(album), piece.weight)
     with baked(found) as (mesh, paints):
         surface = read_surface(mesh, found.matrix, paints)
-        return surface, *surface.images(album)
+        return Painted(surface, *surface.images(album), piece.weight)
 
 
-def _joined(painted: list[tuple[Surface, Floats, np.ndarray]], mm: float, album: Album) -> TriangleMesh:
-    surfaces = [surface for surface, _, _ in painted]
+def _joined(painted: list[Painted], mm: float, album: Album) -> TriangleMesh:
+    surfaces = [each.surface for each in painted]
     first = np.cumsum([0, *(len(surface.vertices) for surface in surfaces)])
-    uvs = np.concatenate([own for _, own, _ in painted])
-    face_image = np.concatenate([rows for _, _, rows in painted])
+    uvs = np.concatenate([each.uvs for each in painted])
+    face_image = np.concatenate([each.image for each in painted])
     _paint_corners(np.concatenate([surface.corners for surface in surfaces]), uvs, face_image, album)
     return TriangleMesh(
         vertices=np.concatenate([surface.vertices for surface in surfaces]) * mm,
@@ -159,6 +201,16 @@ def _joined(painted: list[tuple[Surface, Floats, np.ndarray]], mm: float, album:
         images=tuple(album.images),
         image_clamp=np.array(album.clamp, dtype=bool),
         opacities=tuple(album.opacities) if any(each is not None for each in album.opacities) else (),
+        weight=_joined_weight(painted),
+    )
+
+
+def _joined_weight(painted: list[Painted]) -> Floats | None:
+    """Return the weights of all vertices, 0 for objects without any; None if no object has any."""
+    if all(each.weight is None for each in painted):
+        return None
+    return np.concatenate(
+        [np.zeros(len(each.surface.vertices)) if each.weight is None else each.weight for each in painted]
     )
 
 

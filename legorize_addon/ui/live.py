@@ -112,6 +112,8 @@ def follow(context: bpy.types.Context) -> None:
         return
     before, _live.asked = _live.asked, asked
     _drop()
+    if before is not None and before[2].weight != asked[2].weight:
+        _live.mesh = None
     if before is None or before[:2] != asked[:2]:
         # other objects were chosen, or another model with its settings: nobody has changed one yet
         _live.mesh, _live.said = _live.mesh if before and before[0] == sources else None, ""
@@ -155,7 +157,7 @@ def _working(context: bpy.types.Context, asked: Asked) -> Iterator[None]:
     if sources is None:
         return
     if _live.mesh is None:
-        _live.mesh = _read(context, sources)
+        _live.mesh = _read(context, sources, settings.weight)
     mesh, dropped = _live.mesh, _live.dropped
     work = _thread().submit(_made, mesh, settings, dropped)
     while not work.done():
@@ -231,7 +233,7 @@ def _end_thread() -> None:
         _live.thread = None
 
 
-def _read(context: bpy.types.Context, sources: list[bpy.types.Object]) -> TriangleMesh:
+def _read(context: bpy.types.Context, sources: list[bpy.types.Object], weight: str) -> TriangleMesh:
     from ..reading import read_objects
 
     faces = sum(len(source.data.polygons) for source in sources if source.type == "MESH")
@@ -243,7 +245,7 @@ def _read(context: bpy.types.Context, sources: list[bpy.types.Object]) -> Triang
         raise BuildError("This object is too large for a live preview: press Update to build it.")
     with readable(context, sources):
         context.view_layer.update()
-        mesh, _ = read_objects(sources, context.evaluated_depsgraph_get())
+        mesh, _ = read_objects(sources, context.evaluated_depsgraph_get(), weight=weight)
     context.view_layer.update()
     return mesh
 

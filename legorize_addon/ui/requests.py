@@ -163,7 +163,7 @@ def build_request(context: bpy.types.Context, sources: Sequence[bpy.types.Object
     end_preview(context.scene, context.view_layer)
     with readable(context, sources):
         context.view_layer.update()
-        mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get())
+        mesh, remarks = read_objects(sources, context.evaluated_depsgraph_get(), weight=settings.weight)
     replaced = replaced_by(context, sources)
     return BuildRequest(
         name=" + ".join(source.name for source in sources),

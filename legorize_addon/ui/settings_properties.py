@@ -24,6 +24,15 @@ def label(name: str) -> str:
     return name if name == "cm" else name.replace("_", " ").capitalize()
 
 
+def _weights(_group: Any, context: bpy.types.Context, _typed: str) -> list[str]:
+    """Offer what the objects to legorize have been painted with; another name, as of what modifiers make, is typed."""
+    # these two ask for the settings themselves
+    from ..reading import weight_names
+    from .requests import chosen_sources
+
+    return weight_names(chosen_sources(context))
+
+
 def _property(entry: Field[Any]) -> Any:
     """Return the Blender property of a setting."""
     # Blender ends every tooltip with a full stop of its own
@@ -41,7 +50,8 @@ def _property(entry: Field[Any]) -> Any:
         return BoolProperty(**common)
     if kind is str:
         # Blender's file browser gives one name, several are typed
-        return StringProperty(**common, **({"subtype": "FILE_PATH"} if entry.metadata["files"] == 1 else {}))
+        file = {"subtype": "FILE_PATH"} if entry.metadata["files"] == 1 else {}
+        return StringProperty(**common, **file, **({"search": _weights} if entry.name == "weight" else {}))
     limits = {"min": entry.metadata["low"], "max": entry.metadata["high"]}
     return IntProperty(**common, **limits) if kind is int else FloatProperty(**common, **limits)
 

@@ -301,8 +301,10 @@ def chosen_palette(text: str, catalogue: Catalogue) -> Codes:
 
 
 def _surface_texels(mesh: TriangleMesh, rng: np.random.Generator) -> Bytes:
-    """Return texels drawn evenly over the surface, (n, 3) uint8."""
+    """Return texels drawn evenly over the surface, and more where it counts more, (n, 3) uint8."""
     area = np.linalg.norm(mesh.normals, axis=1)
+    if mesh.weight is not None:
+        area *= 1 + mesh.weight[mesh.faces].mean(axis=1)
     # evenly spaced samples instead of independent ones: every face gets exactly
     # its share
     comb = (np.arange(_SAMPLES) + rng.random()) / _SAMPLES * area.sum()

@@ -55,7 +55,7 @@ def cut_at(mesh: TriangleMesh, height: float) -> TriangleMesh:
     # the first corner is alone on its side; the second may lie at the height
     touching = side[second] == 0
     edges = np.concatenate([np.stack([first, third], axis=1), np.stack([first, second], axis=1)[~touching]])
-    vertices, middle = _between(mesh.vertices, edges, height)
+    vertices, weight, middle = _between(mesh, edges, height)
     one, other = second.astype(np.int64), middle[: len(rows)]
     one[~touching] = middle[len(rows) :]
     uv_one = _blended(uvs, mesh.vertices[faces, 2], 1, height)
@@ -68,6 +68,7 @@ def cut_at(mesh: TriangleMesh, height: float) -> TriangleMesh:
     return replace(
         mesh,
         vertices=vertices,
+        weight=weight,
         faces=np.concatenate([mesh.faces[~across], *(each[0] for each in new)]).astype(np.int32),
         uvs=np.concatenate([mesh.uvs[~across], *(each[1] for each in new)]),
         face_image=np.concatenate([image[~across], image[rows], image[rows], image[rows][~touching]]),
@@ -86,14 +87,17 @@ def _turned(faces: Ints, uvs: Floats, side: Ints) -> tuple[Ints, Floats]:
     return np.take_along_axis(faces, order, axis=1), np.take_along_axis(uvs, order[:, :, None], axis=1)
 
 
-def _between(vertices: Floats, edges: Ints, height: float) -> tuple[Floats, Ints]:
-    """Add a vertex where each edge, (n, 2), passes a height; those of one edge are the same."""
+def _between(mesh: TriangleMesh, edges: Ints, height: float) -> tuple[Floats, Floats | None, Ints]:
+    """Add a vertex, with its weight, where each edge, (n, 2), passes a height; those of one edge are the same."""
+    vertices, weight = mesh.vertices, mesh.weight
     ends, which = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True)
     low, high = vertices[ends[:, 0]], vertices[ends[:, 1]]
     share = ((height - low[:, 2]) / (high[:, 2] - low[:, 2]))[:, None]
     made = low + share * (high - low)
     made[:, 2] = height
-    return np.concatenate([vertices, made]), len(vertices) + which.reshape(-1)
+    if weight is not None:
+        weight = np.append(weight, weight[ends[:, 0]] + share[:, 0] * (weight[ends[:, 1]] - weight[ends[:, 0]]))
+    return np.concatenate([vertices, made]), weight, len(vertices) + which.reshape(-1)
 
 
 def _blended(uvs: Floats, z: Floats, corner: int, height: float) -> Floats:

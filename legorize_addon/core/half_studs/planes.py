@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..mesh import TriangleMesh
+from ..mesh import TriangleMesh, cell_factors
 from ..slicing import Grid, covered_area, linked, slice_mesh
 from ..units import CELL_AREA, PLATE, PLATES_PER_BRICK, STUD
 
@@ -122,13 +122,15 @@ def _errors(mesh: TriangleMesh, grid: Grid) -> tuple[Floats, Floats]:
     # a stud more on each side, which the other phases reach
     corner, n_y, n_x = grid.origin[:2] - STUD, 2 * (grid.n_y + 2), 2 * (grid.n_x + 2)
     error, area = np.zeros((2, n_plates, len(PHASES)))
+    factor = cell_factors(mesh, np.append(corner, grid.origin[2]), (n_plates, grid.n_y + 2, grid.n_x + 2))
     for some in np.array_split(np.arange(n_plates), -(-n_plates * n_y * n_x // _CELLS)):
         outline = linked(mesh.faces, slice_mesh(mesh, heights[some]))
         quarters = covered_area(replace(outline, start=outline.start * 2), len(some), corner * 2, n_y, n_x) / CELL_AREA
         for phase, (x, y) in enumerate(PHASES):
             inner = quarters[:, y : n_y - y, x : n_x - x]
             share = inner.reshape(len(some), n_y // 2 - y, 2, n_x // 2 - x, 2).sum(axis=(2, 4)) / 4
-            error[some, phase] = np.minimum(share, 1 - share).sum(axis=(1, 2))
+            counts = factor[some, : share.shape[1], : share.shape[2]]
+            error[some, phase] = (counts * np.minimum(share, 1 - share)).sum(axis=(1, 2))
             area[some, phase] = np.count_nonzero(share >= 0.5, axis=(1, 2))
     return error, area
 

@@ -18,6 +18,7 @@ from ..errors import MeshError
 from .orientation import consistent_winding, inside_out
 from .repair import WELD, redundant, small_holes, useless_slivers, weld
 from .topology import Edges, areas_and_longest_sides, edges_of, n_bodies, open_rim
+from .vertex_weights import repaired_weight
 
 FEWEST_TRIANGLES: Final = 2
 """Triangles of the simplest body, a tetrahedron."""
@@ -53,6 +54,10 @@ class TriangleMesh:
     opacities : tuple of ((h, w) uint8 array or None)
         Alpha of the texels of each image, 255 for opaque; None where all are.
         Empty where no image has any.
+    weight : (n_v,) float64 array or None
+        How many times more than other surface the one at each vertex counts
+        wherever likeness is weighed against something else: 0 for as much. As
+        read 0 to 1; None where a user has weighted nothing.
     """
 
     vertices: Floats
@@ -62,6 +67,7 @@ class TriangleMesh:
     images: tuple[NDArray[np.uint8], ...]
     image_clamp: NDArray[np.bool_]
     opacities: tuple[NDArray[np.uint8] | None, ...] = ()
+    weight: Floats | None = None
 
     @property
     def normals(self) -> Floats:
@@ -153,8 +159,8 @@ def repair(mesh: TriangleMesh, *, fill: bool = True) -> tuple[TriangleMesh, Repa
     Raises
     ------
     MeshError
-        The mesh has no faces, too few triangles, no size, or coordinates that
-        are no finite numbers or too great.
+        The mesh has no faces, too few triangles, no size, coordinates that are
+        no finite numbers or too great, or weights that are not from 0 to 1.
     """
     vertices, number = _referenced(mesh)
     centre, diagonal = _frame(vertices)
@@ -188,7 +194,8 @@ def repair(mesh: TriangleMesh, *, fill: bool = True) -> tuple[TriangleMesh, Repa
         bodies=n_bodies(surface.edges, patch),
         watertight=not len(rim) and not winding.one_sided.any(),
     )
-    return _assembled(np.concatenate([vertices, new]), surface, mesh), repairs
+    weight = repaired_weight(mesh.weight, number, mesh.faces, first, surface.faces)
+    return _assembled(np.concatenate([vertices, new]), weight, surface, mesh), repairs
 
 
 def checked_vertices(mesh: TriangleMesh) -> Floats:
@@ -326,12 +333,13 @@ def _filled(surface: _Surface, patch: Ints) -> tuple[_Surface, Ints, int]:
     return surface, patch, n_holes
 
 
-def _assembled(vertices: Floats, surface: _Surface, mesh: TriangleMesh) -> TriangleMesh:
+def _assembled(vertices: Floats, weight: Floats | None, surface: _Surface, mesh: TriangleMesh) -> TriangleMesh:
     """Return the repaired mesh without unused vertices."""
     used = np.zeros(len(vertices), bool)
     used[surface.faces] = True
     faces = (np.cumsum(used) - 1)[surface.faces].astype(np.int32)
-    return replace(mesh, vertices=vertices[used], faces=faces, uvs=surface.uvs, face_image=surface.image)
+    weight = None if weight is None else weight[used]
+    return replace(mesh, vertices=vertices[used], faces=faces, uvs=surface.uvs, face_image=surface.image, weight=weight)
 
 
 def _number(n: int, noun: str) -> str:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..arrays import Floats
 from ..geometry import SYMMETRIC, mirrored_share
-from ..mesh import TriangleMesh, scale_mesh
+from ..mesh import TriangleMesh, cell_factors, scale_mesh
 from ..units import CELL_AREA, PLATE, PLATES_PER_BRICK, STUD
 from .coverage import covered_area
 from .lattice import Grid, begun_earlier, fit_grid
@@ -105,13 +105,15 @@ def _errors(mesh: TriangleMesh, grid: Grid) -> tuple[Floats, tuple[bool, bool]]:
     # a stud more before the grid, which shifts reach
     corner, n_y, n_x = grid.origin[:2] - STUD, PARTS * (grid.n_y + 2), PARTS * (grid.n_x + 2)
     errors, cells = np.zeros((PARTS, PARTS)), []
-    for some in np.array_split(heights, -(-n_plates * n_y * n_x // _CELLS)):
-        outline = linked(mesh.faces, slice_mesh(mesh, some))
+    factor = cell_factors(mesh, np.append(corner, grid.origin[2]), (n_plates, grid.n_y + 2, grid.n_x + 2))
+    for some in np.array_split(np.arange(n_plates), -(-n_plates * n_y * n_x // _CELLS)):
+        outline = linked(mesh.faces, slice_mesh(mesh, heights[some]))
         fine = replace(outline, start=outline.start * PARTS)
         sums = _sums(covered_area(fine, len(some), corner * PARTS, n_y, n_x) / CELL_AREA)
         for y, x in np.ndindex(PARTS, PARTS):
             share = _cells(sums[:, y::PARTS, x::PARTS]) / PARTS**2
-            errors[y, x] += np.minimum(share, 1 - share).sum()
+            counts = factor[some, : share.shape[1], : share.shape[2]]
+            errors[y, x] += (counts * np.minimum(share, 1 - share)).sum()
         cells.append(_cells(sums[:, ::PARTS, ::PARTS])[:, 1:-1, 1:-1] >= PARTS**2 / 2)
     solid = np.concatenate(cells)
     y, x = (mirrored_share(solid, axis) >= SYMMETRIC for axis in (1, 2))

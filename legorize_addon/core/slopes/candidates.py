@@ -130,7 +130,7 @@ def _may_stand(site: Site, form: Form, place: Ints) -> Mask:
 
 
 def _gain(site: Site, form: Form, cells: Ints) -> Floats:
-    """Return the volume that is filled wrongly as it is, less that with the slope."""
+    """Return the volume that is filled wrongly as it is, less that with the slope, more where likeness counts more."""
     row = site.row[cells]
     used = _once(row, len(site.gain))
     # sums of single precision would differ between machines
@@ -138,7 +138,8 @@ def _gain(site: Site, form: Form, cells: Ints) -> Floats:
     filled = of_cell @ form.fill.T / form.fill.shape[1]
     whole = of_cell.mean(axis=1)
     at = np.searchsorted(used, row)
-    gain: Floats = (np.where(site.solid[cells], whole[at], 0) - filled[at, np.arange(cells.shape[1])]).sum(axis=1)
+    saved = np.where(site.solid[cells], whole[at], 0) - filled[at, np.arange(cells.shape[1])]
+    gain: Floats = (saved * site.factor[cells]).sum(axis=1)
     return gain
 
 
@@ -183,7 +184,8 @@ def _colours(site: Site, form: Form, cells: Ints, catalogue: Catalogue) -> tuple
     if not len(made) or not len(cells):
         return np.zeros(len(cells), np.int64), np.full(len(cells), np.inf)
     shown = np.where(site.solid[cells], site.colour[cells], np.int16(COLOUR_ANY))
-    count = np.stack([np.count_nonzero(shown == code, axis=1) for code in codes], axis=1)
+    factor = site.factor[cells]
+    count = np.stack([(factor * (shown == code)).sum(axis=1) for code in codes], axis=1)
     lab = lab_from_srgb(catalogue.rgb[catalogue.colour_rows(codes)])
     apart = ciede2000(lab[:, None], lab[np.searchsorted(codes, made)][None])
     wrong = _WRONG * count @ np.minimum(apart / _CLEAR, 1)

@@ -11,10 +11,10 @@ from scipy import ndimage
 
 from ..arrays import Floats, Ints, Mask
 from ..geometry import outer_air
-from ..mesh import TriangleMesh
+from ..mesh import TriangleMesh, cell_factors
 from ..model import COLOUR_EMPTY, Fill, UnitGrid
 from ..slicing import fine_shares
-from ..units import PLATES_PER_BRICK
+from ..units import PLATES_PER_BRICK, STUD
 from .forms import PARTS
 
 Cell = TypeVar("Cell", bound=np.generic)
@@ -60,6 +60,8 @@ class Site:
         What it costs to fill a part of a cell: 1 where it is all outside of the mesh, -1 where it is all inside.
     mixed : int64 array
         Flat indices of the cells that the surface goes through.
+    factor : float64 array
+        How many times as much as elsewhere likeness counts in each cell.
     """
 
     shape: tuple[int, int, int]
@@ -72,6 +74,7 @@ class Site:
     row: NDArray[np.int32]
     gain: NDArray[np.float32]
     mixed: Ints
+    factor: Floats
 
     @classmethod
     def of(cls, mesh: TriangleMesh, grid: UnitGrid, shell: UnitGrid) -> Self:
@@ -104,6 +107,7 @@ class Site:
             row=row.reshape(-1),
             gain=gain.astype(np.float32),
             mixed=mixed,
+            factor=cell_factors(mesh, grid.origin - [MARGIN * STUD, MARGIN * STUD, 0], solid.shape).reshape(-1),
         )
 
     def flat(self, cells: Ints) -> Ints:

@@ -112,7 +112,7 @@ def cut_unseen(mesh: TriangleMesh, *, least: float, finest: float) -> tuple[Tria
     texels = _texels(mesh, least)
     if all(image is None or image.seen.all() for image in texels):
         return mesh, 0.0
-    triangles, image = Triangles(mesh.vertices, mesh.faces.astype(np.int64), mesh.uvs), mesh.face_image
+    triangles, image = Triangles(mesh.vertices, mesh.faces.astype(np.int64), mesh.uvs, mesh.weight), mesh.face_image
     whole = _area(triangles).sum()
     kinds = _kinds(triangles.uvs, image, texels)
     while True:
@@ -235,4 +235,5 @@ def _with_faces(mesh: TriangleMesh, triangles: Triangles, image: NDArray[np.int3
         faces=faces.reshape(-1, 3).astype(np.int32),
         uvs=triangles.uvs[kept],
         face_image=image[kept],
+        weight=None if triangles.weight is None else triangles.weight[used],
     )

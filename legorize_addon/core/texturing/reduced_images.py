@@ -53,7 +53,8 @@ def reduce_images(mesh: TriangleMesh, *, least: float, mean: bool = True) -> Tri
     least : float
         Least alpha of a visible texel, 0 to 1; others do not count. At 0, where everything is built, one half is used.
     mean : bool, optional
-        Whether texture finer than a stud becomes its mean, see :mod:`.fine_textures`.
+        Whether texture finer than a stud becomes its mean, see :mod:`.fine_textures`; never on weighted faces, where
+        an eye is not to be mixed with the white around it.
 
     Returns
     -------
@@ -63,6 +64,8 @@ def reduce_images(mesh: TriangleMesh, *, least: float, mean: bool = True) -> Tri
     halvings, windows = _resolutions(mesh)
     if not mean:
         windows[:] = 0
+    elif mesh.weight is not None:
+        windows[(mesh.weight[mesh.faces] > 0).any(axis=1)] = 0
     kinds, row = np.unique(np.column_stack([mesh.face_image, halvings, windows]), axis=0, return_inverse=True)
     made = _Images(mesh, least or 0.5)
     place = np.array([made.row(*kind) for kind in kinds.tolist()], dtype=np.int32)

@@ -34,11 +34,14 @@ class Triangles:
         Rows in ``vertices``.
     uvs : (n_f, 3, 2) float64 array
         Image coordinates of the corners.
+    weight : (n_v,) float64 array or None
+        Of the vertices, if they have any.
     """
 
     vertices: Floats
     faces: Ints
     uvs: Floats
+    weight: Floats | None = None
 
     def sides(self) -> Floats:
         """Return the lengths of the edges 0-1, 1-2 and 2-0 of each face, shape (n_f, 3)."""
@@ -74,10 +77,12 @@ def split_edges(triangles: Triangles, marked: Mask) -> tuple[Triangles, Ints]:
     six = np.concatenate([faces, place[number]], axis=1)
     uvs = np.concatenate([triangles.uvs, (triangles.uvs + np.roll(triangles.uvs, -1, axis=1)) / 2], axis=1)
     owner, corner = _parts(cut[number])
+    weight = triangles.weight
     return Triangles(
         np.concatenate([triangles.vertices, triangles.vertices[middle].mean(axis=1)]),
         np.take_along_axis(six[owner], corner, axis=1),
         np.take_along_axis(uvs[owner], corner[:, :, None], axis=1),
+        None if weight is None else np.concatenate([weight, weight[middle].mean(axis=1)]),
     ), owner
 
 

@@ -9,7 +9,7 @@ belong to no other brick of the same trajectory.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -44,19 +44,38 @@ class Ballot:
         The colour with the greatest score wins.
     difference : (k, k) float64 array
         CIEDE2000: row by what takes the code, column by the brick.
+    weight : (n_seen,) float64 array or None
+        How many times more than usual the surface of each cell counts; None where all cells count alike.
     """
 
     codes: Codes
     votes: Floats
     score: Floats
     difference: Floats
+    weight: Floats | None = None
 
     @property
     def cost(self) -> Floats:
-        """Mean difference of each cell's surface from each colour, 0 where there is no vote, (n_seen, k)."""
+        """Mean difference of each cell's surface from each colour, 0 where there is no vote, (n_seen, k).
+
+        Where surface counts at least twice as much as usual, differences count up to a clear one: of an eye and the
+        white around it a cell takes one or the other, and no grey between them.
+        """
         total = self.votes.sum(axis=1, keepdims=True)
-        cost: Floats = self.votes @ self.difference / np.where(total > 0, total, 1)
-        return cost
+        cost: Floats = self.votes @ self.difference
+        if self.weight is not None:
+            cost = np.where(self.weighted[:, None], self.votes @ np.minimum(self.difference, CLEAR), cost)
+        return cost / np.where(total > 0, total, 1)
+
+    @property
+    def factor(self) -> Floats:
+        """How many times as much as usual the surface of each cell counts, shape (n_seen,)."""
+        return np.ones(len(self.votes)) if self.weight is None else 1 + self.weight
+
+    @property
+    def weighted(self) -> Mask:
+        """Cells whose surface counts at least twice as much as usual, shape (n_seen,)."""
+        return np.zeros(len(self.votes), bool) if self.weight is None else self.weight >= 1
 
     def winners(self, seen: Mask, height: float = BRICK) -> Codes:
         """Return the colour of each cell, given which they are and how high in mm, (n_seen,)."""
@@ -118,10 +137,41 @@ def likeliest_colours(
     """
     shown = samples.at(reached_by_air(samples, seen.shape) & ~occluded(samples))
     cell = nearest_faces(shown.place, shown.sides, seen, air)
-    codes, votes = count_votes(cell, shown.colour, shown.area, seen)
+    counts = shown.area if shown.weight is None else shown.area * (1 + shown.weight)
+    codes, votes = count_votes(cell, shown.colour, counts, seen)
     difference = colour_differences(codes, catalogue, surface)
     # a colour that the cell does not have at all is never chosen
-    return Ballot(codes, votes, np.where(votes > 0, -votes @ difference, -np.inf), difference)
+    ballot = Ballot(codes, votes, np.where(votes > 0, -votes @ difference, -np.inf), difference)
+    weight = cell_weights(cell, shown, seen)
+    if weight is None:
+        return ballot
+    ballot = replace(ballot, weight=weight)
+    return replace(ballot, score=np.where(votes > 0, -ballot.cost, -np.inf))
+
+
+def cell_weights(cell: Ints, samples: SurfaceSamples, seen: Mask) -> Floats | None:
+    """Return the mean weight of the surface of each visible cell, given the cell of each sample, -1 for none.
+
+    Parameters
+    ----------
+    cell : (n,) int64 array
+    samples : SurfaceSamples
+    seen : (n_layers, n_y, n_x) bool array
+
+    Returns
+    -------
+    (n_seen,) float64 array or None
+        0 where a cell has no surface; None where the samples have no weights.
+    """
+    if samples.weight is None:
+        return None
+    there = cell >= 0
+    area, weighted = (
+        np.bincount(cell[there], each[there], seen.size)[seen.ravel()]
+        for each in (samples.area, samples.area * samples.weight)
+    )
+    weights: Floats = weighted / np.where(area > 0, area, 1)
+    return weights
 
 
 def colour_differences(codes: Codes, catalogue: Catalogue, surface: SurfaceColours | None) -> Floats:

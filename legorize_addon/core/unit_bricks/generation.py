@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ..arrays import Floats, Mask
 from ..colours import SurfaceColours
 from ..geometry import outer_air, visible
-from ..mesh import TriangleMesh
+from ..mesh import TriangleMesh, cell_factors
 from ..model import COLOUR_ANY, COLOUR_EMPTY, Catalogue, Fill, Role, UnitGrid, ground_of
 from ..progress import Progress, part, silent
 from ..slicing import Grid, Levels, Pieces, Trajectories, covered_area_shares, cut_at_grid
@@ -139,7 +139,8 @@ def unit_bricks(
     progress("unit bricks", 0.2)
     if not rules.closed:
         share[air_around(samples, grid.shape, on_ground=True).fills(grid.shape)] = 0
-    solid = _solid(share, samples, keep_thin=rules.keep_thin, detail=rules.detail, progress=part(progress, 0.2, 0.6))
+    factor = _factors(mesh, grid)
+    solid = _solid(share, samples, factor, rules, progress=part(progress, 0.2, 0.6))
     if rules.symmetric:
         solid = mirror_shapes(solid, share, height=round(BRICK / grid.height))
     progress("unit bricks", 0.6)
@@ -176,21 +177,26 @@ def _settled(colour: Codes, seen: Mask, ballot: Ballot, rules: Rules, *, height:
     return without_specks(colour, seen, ballot, height=height)
 
 
-def _solid(
-    share: Floats, samples: SurfaceSamples, *, keep_thin: bool, detail: Detail | None, progress: Progress
-) -> Mask:
+def _factors(mesh: TriangleMesh, grid: Grid) -> Floats:
+    """Return how many times as much as usual the shape of each cell counts: only plates are weighed."""
+    if grid.height != PLATE:
+        return np.broadcast_to(1.0, grid.shape)
+    return cell_factors(mesh, grid.origin, grid.shape)
+
+
+def _solid(share: Floats, samples: SurfaceSamples, factor: Floats, rules: Rules, progress: Progress) -> Mask:
     """Return the cells that are filled: half covered, or because the surface would otherwise be lost."""
     solid = half_covered(share)
     progress("unit bricks", 0.1)
-    if keep_thin:
+    if rules.keep_thin:
         solid |= thin_cells(samples, solid)
         progress("unit bricks", 0.4)
         solid |= under_steps(solid)
     progress("unit bricks", 0.5)
-    if detail is not None:
-        solid = settle_plates(solid, share, detail)
+    if rules.detail is not None:
+        solid = settle_plates(solid, share, rules.detail, factor)
     progress("unit bricks", 0.7)
-    if keep_thin:
+    if rules.keep_thin:
         solid |= bridging_cells(solid, surface_area(samples, share.shape))
     return solid
 

@@ -60,7 +60,7 @@ class Detail:
     middle: bool = False
 
 
-def settle_plates(solid: Mask, share: Floats, detail: Detail) -> Mask:
+def settle_plates(solid: Mask, share: Floats, detail: Detail, factor: Floats | float = 1.0) -> Mask:
     """Make bricks of cell columns in which plates do not pay.
 
     Three rules of superposition: three plates are a brick anyway. A column of
@@ -77,24 +77,27 @@ def settle_plates(solid: Mask, share: Floats, detail: Detail) -> Mask:
     share : (n_plates, n_y, n_x) float64 array
         Share of each cell inside the mesh.
     detail : Detail
+    factor : (n_plates, n_y, n_x) float64 array or float, optional
+        How many times as much as usual the error of each cell counts.
 
     Returns
     -------
     (n_plates, n_y, n_x) bool array
     """
+    factor = np.broadcast_to(factor, solid.shape)
     if detail.worth == 0 or detail.middle:
-        return _settled_alone(solid, share, detail)
-    every = _settled_alone(solid, share, replace(detail, least_gain=0.0))
-    return smooth_shapes(every, share, least_gain=detail.least_gain, worth=detail.worth)
+        return _settled_alone(solid, share, factor, detail)
+    every = _settled_alone(solid, share, factor, replace(detail, least_gain=0.0))
+    return smooth_shapes(every, share, factor, least_gain=detail.least_gain, worth=detail.worth)
 
 
-def _settled_alone(solid: Mask, share: Floats, detail: Detail) -> Mask:
+def _settled_alone(solid: Mask, share: Floats, factor: Floats, detail: Detail) -> Mask:
     """Settle every column by itself."""
     plates = solid.reshape(-1, PLATES_PER_BRICK, *solid.shape[1:])
     layer, y, x = np.nonzero(plates.any(axis=1) & ~plates.all(axis=1))
     there = plates[layer, :, y, x]
-    inside = share.reshape(plates.shape)[layer, :, y, x]
-    error, full, none = (np.abs(inside - what).mean(axis=1) for what in (there, 1.0, 0.0))
+    inside, counts = (each.reshape(plates.shape)[layer, :, y, x] for each in (share, factor))
+    error, full, none = ((counts * np.abs(inside - what)).mean(axis=1) for what in (there, 1.0, 0.0))
     # cells that were added although less than half covered are thin; they and what carries them stay
     thin = (there & (inside < 0.5)).any(axis=1)
     resting = _resting(plates)[layer, y, x]
@@ -174,7 +177,8 @@ def _coloured_alone(colour: Codes, seen: Mask, ballot: Ballot, detail: Detail) -
         return colour
     shown = seen.reshape(columns.shape)[layer, :, y, x]
     number = np.cumsum(seen.ravel()).reshape(columns.shape)[layer, :, y, x] - 1
-    cost = np.where(shown[:, :, None], ballot.cost[number], 0.0)
+    error = ballot.factor[:, None] * ballot.cost
+    cost = np.where(shown[:, :, None], error[number], 0.0)
     voted = ((ballot.votes[number] > 0) & shown[:, :, None]).any(axis=1)
     several = cost_in(cost, shown, ballot.codes, columns[layer, None, :, y, x])[:, 0]
     total = np.where(voted, cost.mean(axis=1), np.inf)

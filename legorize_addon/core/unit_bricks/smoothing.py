@@ -27,7 +27,7 @@ _CONTRAST: Final = 1.5
 """Exponent on colour differences: small ones may be traded away."""
 
 
-def smooth_shapes(solid: Mask, share: Floats, *, least_gain: float, worth: float) -> Mask:
+def smooth_shapes(solid: Mask, share: Floats, factor: Floats | float = 1.0, *, least_gain: float, worth: float) -> Mask:
     """Fill up cell columns of one or two plates where that saves parts.
 
     Nothing is removed, so that nothing thin is lost, and no hole or gap opens.
@@ -37,6 +37,8 @@ def smooth_shapes(solid: Mask, share: Floats, *, least_gain: float, worth: float
     solid : (n_plates, n_y, n_x) bool array
     share : (n_plates, n_y, n_x) float64 array
         Share of each cell inside the mesh.
+    factor : (n_plates, n_y, n_x) float64 array or float, optional
+        How many times as much as usual the error of each cell counts.
     least_gain : float
         Error, as a share of a brick's volume, that a column of plates must save.
     worth : float
@@ -52,9 +54,10 @@ def smooth_shapes(solid: Mask, share: Floats, *, least_gain: float, worth: float
     columns = Columns.of(filled, filled & ~plates.all(axis=1))
     there = columns.plates(plates)
     active = np.flatnonzero(~there.all(axis=1))
-    inside = columns.plates(share.reshape(plates.shape))[active]
+    counts = np.broadcast_to(factor, solid.shape)
+    inside, counts = (columns.plates(each.reshape(plates.shape))[active] for each in (share, counts))
     allowed = (_SHAPES | ~there[active][:, None]).all(axis=2)
-    error = np.abs(inside[:, None] - _SHAPES).mean(axis=2)
+    error = (counts[:, None] * np.abs(inside[:, None] - _SHAPES)).mean(axis=2)
     error += least_gain * ~_SHAPES.all(axis=1)
     offers = _Shapes(np.where(allowed, error, np.inf))
     # neighbours never close a slit between them one by one, as it takes both: it begins closed where it hardly pays
@@ -126,7 +129,8 @@ def smooth_colours(
         return colour
     shown = columns.plates(seen.reshape(cells.shape))[active]
     number = columns.plates((np.cumsum(seen.ravel()) - 1).reshape(cells.shape))[active]
-    cost = np.where(shown[:, :, None], (ballot.cost[number] / CLEAR) ** _CONTRAST, 0.0) / PLATES_PER_BRICK
+    error = ballot.factor[:, None] * (ballot.cost / CLEAR) ** _CONTRAST
+    cost = np.where(shown[:, :, None], error[number], 0.0) / PLATES_PER_BRICK
     voted = ((ballot.votes[number] > 0) & shown[:, :, None]).any(axis=1)
     price = np.where(marked[columns.layer[active]], least_gain, np.inf)
     offers = _Colours(ballot.codes, cost, shown, _likeliest(cost, voted, ballot.codes), price)

@@ -6,7 +6,7 @@ a surface of its own colour: at least half of what is seen in it. The grey betwe
 a white and a black patch has not; it is a mixture, the colour least unlike to two
 others. And a feature is missed: in the colour of its neighbours its surface would
 look clearly different. What is a mixture, or would not be missed, takes the colour
-around it.
+around it. Where surface counts at least twice as much as usual, nothing is a speck.
 """
 
 from __future__ import annotations
@@ -64,7 +64,8 @@ def without_specks(colour: Codes, seen: Mask, ballot: Ballot, *, height: int) ->
 def _once(colour: Codes, seen: Mask, ballot: Ballot, height: int) -> Codes:
     """Look at every lone patch once."""
     patches = _Patches.of(colour, seen, height)
-    alone = np.flatnonzero(patches.columns == 1)
+    kept = np.bincount(patches.number, ballot.weighted) > 0
+    alone = np.flatnonzero((patches.columns == 1) & ~kept)
     row = np.full(len(patches.columns), -1, dtype=np.int64)
     row[alone] = np.arange(len(alone))
     cells = np.flatnonzero((row[patches.number] >= 0) & np.isin(patches.code, ballot.codes))

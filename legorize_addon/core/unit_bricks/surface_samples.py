@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints, Mask
 from ..colours import SurfaceColours, linear_from_srgb, texels_at
-from ..mesh import TriangleMesh, vertical_hits
+from ..mesh import TriangleMesh, vertical_hits, weight_at
 from ..slicing import Grid, Levels, Pieces, Trajectories
 from ..units import BRICK, STUD
 
@@ -44,6 +44,8 @@ class SurfaceSamples:
         LDraw code, or light: red, green and blue from 0 to 1.
     height : float
         Height of a cell in mm.
+    weight : (n,) float64 array or None
+        How many times more than usual the surface counts; None where all of it counts alike.
     """
 
     place: Floats
@@ -53,6 +55,7 @@ class SurfaceSamples:
     area: Floats
     colour: NDArray[Any]
     height: float = BRICK
+    weight: Floats | None = None
 
     @property
     def sides(self) -> Floats:
@@ -71,7 +74,8 @@ class SurfaceSamples:
         return replace(self, **both)
 
     def _columns(self) -> list[str]:
-        return [entry.name for entry in fields(self) if entry.name != "height"]
+        left_out = ("height",) if self.weight is not None else ("height", "weight")
+        return [entry.name for entry in fields(self) if entry.name not in left_out]
 
 
 def trajectory_samples(
@@ -112,6 +116,20 @@ def trajectory_samples(
         area=pieces.length.take(piece) * levels.thickness.take(pair) * upright,
         colour=trajectories.colour.take(edge),
         height=grid.height,
+        weight=_weights(mesh, face, pieces.middle.take(piece, axis=0), levels.slice.take(pair), levels, grid),
+    )
+
+
+def _weights(
+    mesh: TriangleMesh, face: NDArray[np.int32], middle: Floats, slice_: Ints, levels: Levels, grid: Grid
+) -> Floats | None:
+    """Return the weights where slices cut faces, as the colours are taken there; None where the mesh has none."""
+    if mesh.weight is None:
+        return None
+    # a slice that stands for three plates is in the middle of them
+    height = np.bincount(levels.slice, levels.place) / np.maximum(np.bincount(levels.slice), 1)
+    return weight_at(
+        mesh, face.astype(np.int64), grid.origin + np.column_stack([middle * STUD, height.take(slice_) * grid.height])
     )
 
 
@@ -162,6 +180,7 @@ def horizontal_samples(mesh: TriangleMesh, surface: SurfaceColours, grid: Grid) 
         area=pitch * pitch * level_shares(mesh)[face],
         colour=surface.at(mesh.face_image[face], uvs),
         height=grid.height,
+        weight=weight_at(mesh, face, points),
     )
 
 

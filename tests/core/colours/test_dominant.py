@@ -329,3 +329,16 @@ def test_faces_of_one_colour_are_known():
     expected = np.where(u.max(axis=1) < 0.55, 4, np.where(u.min(axis=1) > 0.55, 1, -1))
     assert set(expected.tolist()) == {4, 1, -1}
     np.testing.assert_array_equal(colours_of(mesh).of_faces(mesh), expected)
+
+
+def test_what_counts_more_has_more_of_the_colours():
+    """The one dominant colour of two equal halves is nearer to the one that counts four times."""
+    image = np.array([[[250, 0, 0], [0, 0, 250]]], np.uint8)
+    mesh = textured(sheet(2, 1), image, np.broadcast_to([[[0.25, 0.5]]] * 2 + [[[0.75, 0.5]]] * 2, (4, 3, 2)))
+    left = mesh.vertices[mesh.faces][..., 0].max(axis=1) <= 0.5
+    mesh = replace(mesh, uvs=np.where(left, 0.25, 0.75)[:, None, None] * [1, 0] + np.broadcast_to([0, 0.5], (4, 3, 2)))
+    [centre] = colours_of(replace(mesh, weight=np.full(6, 3.0)), n_colours=1).centres
+    np.testing.assert_allclose(centre, [125, 0, 125], atol=1)
+    # two of three corners of one face of the left half, and one of the other, are at its rim
+    [centre] = colours_of(replace(mesh, weight=3.0 * (mesh.vertices[:, 0] == 0)), n_colours=1).centres
+    np.testing.assert_allclose(centre, [250 * 5 / 7, 0, 250 * 2 / 7], atol=1)

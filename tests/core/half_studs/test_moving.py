@@ -8,6 +8,7 @@ import pytest
 from legorize_addon.core.half_studs.moving import cut_at, draw_together
 from legorize_addon.core.half_studs.planes import Plane
 from tests.core.half_studs.tower import BLOCK, tower
+from tests.core.mesh.test_vertex_weights import by_x
 from tests.core.solids import sphere
 
 
@@ -58,3 +59,11 @@ def test_without_planes_a_mesh_stays():
     """The same object comes back."""
     mesh = sphere(3)
     assert draw_together(mesh, 0.0, ()) is mesh
+
+
+def test_a_cut_keeps_the_weights():
+    """New vertices have the weight that belongs to their place."""
+    mesh, rise = by_x(sphere(6))
+    cut = cut_at(mesh, 0.123)
+    assert len(cut.vertices) > len(mesh.vertices)
+    np.testing.assert_allclose(cut.weight, rise(cut.vertices), atol=1e-12)

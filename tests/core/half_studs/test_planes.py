@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise, product
 
 import numpy as np
@@ -66,3 +67,13 @@ def test_half_studs_at_levels():
     """All from a plane on lies as the plane says, up to the next one."""
     found = halves_at(np.array([0, 2, 3, 8, 9, 20]), (Plane(3, (1, 0)), Plane(9, (0, 1))))
     assert found.tolist() == [[0, 0], [0, 0], [1, 0], [1, 0], [0, 1], [0, 1]]
+
+
+def test_a_weighted_tower_pays_sooner():
+    """At a price at which a tower stays where it is, one that counts four times as much moves."""
+    mesh, price = tower(), 10.0
+    while found := choose_planes(mesh, fit_grid(mesh, symmetric=True, plates=True), price=price):
+        price *= 1.5
+    above = replace(mesh, weight=3.0 * (mesh.vertices[:, 2] >= 9.6 * BLOCK))
+    assert found == ()
+    assert choose_planes(above, fit_grid(mesh, symmetric=True, plates=True), price=price) == (Plane(LEVEL, (1, 0)),)

@@ -94,3 +94,13 @@ def test_no_shift_is_better(first, second, beside):
     # where the ground follows the base, layers differ
     if best.origin[2] == usual.origin[2]:
         assert error(mesh, best) <= min(others) / 0.995 + 1e-6
+
+
+def test_the_grid_fits_what_is_weighted():
+    """Of two legs half a stud apart from each other's rows, the one that counts more lies on the studs."""
+    legs = [box((x, 0, 0), (x + 8, 8, 5 * BRICK)) for x in (0.0, 44.0)]
+    mesh = joined(*legs)
+    for painted in range(2):
+        weight = np.repeat(np.arange(2) == painted, 8).astype(float)
+        grid, _ = best_grid(replace(mesh, weight=weight), symmetric=False, plates=True)
+        assert error(legs[painted], grid) < error(legs[1 - painted], grid) / 2

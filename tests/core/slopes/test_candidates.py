@@ -16,9 +16,9 @@ from tests.core.slopes.ramps import CATALOGUE, RED, WHITE, cells_of_ramp, ramp
 FORMS = slopes_of(CATALOGUE, plates=True)
 
 
-def listed(grid, shell=None, price=0.3, catalogue=CATALOGUE):
+def listed(grid, shell=None, price=0.3, catalogue=CATALOGUE, mesh=None):
     """List what pays on a ramp as part, turn, place, colour and score."""
-    site = Site.of(ramp(), grid, grid if shell is None else shell)
+    site = Site.of(ramp() if mesh is None else mesh, grid, grid if shell is None else shell)
     found = candidates(site, FORMS, catalogue, price=price)
     parts = [CATALOGUE.parts[FORMS[row].part].number for row in found.form]
     turns = [FORMS[row].turn for row in found.form]
@@ -95,3 +95,19 @@ def test_every_form_is_as_of_itself():
     found = candidates(site, every, CATALOGUE, price=0.1)
     singly = [len(candidates(site, (form,), CATALOGUE, price=0.1).form) for form in every]
     assert np.bincount(found.form, minlength=len(every)).tolist() == singly
+
+
+def test_weighted_surface_pays_and_costs_more():
+    """Where all counts four times, a slope that costs no part gains four times as much, and a wrong colour costs so."""
+    usual = listed(cells_of_ramp(), price=0.0)
+    mesh = replace(ramp(), weight=np.full(len(ramp().vertices), 3.0))
+    assert listed(cells_of_ramp(), price=0.0, mesh=mesh) == {
+        key: (code, pytest.approx(4 * score)) for key, (code, score) in usual.items()
+    }
+    grid = cells_of_ramp()
+    colour = grid.colour.copy()
+    colour[1, 2, 1, 5] = WHITE
+    mixed = replace(grid, colour=colour)
+    place = ("3037", 0, (5, 1, 3))
+    gains = [listed(mixed, price=0.0, mesh=each).get(place, (0, 0.0))[1] for each in (ramp(), mesh)]
+    assert gains[1] == pytest.approx(4 * gains[0])

@@ -165,3 +165,12 @@ def test_the_sentence_on_what_is_left_out() -> None:
     assert remarks_on_unseen(0.0, least=0.5) == ()
     assert remarks_on_unseen(0.254, least=0.5)[0].startswith("25 % ")
     assert remarks_on_unseen(0.001, least=0.5)[0].startswith("Less than 1 % ")
+
+
+def test_weights_stay_at_their_places() -> None:
+    """A card whose weight rises along x has it there after its clear parts are cut off."""
+    whole = card(disc())
+    low, size = whole.vertices[:, 0].min(), np.ptp(whole.vertices[:, 0])
+    seen, _ = cut_unseen(replace(whole, weight=(whole.vertices[:, 0] - low) / size), least=0.5, finest=0.1)
+    assert len(seen.weight) == len(seen.vertices) != len(whole.vertices)
+    np.testing.assert_allclose(seen.weight, (seen.vertices[:, 0] - low) / size, atol=1e-12)

@@ -117,3 +117,15 @@ def test_squares_of_two_studs_stay_black_and_white() -> None:
 def test_half_of_the_light_is_the_grey_of_bricks() -> None:
     """The mean of black and white in linear light is sRGB 188, nearest to Light Bluish Gray."""
     assert srgb_from_linear(linear_from_srgb(rgb_of([BLACK, WHITE])).mean(axis=0)).min() > 150
+
+
+def test_weighted_faces_keep_their_texels() -> None:
+    """Of a checker finer than a stud on two squares, the one that counts more keeps black and white."""
+    mesh = textured(sheet(2, 1), checker(64), sheet(2, 1).uvs)
+    mesh = replace(mesh, vertices=mesh.vertices * (64, 32, 8), weight=np.where(mesh.vertices[:, 0] == 0, 1.0, 0.0))
+    reduced = reduce_images(mesh, least=0.5)
+    right = (mesh.weight[mesh.faces] == 0).all(axis=1)
+    colours = [np.unique(reduced.images[row]) for row in reduced.face_image]
+    assert [len(each) == 1 for each in colours] == right.tolist()
+    assert right.any()
+    assert not right.all()

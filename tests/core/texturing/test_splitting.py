@@ -42,3 +42,11 @@ def test_marked_edges_are_halved() -> None:
     assert owner.tolist() == [0] * 4
     np.testing.assert_allclose(np.sort(parts.sides(), axis=1), np.tile([1.5, 2, 2.5], (4, 1)))
     np.testing.assert_array_equal(split_edges(triangles, np.zeros((1, 3), bool))[0].faces, triangles.faces)
+
+
+def test_weights_are_cut_with_their_edges() -> None:
+    """The middle of an edge has the mean of the weights of its ends."""
+    corners = np.array([(0, 0, 0), (4, 0, 0), (0, 3, 0.0)])
+    triangles = Triangles(corners, np.array([[0, 1, 2]]), np.zeros((1, 3, 2)), corners[:, 0] / 4)
+    parts, _ = split_edges(triangles, np.array([[True, True, True]]))
+    np.testing.assert_allclose(parts.weight, parts.vertices[:, 0] / 4)

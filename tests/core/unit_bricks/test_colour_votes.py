@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -15,7 +16,7 @@ from legorize_addon.core.geometry.neighbourhoods import outer_air, visible
 from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.model.unit_grid import COLOUR_ANY
-from legorize_addon.core.unit_bricks.colour_votes import count_votes, likeliest_colours, winning_colours
+from legorize_addon.core.unit_bricks.colour_votes import cell_weights, count_votes, likeliest_colours, winning_colours
 from legorize_addon.core.unit_bricks.surface_samples import SurfaceSamples
 from tests.core.solids import joined, reversed_mesh, sphere
 from tests.core.textured import Stages, blob, cells, painted, rgb_of, stages, turned_about_z
@@ -213,3 +214,34 @@ def test_no_votes_at_all_leave_the_colour_open():
     nothing = samples_at(np.zeros((0, 3)), [])
     found = likeliest_colours(nothing, outer_air(seen), seen, load_catalogue()).winners(seen)
     np.testing.assert_array_equal(found, np.full(8, COLOUR_ANY))
+
+
+@pytest.mark.parametrize(("weight", "code"), [(None, 15), (0.9, 15), (3.0, 0)])
+def test_a_weighted_pupil_wins_over_the_white_around_it(weight, code):
+    """A third of black on white is white; if it counts four times as much, the cell is black."""
+    solid = np.ones((1, 1, 1), bool)
+    samples = samples_at([[1.0, 0.2 + 0.1 * k, 0.5] for k in range(6)], [0, 0, 15, 15, 15, 15])
+    if weight is not None:
+        samples = replace(samples, weight=np.where(samples.colour == 0, weight, 0.0))
+    [found] = likeliest_colours(samples, outer_air(solid), solid, load_catalogue()).winners(solid)
+    assert found == code
+
+
+@pytest.mark.parametrize(("weight", "code"), [(None, 71), (0.0, 71), (3.0, 0)])
+def test_weighted_cells_take_no_mixture(weight, code):
+    """Of black and white in nearly equal parts with a rim of grey, grey is the likest; where it counts, black is."""
+    solid = np.ones((1, 1, 1), bool)
+    samples = samples_at([[1.0, 0.05 + 0.1 * k, 0.5] for k in range(9)], [0, 0, 0, 0, 71, 71, 15, 15, 15])
+    samples = samples if weight is None else replace(samples, weight=np.full(9, weight))
+    ballot = likeliest_colours(samples, outer_air(solid), solid, load_catalogue())
+    assert ballot.winners(solid) == code
+    assert ballot.codes[ballot.cost.argmin()] == code
+
+
+def test_weights_of_cells_are_the_means_of_their_surface():
+    """By area, 0 where no surface is; there are none without weights."""
+    samples = samples_at([[0.5, 0.5, 0.5], [0.5, 0.5, 1.5], [0.5, 0.5, 1.5], [0.5, 0.5, 9.0]], [0] * 4)
+    samples = replace(samples, area=np.array([1.0, 1, 3, 1]), weight=np.array([2.0, 0, 4, 9]))
+    cell, seen = np.array([0, 1, 1, -1]), np.array([[[True, True, True, False]]])
+    np.testing.assert_array_equal(cell_weights(cell, samples, seen), [2, 3, 0])
+    assert cell_weights(cell, replace(samples, weight=None), seen) is None

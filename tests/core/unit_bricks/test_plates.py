@@ -212,3 +212,25 @@ def test_middle_setting_keeps_volume():
     """The model with plates has the volume of the mesh within a few percent."""
     build = legorize(painted(sphere(24), RED), Settings(width=24))
     assert build.grid.solid.sum() * 64 * 3.2 == pytest.approx(volume(build.mesh), rel=0.04)
+
+
+@pytest.mark.parametrize("worth", [0.0, 0.1])
+@pytest.mark.parametrize(("factor", "plates"), [(1.0, True), (3.0, False)])
+def test_where_shape_counts_more_plates_pay_sooner(worth, factor, plates):
+    """Two plates of three, which save less than plates have to, become a brick unless their error counts more."""
+    share = np.concatenate([column(1, 1, 1), column(1, 1, 0), column(0, 0, 0)])
+    factors = np.ones(share.shape)
+    factors[3:6] = factor
+    found = settle_plates(share >= 0.5, share, Detail(np.array([True] * 3), 0.5, worth), factors)
+    assert found[5, 0, 0] == plates
+
+
+@pytest.mark.parametrize(("weight", "several"), [(0.0, False), (3.0, True)])
+def test_where_surface_counts_more_a_column_keeps_its_colours(weight, several):
+    """A blue plate in a red column, which differs too little, stays where it counts more."""
+    votes = np.array([[0, 1.0], [0, 1.0], [1.0, 0]])
+    ballot = Ballot(np.array([BLUE, RED], np.int16), votes, votes, 10.0 * (1 - np.eye(2)), np.full(3, weight))
+    colour = np.array([RED, RED, BLUE], np.int16)[:, None, None]
+    for worth in (0.0, 0.01):
+        found = settle_colours(colour, np.ones((3, 1, 1), bool), ballot, Detail(np.array([True]), 0.3, worth))
+        assert (found[2, 0, 0] == BLUE) == several

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -126,3 +127,14 @@ def test_only_lone_bricks_change_and_only_to_colours_beside_them(seed):
         assert found[tuple(place)] in found[near][seen[near]]
         assert (found[near][seen[near]] == found[tuple(place)]).sum() > 1
     np.testing.assert_array_equal(without_specks(found, seen, ballot, height=1), found)
+
+
+@pytest.mark.parametrize(("weight", "becomes"), [(0.0, WHITE), (0.99, WHITE), (1.0, GREY), (3.0, GREY)])
+def test_weighted_surface_has_no_specks(weight, becomes):
+    """What counts at least twice as much as usual keeps its colour, even one that its surface hardly has."""
+    colour = np.full((1, 3, 3), WHITE, dtype=np.int16)
+    colour[0, 1, 1] = GREY
+    votes = np.tile([0, 1.0, 0, 0], (9, 1))
+    votes[4] = [0.4, 0.5, 0, 0.1]
+    ballot = replace(ballot_of(votes), weight=np.where(np.arange(9) == 4, weight, 0.0))
+    assert without_specks(colour, np.ones(colour.shape, bool), ballot, height=1)[0, 1, 1] == becomes
