@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.progress import silent
 from legorize_addon.core.statics import search as module
 from legorize_addon.core.statics.collapse import is_collapse, least_clutch, least_imbalance
-from legorize_addon.core.statics.equilibrium import AIMS, Aim, is_equilibrium
+from legorize_addon.core.statics.equilibrium import AIMS, Aim, Balance, is_equilibrium
 from legorize_addon.core.statics.forces import HOLD, Ground
 from legorize_addon.core.statics.search import Work, search
 from legorize_addon.core.statics.upright import upright
@@ -152,6 +153,19 @@ def test_too_many_loose_bricks_are_not_tried(monkeypatch) -> None:
     monkeypatch.setattr(module, "REGION", 6)
     _, found = looked(bricks, programme=0, clutch=0.9 * limit, ground=Ground.BASEPLATE, aims=(Aim(0.01, 0.0, 9),))
     assert (found.found, found.collapse) == (False, False)
+
+
+def test_a_motion_that_tears_all_apart_is_not_asked(monkeypatch) -> None:
+    """A programme of as many lumps as there are bricks would take minutes; of fewer it is asked."""
+    bricks = table(*stair(12))
+    whole = equations(bricks, ground=Ground.BASEPLATE)
+    start = Balance(np.zeros(len(whole.contacts.least)), False, np.zeros(len(whole.loads)), False, 0)
+    asked: list[int] = []
+    monkeypatch.setattr(module, "least_imbalance", lambda _, lump, **__: asked.append(len(np.unique(lump))))
+    monkeypatch.setattr(module, "LOOSE", 5)
+    for lump in (np.arange(12), np.arange(12) // 3):
+        assert not module._torn(whole, start, lump, 0, silent).collapse
+    assert asked == [4]
 
 
 def test_lumps_hang_together() -> None:
