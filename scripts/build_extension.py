@@ -65,17 +65,20 @@ def main() -> None:
     parser.add_argument(
         "--python", choices=PYTHONS, help="only for this Python of Blender, half as large (default: for all)"
     )
+    parser.add_argument(
+        "--no-wheels", action="store_true", help="for a Blender whose Python has the libraries, such as Debian's own"
+    )
     parser.add_argument("--out", type=Path, default=ROOT / "dist", help="folder for the zips and the cached wheels")
     chosen = parser.parse_args()
     platforms = chosen.platform or ([here] if here else [])
     if not platforms:
         parser.error(f"There are no wheels for this machine ({platform.machine()}): choose a --platform.")
-    for path in build(platforms, chosen.out, python=chosen.python):
+    for path in build(platforms, chosen.out, python=chosen.python, wheels=not chosen.no_wheels):
         print(path)
         print(sizes(path))
 
 
-def build(platforms: list[str], out: Path, *, python: str | None = None) -> list[Path]:
+def build(platforms: list[str], out: Path, *, python: str | None = None, wheels: bool = True) -> list[Path]:
     """Build one zip for each platform.
 
     Parameters
@@ -86,6 +89,8 @@ def build(platforms: list[str], out: Path, *, python: str | None = None) -> list
         Folder for the zips; downloaded wheels are kept in ``out/wheels``.
     python : str, optional
         Key of ``PYTHONS`` whose wheels alone are packed, instead of all.
+    wheels : bool, optional
+        Whether any are packed.
 
     Returns
     -------
@@ -94,6 +99,8 @@ def build(platforms: list[str], out: Path, *, python: str | None = None) -> list
     """
     out.mkdir(parents=True, exist_ok=True)
     pythons, ending = ([python], f"-python{python}") if python else (list(PYTHONS), "")
+    if not wheels:
+        pythons, ending = [], "-no-wheels"
     return [_build_one(name, fetch_wheels(name, out / "wheels", pythons), out.resolve(), ending) for name in platforms]
 
 
@@ -190,7 +197,8 @@ def stage(folder: Path, name: str, wheels: list[Path]) -> None:
         shutil.copy(wheel, folder / "wheels")
     named = json.dumps([f"./wheels/{wheel.name}" for wheel in wheels])  # a list of JSON is one of TOML too
     # plain keys have to stand above the first table
-    added = f'platforms = ["{name}"]\nwheels = {named}\n\n[permissions]'
+    packed = f"wheels = {named}\n" if wheels else ""
+    added = f'platforms = ["{name}"]\n{packed}\n[permissions]'
     manifest = (ROOT / "blender_manifest.toml").read_text(encoding="utf-8").replace("[permissions]", added, 1)
     (folder / "blender_manifest.toml").write_text(manifest, encoding="utf-8")
 

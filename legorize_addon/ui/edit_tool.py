@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from pathlib import Path
 from typing import Any, Final
 
 import bpy
@@ -27,6 +28,9 @@ from .properties import current_build
 from .tab import BuildTab, draw_wrapped
 
 TOOL: Final = "legorize.edit_bricks"
+ICON: Final = str(Path(__file__).with_name("icons") / "edit_bricks")
+"""File of the icon, without its ending, as Blender wants it; drawn by ``scripts/draw_icon.py``."""
+
 ICONS: Final = {"recolour": "COLOR", "delete": "TRASH", "force": "UV_SYNC_SELECT", "lock": "LOCKED", "forbid": "CANCEL"}
 OUTLINE: Final = (1.0, 0.55, 0.0, 1.0)
 """Orange, as Blender's own outline of what is selected."""
@@ -55,7 +59,7 @@ class LEGORIZE_WT_edit(bpy.types.WorkSpaceTool):
         "Click on a brick of a model to pick it, with Shift for several; right click to recolour, lock, swap, forbid "
         "or delete it"
     )
-    bl_icon = "ops.generic.select"
+    bl_icon = ICON
     bl_keymap = (
         (LEGORIZE_OT_pick.bl_idname, {"type": "LEFTMOUSE", "value": "PRESS"}, None),
         (

@@ -1,11 +1,13 @@
 #!/bin/sh
-# make_blender.sh ROOT: lay a Debian stable tree with its real Blender under ROOT (about a minute, 1.3 GB).
+# make_blender.sh ROOT [SUITE]: lay a Debian tree with its real Blender under ROOT (about a minute, 1.3 GB). SUITE is
+# trixie (default), or sid: the newest Blender, on a Python for which the libraries come from Debian as well.
 # Needs Debian and root. Nothing is mounted, so ROOT can be removed like any other folder.
 set -eu
 root=$1
-suite=trixie
+suite=${2:-trixie}
 packages="blender python3-numpy python3-requests python3-zstandard xvfb xauth imagemagick
 libgl1-mesa-dri libegl1 libgl1 libglx-mesa0 fonts-dejavu-core"
+[ "$suite" = trixie ] || packages="$packages python3-cattr python3-scipy python3-sklearn python3-pydyf"
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C
 
 stamp="$suite $(echo $packages)"

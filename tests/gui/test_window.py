@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from scripts.build_extension import build
+from scripts.build_extension import PYTHONS, build
 from scripts.run import TREE
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -36,7 +36,8 @@ def tree() -> Path:
 def place(tree: Path) -> Iterator[Path]:
     """Return a folder inside the tree with the zip, the sample and the steps; removed in the end."""
     place = Path(tempfile.mkdtemp(prefix="legorize-", dir=tree / "tmp"))
-    [extension] = build(["linux-x64"], ROOT / "dist")
+    # the Python of a newer Debian than ours has its libraries from there
+    [extension] = build(["linux-x64"], ROOT / "dist", wheels=python_of(tree) in PYTHONS)
     shutil.copy(extension, place / "legorize.zip")
     shutil.copy(ROOT / "assets" / "sample.glb", place)
     shutil.copy(Path(__file__).with_name("drive.py"), place)
@@ -54,6 +55,12 @@ def seen(tree: Path, place: Path) -> dict[str, Any]:
     window = ["blender", "--gpu-backend", "opengl", "--enable-event-simulate", "-p", "0", "0", "1600", "900"]
     run_inside(tree, inside, *screen, *window, "-P", f"{inside}/drive.py", "--", f"{inside}/sample.glb", inside)
     return json.loads((place / "seen.json").read_text(encoding="utf-8"))
+
+
+def python_of(tree: Path) -> str:
+    """Return the version of Python in a tree, such as 3.13."""
+    line = ["chroot", str(tree), "python3", "-c", "import sys; print('{}.{}'.format(*sys.version_info))"]
+    return subprocess.run(line, capture_output=True, text=True, check=True).stdout.strip()
 
 
 def run_inside(tree: Path, inside: str, *command: str) -> None:
