@@ -16,6 +16,7 @@ import argparse
 import math
 import sys
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Final
 
@@ -56,7 +57,7 @@ def icon() -> bytes:
     """Return the file: a brick of two studs, the front one picked."""
     corners, colours = bytearray(), bytearray()
     for polygon, colour in shapes():
-        for second, third in zip(polygon[1:], polygon[2:], strict=False):
+        for second, third in pairwise(polygon[1:]):
             for x, y in (polygon[0], second, third):
                 corners += bytes((round(x), round(y)))
                 colours += bytes((*colour, 255))

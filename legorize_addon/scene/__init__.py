@@ -29,7 +29,7 @@ from .builds import (
 from .collections import clear_build, read_bricks, show_build, steps_of
 from .colour_errors import COLOUR_ERROR, colour_error_of, surface_of
 from .curves import add_lines
-from .duplicates import adopt_copies, copied_roots, is_copied_root
+from .duplicates import adopt_copies, copied_roots, is_bare_root, is_copied_root
 from .hand_changes import hand_remark
 from .hidden_sources import orphans, show_orphans
 from .instancing import (
@@ -114,6 +114,7 @@ __all__ = [
     "hand_remark",
     "has_input",
     "hidden_side",
+    "is_bare_root",
     "is_build",
     "is_copied_root",
     "is_own",

@@ -19,6 +19,9 @@ from .state import VERSION, is_build, state_of
 LAYER_KEY: Final = "legorize_layer"
 ROLE_KEY: Final = "legorize_role"
 OWN_KEY: Final = "legorize_own"
+MODEL_KEY: Final = "legorize_model"
+"""Key, on roots, of a word that no other model has: a root that was pasted tells by it what it is a copy of."""
+
 LINES_KEY: Final = "legorize_lines"
 """Key, on curves, of the trajectories in a layer of a build."""
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
+from uuid import uuid4
 
 import bpy
 import numpy as np
@@ -27,6 +28,7 @@ from .assembly_columns import Columns, assembly_columns
 from .brick_points import MARGIN, NO_MARGIN, box_corners, points_mesh
 from .builds import (
     LAYER_KEY,
+    MODEL_KEY,
     OWN_KEY,
     ROLE_KEY,
     all_builds,
@@ -213,6 +215,7 @@ def _add_root(
     build: bpy.types.Collection, place: Matrix, parent: tuple[bpy.types.Object, Matrix] | None
 ) -> bpy.types.Object:
     root = _own(build, bpy.data.objects.new(build.name, None))
+    root[MODEL_KEY] = uuid4().hex
     root.empty_display_size = STUD
     if parent is not None:
         root.parent, root.matrix_parent_inverse = parent

@@ -1,19 +1,21 @@
-"""Duplicates of a build's root, as Shift-D and Alt-D make them, become builds of their own.
+"""Duplicates of a build's root, as Shift-D, Alt-D and Ctrl-C with Ctrl-V make them, become builds of their own.
 
 Blender copies the objects that are selected, and leaves the copies in the
-collections of the originals. So a copied root stands in the build that it came
-from, often without anything that hangs on it. It gets a collection with layers,
+collections of the originals, or in the active one if they are pasted. So a
+copied root stands in the build that it came from, or alone, often without
+anything that hangs on it. It gets a collection with layers,
 plane and points, copied where Blender has not, and the state of the build.
 """
 
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
+from uuid import uuid4
 
 import bpy
 
 from .brick_tree import SECTION
-from .builds import LAYER_KEY, ROLE_KEY, builds, damage, is_own, layers_of, line_objects, point_objects
+from .builds import LAYER_KEY, MODEL_KEY, ROLE_KEY, builds, damage, is_own, layers_of, line_objects, point_objects
 from .instancing import bricks_modifier, set_input
 from .placing import collection_around, layer_collections
 from .state import BUILD_KEY, state_of
@@ -29,10 +31,19 @@ def is_copied_root(thing: bpy.types.Object) -> bool:
     return thing.type == "EMPTY" and is_own(thing) and free and thing.empty_display_type != "SINGLE_ARROW"
 
 
+def is_bare_root(scene: bpy.types.Scene, thing: bpy.types.Object) -> bool:
+    """Tell whether an object is the root of a model without the model: pasted, here or from another file."""
+    return is_copied_root(thing) and not any(thing in build.all_objects[:] for build in builds(scene))
+
+
 def copied_roots(build: bpy.types.Collection) -> list[bpy.types.Object]:
-    """Return the copies of the root of a build that are no builds yet, by name."""
+    """Return the copies of the root of a build that are no builds yet, by name: those in it, and those pasted."""
     root = state_of(build).root
-    copies = [thing for thing in build.all_objects if thing != root and is_copied_root(thing)]
+    copies = {thing for thing in build.all_objects if thing != root and is_copied_root(thing)}
+    word = root.get(MODEL_KEY) if root else None
+    for scene in root.users_scene if word else ():
+        alike = [thing for thing in scene.objects if thing.get(MODEL_KEY) == word and thing != root]
+        copies |= {thing for thing in alike if is_bare_root(scene, thing)}
     return sorted(copies, key=lambda thing: thing.name)
 
 
@@ -70,7 +81,10 @@ def _adopted(scene: bpy.types.Scene, build: bpy.types.Collection, root: bpy.type
     for layer in layers:
         new.children.link(copies[layer])
     copied = {_kind(thing, layers): thing for thing in build.all_objects if is_own(thing) and thing.parent == root}
-    _move([root], new, build)
+    for home in root.users_collection:
+        home.objects.unlink(root)
+    new.objects.link(root)
+    root[MODEL_KEY] = uuid4().hex
     plane = _taken(copied, state.plane, layers)
     _place(plane, root, new, build)
     for points in (*point_objects(build), *line_objects(build)):

@@ -7,11 +7,12 @@ from typing import Any, Final
 
 import bpy
 from bpy.app.translations import pgettext_iface as iface
+from bpy.app.translations import pgettext_n as n
 
 from ..core.progress import duration
 from ..core.shopping import SECONDS_A_BRICK
 from ..core.units import BRICK, STUD
-from ..scene import builds, can_show_ghost, check_lines, damage, orphans, state_of
+from ..scene import builds, can_show_ghost, check_lines, damage, is_bare_root, orphans, state_of
 from ..view import (
     ERROR_LEGEND,
     LEGEND,
@@ -50,6 +51,10 @@ from .updating import LEGORIZE_OT_build_beside, LEGORIZE_OT_update
 from .weakest import LEGORIZE_OT_show_weakest, LEGORIZE_OT_show_worst_colour
 
 MM_PER_CM: Final = 10.0
+
+BARE: Final = n(
+    "{} is the root of a model of another file, without its bricks: File > Append brings the collection of a model"
+)
 
 
 class LEGORIZE_PT_main(Tab, bpy.types.Panel):
@@ -113,6 +118,9 @@ class LEGORIZE_PT_main(Tab, bpy.types.Panel):
                 "ERROR",
             )
             self.layout.operator(LEGORIZE_OT_show_originals.bl_idname, icon="HIDE_OFF")
+        active = context.active_object
+        if active and is_bare_root(context.scene, active):
+            draw_wrapped(context, self.layout, iface(BARE).format(active.name), "ERROR")
         build = current_build(context.scene)
         sentence = build and damage(build)
         if sentence:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ import pytest
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.scene.builds import builds, damage, layers_of, point_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
-from legorize_addon.scene.duplicates import adopt_copies
+from legorize_addon.scene.duplicates import adopt_copies, is_bare_root
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import state_of
 from legorize_addon.ui import duplicates
@@ -77,6 +79,48 @@ def test_a_copied_root_is_a_whole_model(build, cube, linked: bool, everything: b
     clear_build(bpy.context.scene, copy)
     assert not cube.hide_viewport
     assert not bpy.data.collections
+
+
+def paste(root: bpy.types.Object, path: Path, scene: bpy.types.Scene) -> bpy.types.Object:
+    """Append a root from a file, as Ctrl-V does from the one that Ctrl-C has written; return it."""
+    bpy.data.libraries.write(str(path), {root})
+    with bpy.data.libraries.load(str(path)) as (there, here):
+        here.objects = there.objects
+    [pasted] = here.objects
+    scene.collection.objects.link(pasted)
+    return pasted
+
+
+def test_a_pasted_root_is_a_whole_model(build, tmp_path: Path) -> None:
+    """Ctrl-C and Ctrl-V give a model of its own; of two that are alike, the one that was copied, and only once."""
+    scene, root = bpy.context.scene, state_of(build).root
+    duplicate()
+    [(_, other)] = adopt_copies(scene)
+    show_layers(scene, other, 2)
+    before = seen()
+    pasted = paste(state_of(other).root, tmp_path / "buffer.blend", scene)
+    assert is_bare_root(scene, pasted)
+    [(original, copy)] = adopt_copies(scene)
+    assert original == other
+    assert state_of(copy).root == pasted
+    assert state_of(copy).top_layer == 2
+    assert pasted.users_collection[:] == (copy,)
+    assert len(seen()) == len(before) + len([row for row in before if row[2] > 25])
+    assert not is_bare_root(scene, pasted)
+    assert not adopt_copies(scene)
+    again = paste(pasted, tmp_path / "again.blend", scene)
+    assert adopt_copies(scene)[0][0] == copy
+    assert not is_bare_root(scene, again)
+    assert not is_bare_root(scene, root)
+
+
+def test_the_root_of_a_model_that_is_not_there_stays_bare(build, tmp_path: Path) -> None:
+    """What was copied in another file has nothing to be made of; it is told by the panel, and left alone."""
+    scene = bpy.context.scene
+    pasted = paste(state_of(build).root, tmp_path / "buffer.blend", scene)
+    clear_build(scene, build)
+    assert not adopt_copies(scene)
+    assert is_bare_root(scene, pasted)
 
 
 def test_nothing_to_adopt(build) -> None:
