@@ -48,7 +48,7 @@ def test_zip_holds_what_runs_and_no_more(extension: Path) -> None:
     """The package, its data, the licence and the wheels; no tests, scripts, samples or numpy."""
     names = ZipFile(extension).namelist()
     assert {"__init__.py", "blender_manifest.toml", "LICENSE", "assets/parts.csv"} <= set(names)
-    package = (path for path in (ROOT / "legorize_addon").rglob("*") if path.suffix in {".py", ".css", ".js"})
+    package = (path for path in (ROOT / "legorize_addon").rglob("*") if path.suffix in {".py", ".css", ".js", ".dat"})
     sources = {path.relative_to(ROOT).as_posix() for path in package}
     assert sources == {name for name in names if name.startswith("legorize_addon/")}
     assert not [name for name in names if re.match(r"(tests|scripts)/|wheels/numpy|assets/sample|.*\.py[co]$", name)]

@@ -41,7 +41,7 @@ TEXTS = [
     *(path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*"))),
     *(path for kind in ("*.md", "*.toml", "*.cff", ".git?*", ".pre-commit*") for path in sorted(ROOT.glob(kind))),
 ]
-BINARY = {".blend", ".glb", ".jpg", ".npz", ".png", ".pyc"}
+BINARY = {".blend", ".dat", ".glb", ".jpg", ".npz", ".png", ".pyc"}
 # sources of facts and standards that a text may point to; an index of packages is none
 HOSTS = {
     *("keepachangelog.com", "semver.org", "doi.org", "www.ldraw.org", "library.ldraw.org", "rebrickable.com"),

@@ -39,6 +39,12 @@ NAVIGATION: Final = frozenset(
 """Events that are allowed while a job runs: looking around, but not changing the scene."""
 
 
+def leave_mode(context: bpy.types.Context) -> None:
+    """Go to Object Mode from any other, in which objects hold what was changed last; undo comes back to it."""
+    if context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
 class Working(Reporting):
     """What takes long: done in a worker thread where there is a window, and straight through where there is none.
 
@@ -53,8 +59,6 @@ class Working(Reporting):
         """Tell whether there is something to work on, and why not."""
         if job.running():
             cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
-        elif context.mode != "OBJECT":
-            cls.poll_message_set("Leave Edit Mode first.")
         elif not chosen_sources(context):
             cls.poll_message_set(cls.nothing_chosen)
         else:
@@ -91,11 +95,13 @@ class Working(Reporting):
         self._close(context)
 
     def _work_now(self, context: bpy.types.Context) -> set[str]:
+        leave_mode(context)
         order = self._take_order(context)
         return self._show(context, order, order.work(lambda stage, share: None))
 
     def _start(self, context: bpy.types.Context) -> set[str]:
         context.window_manager.legorize_said = ""
+        leave_mode(context)
         return self._begin(context, self._take_order(context))
 
     def _begin(self, context: bpy.types.Context, order: Any) -> set[str]:

@@ -151,13 +151,8 @@ class LEGORIZE_OT_open_ldraw(Browsing, Judging, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Tell whether nothing else is at work."""
-        if job.running():
-            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
-        elif context.mode != "OBJECT":
-            cls.poll_message_set("Leave Edit Mode first.")
-        else:
-            return True
-        return False
+        cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+        return not job.running()
 
     def _take_order(self, context: bpy.types.Context) -> ExistingRequest:
         from ..core.existing import Existing

@@ -19,7 +19,7 @@ from legorize_addon.core.settings import Settings
 from legorize_addon.core.units import STUD
 from legorize_addon.scene.builds import builds
 from legorize_addon.scene.collections import clear_build, read_bricks
-from legorize_addon.scene.state import BUILD_KEY
+from legorize_addon.scene.state import BUILD_KEY, state_of
 from legorize_addon.ui import build as operators
 from legorize_addon.ui import job, panels
 from legorize_addon.ui.properties import current_build
@@ -232,10 +232,6 @@ def test_buttons_say_why_they_are_grey(box, monkeypatch) -> None:
         bpy.ops.legorize.clear()
     with pytest.raises(RuntimeError, match="Legorize an object first"):
         bpy.ops.legorize.export_ldr(filepath="x.ldr")
-    bpy.ops.object.mode_set(mode="EDIT")
-    with pytest.raises(RuntimeError, match="Edit Mode"):
-        bpy.ops.legorize.build()
-    bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.object.select_all(action="DESELECT")
     with pytest.raises(RuntimeError, match="Select an object"):
         bpy.ops.legorize.build()
@@ -246,6 +242,25 @@ def test_buttons_say_why_they_are_grey(box, monkeypatch) -> None:
         bpy.ops.legorize.build()
     job.stop()
     assert operators.LEGORIZE_OT_build.poll(bpy.context)
+
+
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "WEIGHT_PAINT"])
+def test_the_button_leaves_other_modes(box, mode: str) -> None:
+    """In the middle of editing the object is taken with its last changes, and Blender is in Object Mode then."""
+    bpy.context.scene.legorize.settings.width = 4
+    layers = []
+    for change in (False, True):
+        bpy.ops.object.mode_set(mode=mode)
+        if change and mode == "EDIT":
+            bpy.ops.mesh.select_all(action="SELECT")
+            bpy.ops.transform.resize(value=(1, 1, 3))
+        assert bpy.ops.legorize.build() == {"FINISHED"}
+        assert bpy.context.mode == "OBJECT"
+        layers.append(state_of(current_build(bpy.context.scene)).layers)
+        bpy.ops.legorize.clear()
+        box.select_set(True)
+        bpy.context.view_layer.objects.active = box
+    assert (layers[1] > 2 * layers[0]) == (mode == "EDIT")
 
 
 def test_opening_a_file_stops_the_job() -> None:
