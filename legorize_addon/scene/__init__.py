@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from .animated_tree import FIRST, FRAMES, animated_tree
 from .assembly_columns import ASIDE, JOINED, REMOVED, TIER, there_after, way_after
-from .brick_points import MARGIN, NO_MARGIN, box_corners, middles, positions, read_column, read_columns
-from .brick_tree import EXPLODE, HEAT_MAP, HEAT_PARTS, PALE, PARTS, STEPS, brick_tree
+from .brick_points import MARGIN, NO_MARGIN, ROW, box_corners, middles, positions, read_column, read_columns
+from .brick_tree import EXPLODE, HEAT_MAP, HEAT_PARTS, HIDDEN_ROLES, PALE, PARTS, STEPS, brick_tree
 from .builds import (
     LAYER_KEY,
     ROLE_KEY,
@@ -68,6 +68,7 @@ __all__ = [
     "HEAT_KEY",
     "HEAT_MAP",
     "HEAT_PARTS",
+    "HIDDEN_ROLES",
     "JOINED",
     "LAYER_KEY",
     "MARGIN",
@@ -79,6 +80,7 @@ __all__ = [
     "PART_KEY",
     "REMOVED",
     "ROLE_KEY",
+    "ROW",
     "STEPS",
     "TIER",
     "Detail",

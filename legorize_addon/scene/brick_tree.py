@@ -9,7 +9,8 @@ lifts each piece by its attribute ``tier``. From one on, "Steps" leaves what is
 there after that many building steps, by the attributes ``step``, in which a
 brick is placed, and ``removed``; until the step ``joined``, a piece stands
 ``aside``. With "Pale" a brick that was there before the last step counts so many
-variants on: there the same parts are pale.
+variants on: there the same parts are pale. "Hidden roles" has a bit for each
+role whose bricks are left out, by their attribute ``role``.
 
 See :mod:`.animated_tree` for the one that follows the frames.
 """
@@ -26,7 +27,7 @@ from ..core.units import PLATE
 
 TREE_NAME: Final = "Legorize Bricks"
 TREE_KEY: Final = "legorize_tree"
-TREE_VERSION: Final = 6
+TREE_VERSION: Final = 7
 ANIMATED_KEY: Final = "legorize_animated"
 PARTS: Final = "Parts"
 SECTION: Final = "Section"
@@ -35,6 +36,7 @@ HEAT_MAP: Final = "Heat map"
 EXPLODE: Final = "Explode"
 STEPS: Final = "Steps"
 PALE: Final = "Pale"
+HIDDEN_ROLES: Final = "Hidden roles"
 
 INTERFACE: Final = (
     ("Geometry", "INPUT", "NodeSocketGeometry"),
@@ -45,6 +47,7 @@ INTERFACE: Final = (
     (EXPLODE, "INPUT", "NodeSocketFloat"),
     (STEPS, "INPUT", "NodeSocketInt"),
     (PALE, "INPUT", "NodeSocketInt"),
+    (HIDDEN_ROLES, "INPUT", "NodeSocketInt"),
     ("Geometry", "OUTPUT", "NodeSocketGeometry"),
 )
 
@@ -92,6 +95,13 @@ NODES: Final[dict[str, Node]] = {
     "There": ("FunctionNodeBooleanMath", (-200, 1250), {"operation": "AND"}, {}),
     "Both": ("FunctionNodeBooleanMath", (0, 1100), {"operation": "AND"}, {}),
     "Shown": ("GeometryNodeSwitch", (0, 300), {"input_type": "BOOLEAN"}, {}),
+    "Role": ("GeometryNodeInputNamedAttribute", (-1000, 650), {"data_type": "INT"}, {"Name": "role"}),
+    "Bit": ("ShaderNodeMath", (-800, 650), {"operation": "POWER"}, {0: 2.0}),
+    "Shifted": ("ShaderNodeMath", (-600, 650), {"operation": "DIVIDE"}, {}),
+    "Whole": ("ShaderNodeMath", (-400, 650), {"operation": "FLOOR"}, {}),
+    "Lowest": ("ShaderNodeMath", (-200, 650), {"operation": "MODULO"}, {1: 2.0}),
+    "Role shown": ("FunctionNodeCompare", (0, 650), {"data_type": "FLOAT", "operation": "LESS_THAN"}, {1: 0.5}),
+    "Visible": ("FunctionNodeBooleanMath", (100, 500), {"operation": "AND"}, {}),
     "Instances": ("GeometryNodeInstanceOnPoints", (200, 0), {}, {"Pick Instance": True}),
     "Tier": ("GeometryNodeInputNamedAttribute", (-400, -600), {"data_type": "INT"}, {"Name": "tier"}),
     "Lift": ("ShaderNodeMath", (-200, -600), {"operation": "MULTIPLY"}, {}),
@@ -164,7 +174,15 @@ LINKS: Final[tuple[Link, ...]] = (
     ("Kept", "Result", "Both", 0),
     ("There", "Boolean", "Both", 1),
     ("Both", "Boolean", "Shown", "True"),
-    ("Shown", "Output", "Instances", "Selection"),
+    ("Role", "Attribute", "Bit", 1),
+    ("In", HIDDEN_ROLES, "Shifted", 0),
+    ("Bit", "Value", "Shifted", 1),
+    ("Shifted", "Value", "Whole", 0),
+    ("Whole", "Value", "Lowest", 0),
+    ("Lowest", "Value", "Role shown", 0),
+    ("Shown", "Output", "Visible", 0),
+    ("Role shown", "Result", "Visible", 1),
+    ("Visible", "Boolean", "Instances", "Selection"),
     ("Tier", "Attribute", "Lift", 0),
     ("In", EXPLODE, "Lift", 1),
     ("Lift", "Value", "Raised", "Z"),

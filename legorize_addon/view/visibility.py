@@ -17,8 +17,10 @@ from ..core.errors import BuildError
 from ..core.model import Bricks, Role, load_catalogue
 from ..scene import (
     FRAMES,
+    HIDDEN_ROLES,
     LAYER_KEY,
     ROLE_KEY,
+    ROW,
     Section,
     beyond,
     box_corners,
@@ -27,6 +29,7 @@ from ..scene import (
     bricks_of,
     change_tree,
     check_whole,
+    get_input,
     has_input,
     layer_collections,
     layers_of,
@@ -34,6 +37,8 @@ from ..scene import (
     middles,
     place_plane,
     point_objects,
+    read_column,
+    set_input,
     state_of,
 )
 from .steps import bricks_there, check_steps, do_steps, steps_done, ways
@@ -84,7 +89,15 @@ def show_role(build: bpy.types.Collection, role: Role, *, visible: bool) -> None
         Whether to show it.
     """
     state_of(build).show_role(role, visible=visible)
+    hidden = sum(1 << each for each, shown in roles_shown(build).items() if not shown)
     for points in point_objects(build):
+        modifier = bricks_modifier(points)
+        if modifier is not None and has_input(modifier, HIDDEN_ROLES):
+            if (read_column(points.data, "role") == role).any():
+                set_input(modifier, HIDDEN_ROLES, hidden)
+            # what an earlier version hid is shown below
+            if HIDDEN_KEY not in points:
+                continue
         if points.get(ROLE_KEY) != role or (HIDDEN_KEY in points) != visible:
             continue
         if visible:
@@ -261,15 +274,25 @@ def bricks_in_renders(build: bpy.types.Collection) -> tuple[Bricks, Mask, list[b
     check_whole(build)
     found = _shown_points(build)
     bricks = bricks_of(build, found)
-    shown = ~beyond(state_of(build).plane, middles(bricks, load_catalogue())) & bricks_there(build, found)
+    rows = np.concatenate([read_column(points.data, ROW) for points in found])
+    shown = ~np.concatenate([_off(points) for points in found])[np.argsort(rows, kind="stable")]
+    shown &= ~beyond(state_of(build).plane, middles(bricks, load_catalogue())) & bricks_there(build, found)
     if not shown.any():
         raise BuildError(f"The section hides all bricks of {build.name!r}: move it.")
     return bricks, shown, found
 
 
+def _off(points: bpy.types.Object) -> Mask:
+    """Tell which bricks of an object are of a role that is hidden in it, (n,)."""
+    modifier = bricks_modifier(points)
+    # in earlier versions whole objects are hidden
+    hidden = get_input(modifier, HIDDEN_ROLES) if has_input(modifier, HIDDEN_ROLES) else 0
+    return np.asarray(hidden >> read_column(points.data, "role") & 1 > 0)
+
+
 def _shown_points(build: bpy.types.Collection) -> list[bpy.types.Object]:
-    """Return the objects of bricks that renders show."""
-    return _in_shown_layers(build, point_objects(build))
+    """Return the objects of which renders show bricks."""
+    return [points for points in _in_shown_layers(build, point_objects(build)) if not _off(points).all()]
 
 
 def _line_corners(build: bpy.types.Collection) -> Floats:

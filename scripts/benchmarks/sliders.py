@@ -25,7 +25,7 @@ from legorize_addon.view.visibility import cut_away, roles_shown, show_layers, s
 from scripts.benchmarks.tables import Row, Table
 
 LIMIT: Final = 50.0
-"""Goal for each slider in ms."""
+"""Goal for each slider in ms, on the wall and of the processor."""
 
 SCENE: Final = 3.0
 """Goal for the making of the scene in CPU seconds."""
@@ -35,7 +35,7 @@ FILE: Final = 30.0
 
 MOVES: Final = 10
 LAYERS: Final = 60
-ROLES: Final = (Role.SHELL, Role.INSIDE, Role.PLATE, Role.OFFSET)
+ROLES: Final = (Role.SHELL, Role.INSIDE, Role.PLATE, Role.OFFSET, Role.SUPPORT_OUTSIDE)
 STEPS_A_LAYER: Final = 3
 BREADTH: Final = 200
 """Studs along x and y."""
@@ -85,9 +85,10 @@ def measure(*, bricks: int) -> list[Table]:
     rows.append(_row("step", [milliseconds(lambda step=step: show_steps(build, step)) for step in steps]))
     show_steps(build, 0)
     bpy.context.view_layer.update()
-    role = next(iter(roles_shown(build)))
-    switched = [milliseconds(lambda on=on: show_role(build, role, visible=on)) for on in (False, True) * (MOVES // 2)]
-    rows.append(_row("a role's switch", switched) | {"goal_met": None})
+    for what, role in (("a role's switch", next(iter(roles_shown(build)))), ("supports", Role.SUPPORT_OUTSIDE)):
+        ways = (False, True) * (MOVES // 2)
+        switched = [milliseconds(lambda on=on, role=role: show_role(build, role, visible=on)) for on in ways]
+        rows.append(_row(what, switched))
     where = f"at {bricks} bricks in Blender {bpy.app.version_string}"
     return [
         Table("scene", f"The scene {where}: within {SCENE:.0f} s, a file within {FILE:.0f} MB", (made,)),
@@ -151,11 +152,10 @@ def milliseconds(move: Callable[[], None]) -> tuple[float, float]:
 
 def _row(slider: str, taken: list[tuple[float, float]]) -> Row:
     wall, cpu = zip(*taken, strict=True)
-    middle = median(wall)
     return {
         "slider": slider,
-        "median_ms": middle,
+        "median_ms": median(wall),
         "most_ms": max(wall),
         "median_cpu_ms": median(cpu),
-        "goal_met": middle <= LIMIT,
+        "goal_met": max(median(wall), median(cpu)) <= LIMIT,
     }

@@ -150,14 +150,15 @@ def test_model_lies_over_its_source() -> None:
     np.testing.assert_allclose(np.linalg.norm(matrix[:3, :3], axis=0), 1 / scale / mm_per_unit, rtol=1e-6)
 
 
-def test_layers_and_roles_are_told_apart() -> None:
-    """A layer is a collection, named from the lowest; a role in it is an object; empty layers are left out."""
-    rows = [(ONE, 0, 0, 0, 0, 4), (ONE, 1, 0, 2, 0, 4, Role.PLATE), (ONE, 0, 0, 9, 0, 4, Role.SUPPORT_OUTSIDE)]
+def test_layers_and_supports_are_told_apart() -> None:
+    """A layer is a collection, named from the lowest, of the model and its supports; empty layers are left out."""
+    rows = [(ONE, 0, 0, 0, 0, 4), (ONE, 1, 0, 2, 0, 4, Role.PLATE), (ONE, 1, 0, 0, 0, 4, Role.SUPPORT_OUTSIDE)]
+    rows.append((ONE, 0, 0, 9, 0, 4, Role.SUPPORT_OUTSIDE))
     build = show(table(rows))
     assert [layer.name for layer in layers_of(build)] == ["Layer 001", "Layer 004"]
     assert [[points.name for points in layer.objects] for layer in layers_of(build)] == [
-        ["Layer 001 shell", "Layer 001 plate"],
-        ["Layer 004 support outside"],
+        ["Layer 001 bricks", "Layer 001 supports"],
+        ["Layer 004 supports"],
     ]
 
 

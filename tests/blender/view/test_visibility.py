@@ -14,8 +14,10 @@ from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.model.unit_grid import CELL_SIZE
 from legorize_addon.scene.brick_points import box_corners, middles
+from legorize_addon.scene.brick_tree import HIDDEN_ROLES, brick_tree
 from legorize_addon.scene.builds import builds, layers_of, point_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
+from legorize_addon.scene.instancing import bricks_modifier, change_tree
 from legorize_addon.scene.section import AXES, Section
 from legorize_addon.scene.state import BUILD_KEY
 from legorize_addon.view.visibility import cut_away, roles_shown, section_of, show_layers, show_role, shown_bricks
@@ -115,18 +117,66 @@ def test_roles_and_layers_do_not_meddle() -> None:
     assert places() == feet(bricks.take(lower))
 
 
+def as_before(build: bpy.types.Collection) -> list[bpy.types.Object]:
+    """Give objects of one role each the form that they had before trees knew of roles."""
+    tree = brick_tree().copy()
+    tree.interface.remove(next(socket for socket in tree.interface.items_tree if socket.name == HIDDEN_ROLES))
+    for points in point_objects(build):
+        change_tree(bricks_modifier(points), tree)
+        points["legorize_role"] = points.data.attributes["role"].data[0].value
+    return point_objects(build)
+
+
 def test_roles_keep_what_the_user_hid() -> None:
     """An object that the user hid is hidden after its role was switched off and on; the eye is not touched at all."""
-    build = show(table(ALL_ROLES))
-    first, second, third = [points for points in point_objects(build) if points["legorize_role"] == Role.SHELL]
-    first.hide_viewport, second.hide_render = True, True
-    third.hide_set(True)
-    for visible in (False, True):
-        show_role(build, Role.SHELL, visible=visible)
-        assert third.hide_get()
-    flags = [(points.hide_viewport, points.hide_render) for points in (first, second, third)]
-    assert flags == [(True, False), (False, True), (False, False)]
-    assert len(shown_bricks(build)) == len(ALL_ROLES) - 1
+    for change in (point_objects, as_before):
+        for each in builds(bpy.context.scene):
+            clear_build(bpy.context.scene, each)
+        build = show(table([(ONE, 0, 0, 3 * layer, 0, 4) for layer in range(4)]))
+        first, second, third, _ = change(build)
+        first.hide_viewport, second.hide_render = True, True
+        third.hide_set(True)
+        for visible in (False, True):
+            show_role(build, Role.SHELL, visible=visible)
+            assert third.hide_get()
+        flags = [(points.hide_viewport, points.hide_render) for points in (first, second, third)]
+        assert flags == [(True, False), (False, True), (False, False)]
+        assert len(shown_bricks(build)) == 3
+
+
+def test_roles_of_earlier_versions() -> None:
+    """Each of their objects has a role of its own, and is hidden itself; also if the tree has changed since."""
+    bricks = table([(ONE, 0, 0, 3 * layer, 0, 4, Role.PLATE if layer else Role.SHELL) for layer in range(3)])
+    build = show(bricks)
+    found = as_before(build)
+    for changed in (False, True):
+        show_role(build, Role.PLATE, visible=False)
+        assert [points.hide_render for points in found] == [False, True, True]
+        assert len(shown_bricks(build)) == len(places()) == 1
+        for points in found if changed else ():
+            change_tree(bricks_modifier(points), brick_tree())
+        show_role(build, Role.PLATE, visible=True)
+        assert not any(points.hide_render for points in found)
+        assert len(shown_bricks(build)) == len(places()) == 3
+
+
+def test_hidden_roles_and_steps_show_what_both_do() -> None:
+    """Roles stay hidden whatever else is shown, and all of them at once leave nothing to export."""
+    bricks = table(ALL_ROLES)
+    build = show(bricks)
+    hidden = (Role.SHELL, Role.OFFSET, Role.SUPPORT_KEPT)
+    for role in hidden:
+        show_role(build, role, visible=False)
+    left = bricks.take(~np.isin(bricks.role, hidden))
+    assert places() == feet(left)
+    cut_away(build, Section("z", 0.5))
+    lower = left.take(expected(left, Section("z", 0.5)))
+    assert places() == feet(lower)
+    assert_same(shown_bricks(build), lower)
+    for role in Role:
+        show_role(build, role, visible=False)
+    with pytest.raises(BuildError, match="no bricks to show"):
+        shown_bricks(build)
 
 
 def expected(bricks: Bricks, section: Section) -> np.ndarray:
