@@ -5,6 +5,7 @@
     python scripts/benchmark.py slicing   [MESH ...] [--out DIR]   against trimesh and shapely
     python scripts/benchmark.py units     [MESH ...] [--out DIR]   against trimesh, the exact rule, dense sampling
     python scripts/benchmark.py pipeline  [MESH ...] [--out DIR]   every stage, every result
+    python scripts/benchmark.py updates   [MESH ...] [--out DIR]   a setting changed after a run, and live previews
     python scripts/benchmark.py budget    [MESH ...] [--out DIR]   estimates against what builds take
     python scripts/benchmark.py prices    [MESH ...] [--out DIR]   cheapest models against the fewest bricks
     python scripts/benchmark.py owned     [MESH ...] [--out DIR]   models of classic boxes, nothing overdrawn
@@ -71,6 +72,7 @@ from scripts.benchmarks import (  # noqa: E402
     steps,
     supports,
     units,
+    updates,
 )
 from scripts.benchmarks.meshes import models_in  # noqa: E402
 from scripts.benchmarks.tables import Table, write  # noqa: E402
@@ -166,6 +168,9 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = MappingProxyType(
         "pipeline": of_models(
             "every stage on every model", pipeline.measure, numbers("--widths", [24, 48, 96], "studs"),
             number("--repeats", 1, "runs"),
+        ),
+        "updates": of_models(
+            "a setting changed after a run, and live previews", updates.measure, number("--width", 64, "studs"), RUNS
         ),
         "budget": of_models(
             "estimates against what builds take", budget.measure, numbers("--widths", [24, 48, 96], "studs")

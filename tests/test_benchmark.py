@@ -447,6 +447,19 @@ def test_published_command(box: Path, tmp_path: Path) -> None:
     assert price["bricks"] == median["bricks"] == published["bricks"] / default["bricks"]
 
 
+def test_updates_command(box: Path, tmp_path: Path) -> None:
+    """A row for each change, with its share of a full run, and one for each preview."""
+    assert benchmark.main(["updates", str(box), "--width", "8", "--repeats", "1", "--out", str(tmp_path)]) == 0
+    updates, previews = json.loads((tmp_path / "updates.json").read_text(encoding="utf-8"))["tables"].values()
+    assert [row["change"] for row in updates][:3] == ["supports none", "supports columns", "colours 7 to 5"]
+    for row in updates:
+        assert row["share"] == pytest.approx(row["update_s"] / row["full_s"])
+        assert row["goal_met"] == (row["share"] <= row["goal"])
+        assert row["bricks"] > 0
+    assert [row["preview"] for row in previews] == ["the first", "another size"]
+    assert all(row["cpu_s"] > 0 for row in previews)
+
+
 def test_budget_command(box: Path, tmp_path: Path) -> None:
     """One row a build, with the estimate beside what it took, and the errors over all of them."""
     tables = run(tmp_path, "budget", box, "--widths", 12)

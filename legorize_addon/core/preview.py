@@ -15,7 +15,7 @@ from .arrays import Floats
 from .colours import SurfaceColours
 from .drafting import gridded, hollowed
 from .errors import LimitError
-from .estimate import COUNTED, counted_size, estimate
+from .estimate import COUNTED, Measured, counted_size, estimate_of
 from .layout import lay_unjoined
 from .layout.learning import shipped
 from .memo import Memo, Trial
@@ -130,7 +130,8 @@ def preview(mesh: TriangleMesh, settings: Settings, memo: Memo) -> Generator[Non
     # now already: a slider that moves on drops this preview, and needs them again
     memo.keep(trial)
     yield
-    factor, studs, shown = _factor(mesh, ready, first, quick)
+    measured = trial.call("measured", (ready,), lambda: Measured.of(ready, "z"))
+    factor, studs, shown = _factor(mesh, ready, measured, first, quick)
     run = Run.of(quick, Overall({}, silent), trial)
     sized, scale, frame, _ = run.once(place_grid, scale_mesh(ready, factor), first * factor)
     *_, grid, _ = gridded(run, sized, repairs, surface, frame)
@@ -171,7 +172,9 @@ def _lay(run: Run, shell: UnitGrid) -> Bricks:
     return lay_unjoined(shell, run.parts.catalogue, rng=run.rng, tier="fast", filler=run.filler)
 
 
-def _factor(mesh: TriangleMesh, ready: TriangleMesh, first: float, quick: Settings) -> tuple[float, int, int]:
+def _factor(
+    mesh: TriangleMesh, ready: TriangleMesh, measured: Measured, first: float, quick: Settings
+) -> tuple[float, int, int]:
     """Return the factor from the first size to that of the preview, the studs asked for, and those of the preview."""
     if quick.size_by in COUNTED:
         quick = counted_size(mesh, quick)
@@ -181,13 +184,13 @@ def _factor(mesh: TriangleMesh, ready: TriangleMesh, first: float, quick: Settin
         wanted = model_scale(
             ready, size_by=quick.size_by, width=quick.width, height=quick.height, scale=quick.scale, cm=quick.cm
         )
-    studs = _studs(ready, quick, wanted)
+    studs = _studs(measured, quick, wanted)
     low, high = 0, studs
-    if _seconds(ready, quick, wanted) <= SECONDS:
+    if _seconds(measured, quick, wanted) <= SECONDS:
         return wanted, studs, studs
     while high - low > 1:
         middle = (low + high) // 2
-        if _seconds(ready, quick, wanted * middle / studs) <= SECONDS:
+        if _seconds(measured, quick, wanted * middle / studs) <= SECONDS:
             low = middle
         else:
             high = middle
@@ -196,14 +199,14 @@ def _factor(mesh: TriangleMesh, ready: TriangleMesh, first: float, quick: Settin
     return wanted * low / studs, studs, low
 
 
-def _studs(ready: TriangleMesh, quick: Settings, factor: float) -> int:
-    found = estimate(ready, _scaled(quick, factor))
+def _studs(measured: Measured, quick: Settings, factor: float) -> int:
+    found = estimate_of(measured, _scaled(quick, factor))
     return max(1, round(max(found.studs)))
 
 
-def _seconds(ready: TriangleMesh, quick: Settings, factor: float) -> float:
+def _seconds(measured: Measured, quick: Settings, factor: float) -> float:
     """Return about how many CPU seconds a preview takes if mesh and colours are there."""
-    expected = estimate(ready, _scaled(quick, factor)).stages
+    expected = estimate_of(measured, _scaled(quick, factor)).stages
     return sum(expected[name] for name in _REPEATED)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.errors import MeshError, SettingsError
-from legorize_addon.core.estimate import AGAIN, estimate
+from legorize_addon.core.estimate import AGAIN, Measured, estimate, estimate_of
 from legorize_addon.core.mosaic_estimate import estimate_mosaic
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
@@ -57,6 +57,15 @@ def test_bricks_and_cells_are_near_what_is_built(name, options):
     assert 1 / 1.5 < expected.bricks / len(build.bricks) < 1.5
     layers = build.grid.solid.any(axis=(1, 2, 3)).sum()
     assert abs(expected.layers - layers) <= 1
+
+
+def test_a_mesh_is_measured_once_for_all_settings(monkeypatch):
+    """What was measured gives the estimates of the mesh, without its triangles, also of sizes that are searched."""
+    measured = Measured.of(MESHES["blob"], "auto")
+    chosen = (Settings(width=24), Settings(size_by="parts", parts=500), Settings(size_by="scale", scale=3.0))
+    expected = [estimate(MESHES["blob"], each) for each in chosen]
+    monkeypatch.setattr(Measured, "of", None)
+    assert [estimate_of(measured, each) for each in chosen] == expected
 
 
 def test_size_is_that_of_the_settings():
