@@ -11,7 +11,7 @@ from .half_stages import given_bricks, lie_apart
 from .model import Assembly, UnitGrid
 from .painting import NotMadeError, cells_to_lay, paint_bricks, paint_cells, paint_draft, paint_plan
 from .run import Run
-from .slope_stages import lay_with_slopes
+from .slope_stages import lay_with_slopes, without_weak_slopes
 from .slopes import Slopes
 from .stages import cut_pieces, plan_pieces
 from .statics import Stability
@@ -125,8 +125,9 @@ def put_up(
     NotMadeError
         A brick that is to be painted does not exist in its new colour.
     """
+    whole = shell
     with run.stage("layout"):
-        bricks, shell = run.once(lay_with_slopes, shell, slopes)
+        bricks, shell = run.once(lay_with_slopes, whole, slopes)
         if last:
             # what cannot be painted does not have to hold
             run.once(paint_bricks, bricks)
@@ -135,7 +136,8 @@ def put_up(
         bricks, shell = run.once(tie_parts, bricks, shell)
         run.ties.append(len(bricks) - before)
     with run.stage("strengthening"):
-        bricks, shell, sparing = run.once(strengthen_joints, bricks, shell)
+        strong = run.once(strengthen_joints, bricks, shell)
+        bricks, shell, sparing = run.once(without_weak_slopes, whole, slopes, bricks, strong)
         bricks = run.once(show_colours, bricks, shell)
     by_hand = ByHand(edits, {}, bricks)
     if edits.edits:

@@ -65,7 +65,8 @@ def given_bricks(run: Run, made: Draft) -> tuple[Draft, Slopes | None]:
         with run.stage("surface"):
             jumpers, cells = run.once(_find_jumpers, made)
             # a jumper has to stay
-            given = Slopes(jumpers, np.full(len(jumpers), np.inf), -1 - np.arange(len(jumpers)))
+            rows = np.arange(len(jumpers))
+            given = Slopes(jumpers, np.full(len(jumpers), np.inf), -1 - rows, made.grid.solid)
             made = replace(made, hollow=cells)
     if run.settings.surface == "slopes":
         with run.stage("surface"):
@@ -94,6 +95,7 @@ def _join_slopes(run: Run, jumpers: Slopes | None, slopes: Slopes, planes: tuple
         concatenate([jumpers.bricks, slopes.bricks.take(~through)]),
         np.concatenate([jumpers.worth, slopes.worth[~through]]),
         np.concatenate([jumpers.pair, slopes.pair[~through]]),
+        slopes.solid,
     )
 
 

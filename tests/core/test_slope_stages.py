@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from legorize_addon.core import slope_stages
 from legorize_addon.core.errors import SettingsError
+from legorize_addon.core.model import Verdict
 from legorize_addon.core.model.unit_grid import Fill
 from legorize_addon.core.pipeline import legorize
+from legorize_addon.core.progress import Overall, silent
+from legorize_addon.core.run import Run
 from legorize_addon.core.settings import Settings
+from legorize_addon.core.slopes import Slopes
 from tests.core.solids import sphere
 
 SETTINGS = Settings(width=12, supports="none")
@@ -71,3 +76,66 @@ def test_the_learned_layout_lays_no_slopes():
     """The learned layout is refused together with slopes."""
     with pytest.raises(SettingsError, match="learned"):
         Settings(surface="slopes", layout="learned")
+
+
+@pytest.mark.parametrize(
+    ("standing", "tips", "torn", "ties", "laid", "last"),
+    [
+        ([Verdict.STABLE], False, 1, 0, [], 0),
+        ([Verdict.STABLE, Verdict.STABLE], False, 1, 20, [(2, False)], 1),
+        ([Verdict.STABLE, Verdict.COLLAPSES], False, 1, 20, [(2, False)], 0),
+        ([Verdict.COLLAPSES, Verdict.STABLE], False, 1, 0, [(2, True)], 1),
+        ([Verdict.UNDECIDED] * 3, False, 1, 0, [(2, True), (3, True)], 2),
+        ([Verdict.COLLAPSES] * 2, False, 2, 0, [(3, True)], 1),
+        ([Verdict.COLLAPSES], True, 1, 0, [], 0),
+    ],
+)
+def test_slopes_where_a_model_comes_apart(monkeypatch, ball, standing, tips, torn, ties, laid, last):
+    """Slopes leave that touch what tears; if most do, or in vain, all is filled behind them; none if it tips.
+
+    Where many ties hold a model, slopes beside them leave if fewer bricks stand as well.
+    """
+    which = np.flatnonzero(sloped(ball))[[0, 4, -1]]
+    asked, numbers = [], iter(range(3))
+    # a layout without the last bricks, and one that ties make whole; the first slope lies beside them
+    more = np.arange(len(ball.bricks)) if not ties else np.r_[which[1:], np.arange(which[-1] + 1, len(ball.bricks))]
+
+    def found(bricks):
+        number = next(numbers)
+        tipping = np.array([-1.0 if tips else 1.0])
+        nothing = np.zeros((len(bricks), 6))
+        return SimpleNamespace(
+            standing=standing[number], tipping=tipping, yielding=nothing, statics=None, number=number
+        )
+
+    def lay(run, shell, given):
+        asked.append((len(given.bricks), given.filled))
+        return ball.bricks.take(more), shell
+
+    monkeypatch.setattr(slope_stages, "lay_with_slopes", lay)
+    monkeypatch.setattr(slope_stages, "tie_parts", lambda run, bricks, shell: (bricks, shell))
+    monkeypatch.setattr(slope_stages, "strengthen_joints", lambda run, bricks, shell: (bricks, shell, found(bricks)))
+    monkeypatch.setattr(slope_stages, "torn_by", lambda *_: np.array([[-1, row] for row in which[:torn]]))
+    beside = np.isin(np.arange(len(ball.bricks)), which[:1])
+    monkeypatch.setattr(slope_stages, "slopes_beside", lambda bricks, weak, catalogue: beside if ties else weak)
+    given = Slopes(ball.bricks.take(which), np.ones(3), np.arange(3), ball.grid.solid)
+    run = Run.of(SETTINGS, Overall({}, silent))
+    first = (ball.bricks, ball.hollow, found(ball.bricks))
+    made = slope_stages.without_weak_slopes(run, ball.hollow, given, ball.bricks.take(more), first)
+    assert asked == laid
+    assert made[2].number == last
+
+
+def test_what_relaxing_sets_loose(monkeypatch, ball):
+    """If a model falls apart with less behind its slopes, it is laid once more with all of it."""
+    filled = []
+
+    def around(slopes, catalogue, lay):
+        bricks, cells = lay(slopes)
+        filled.append((cells.cover == Fill.REQUIRED).sum())
+        return (bricks.take(np.arange(0, len(bricks), 2)) if len(filled) == 1 else bricks), cells
+
+    monkeypatch.setattr(slope_stages, "lay_around_slopes", around)
+    legorize(sphere(10), replace(SETTINGS, width=20, surface="slopes", slope_price=0.2))
+    assert len(filled) == 2
+    assert filled[0] < filled[1]

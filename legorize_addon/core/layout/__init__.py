@@ -10,7 +10,7 @@ from .lay import FILLER, Manner, lay, lay_fixed, lay_unjoined
 from .lay_learned import lay_learned
 from .paying import paying
 from .recolour import recolour_visible
-from .slopes import lay_around_slopes
+from .slopes import lay_around_slopes, lie_among, slopes_beside
 from .tops import Smoothed, smooth_tops
 
 __all__ = [
@@ -27,9 +27,11 @@ __all__ = [
     "lay_fixed",
     "lay_learned",
     "lay_unjoined",
+    "lie_among",
     "owners_of",
     "paying",
     "recolour_visible",
+    "slopes_beside",
     "smooth_tops",
     "with_fixed",
 ]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from .behind import open_up
 from .choice import Slopes, choose_slopes
 
 __all__ = [
     "Slopes",
     "choose_slopes",
+    "open_up",
 ]

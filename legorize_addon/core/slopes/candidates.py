@@ -72,7 +72,7 @@ def candidates(site: Site, among: tuple[Form, ...], catalogue: Catalogue, *, pri
     -------
     Candidates
         Each could be built: it claims nothing but cells of the shell and open air, in a colour in which the part is
-        made and that pays, keeps free what cannot be joined to it, holds to the shell, and opens no hole.
+        made and that pays, keeps free what cannot be joined to it, and holds to the shell.
     """
     facing = surface_facing(site)
     found = [_of_form(site, facing, number, form, catalogue, price) for number, form in enumerate(among)]
@@ -91,7 +91,7 @@ def _of_form(
     gain = _gain(site, form, place[:, None] + cells)
     pays = gain > 0
     place, gain = place[pays], gain[pays]
-    score = gain - price * (1 + _parts_more(site, form, place))
+    score = gain - price * (1 + _parts_more(site, form, place) + _PLATE * _opened(site, form, place))
     code, wrong = _colours(site, form, place[:, None] + cells, catalogue)
     # its image may have a better colour
     fits = (score > 0) & np.isfinite(wrong)
@@ -116,7 +116,7 @@ def _places(site: Site, form: Form, cells: Ints) -> Ints:
 
 
 def _may_stand(site: Site, form: Form, place: Ints) -> Mask:
-    """Return where a slope holds to the shell, and where nothing is that could not be joined to it or seen past it."""
+    """Return where a slope holds to the shell, and where nothing is that could not be joined to it."""
     free = ~site.solid & site.air
     fits = np.ones(len(place), bool)
     for cells in (form.above, form.below):
@@ -124,8 +124,7 @@ def _may_stand(site: Site, form: Form, place: Ints) -> Mask:
         fits &= (free[np.maximum(there, 0)] & (there >= 0)).all(axis=1)
     held, holding = (place[:, None] + site.flat(cells) for cells in (form.held, form.holding))
     joined = site.required[held].any(axis=1) | (site.required[np.maximum(holding, 0)] & (holding >= 0)).any(axis=1)
-    seen = site.hidden[np.maximum(place[:, None] + site.flat(form.beside), 0)].any(axis=1)
-    ok: Mask = fits & joined & ~seen
+    ok: Mask = fits & joined
     return ok
 
 
@@ -166,6 +165,13 @@ def _parts_more(site: Site, form: Form, place: Ints) -> Floats:
             left = there & ((level_of < bottom[:, None]) | (level_of >= bottom[:, None] + count))
             more += _parts(left) - _parts(there)
     return more
+
+
+def _opened(site: Site, form: Form, place: Ints) -> Ints:
+    """Return how many cells have to be built because one looks at them past a slope."""
+    there = np.maximum(place[:, None] + site.flat(form.beside), 0)
+    count: Ints = np.count_nonzero(site.hidden[there] & ~site.required[there], axis=1)
+    return count
 
 
 def _parts(there: Mask) -> Floats:

@@ -29,11 +29,22 @@ class Slopes:
         Volume that each gains, less that of wrong colours, in cells a plate high.
     pair : (n,) int64 array
         The same number for a slope and its mirror image.
+    solid : (n_layers, 3, n_y, n_x) bool array
+        What the model fills before it is hollowed.
+    filled : bool
+        Whether hidden cells behind slopes have to be filled as they would without them, as what a model hangs on.
     """
 
     bricks: Bricks
     worth: Floats
     pair: Ints
+    solid: Mask
+    filled: bool = False
+
+    def settled(self, rows: Mask, *, filled: bool) -> Slopes:
+        """Return those of them that stay, and are not asked again whether they pay."""
+        worth = np.full(np.count_nonzero(rows), np.inf)
+        return Slopes(self.bricks.take(rows), worth, self.pair[rows], self.solid, filled)
 
 
 def choose_slopes(
@@ -76,7 +87,7 @@ def choose_slopes(
     pays = found.score > 0
     found, pair = found.take(pays), pair[pays]
     chosen = best(site, among, found, pair)
-    return _table(site, among, found.take(chosen), pair[chosen])
+    return _table(site, among, found.take(chosen), pair[chosen], grid.solid | shell.solid)
 
 
 def best(site: Site, among: tuple[Form, ...], found: Candidates, pair: Ints) -> Ints:
@@ -124,7 +135,7 @@ def _free(group: list[Ints], taken: Mask, closed: Mask) -> list[Ints]:
     return [which[free], claimed[free], kept[free]]
 
 
-def _table(site: Site, among: tuple[Form, ...], found: Candidates, pair: Ints) -> Slopes:
+def _table(site: Site, among: tuple[Form, ...], found: Candidates, pair: Ints, solid: Mask) -> Slopes:
     """Return candidates as bricks."""
     part, turn = (np.array([getattr(form, name) for form in among])[found.form] for name in ("part", "turn"))
     corner = site.corners(found.place).astype(np.int32)
@@ -138,4 +149,4 @@ def _table(site: Site, among: tuple[Form, ...], found: Candidates, pair: Ints) -
         piece=np.zeros(len(part), np.int16),
         step=corner[:, 2] // np.int32(PLATES_PER_BRICK),
     )
-    return Slopes(bricks.take(order), found.worth[order], pair[order])
+    return Slopes(bricks.take(order), found.worth[order], pair[order], solid)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from legorize_addon.core.layout.fixed import with_fixed
 from legorize_addon.core.layout.lay import Manner, lay_fixed
-from legorize_addon.core.layout.slopes import lay_around_slopes
+from legorize_addon.core.layout.slopes import lay_around_slopes, lie_among, slopes_beside
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.model.unit_grid import COLOUR_EMPTY, Fill
@@ -15,9 +16,14 @@ from tests.core.layout.cells import CATALOGUE, RED, brick_grid
 ROW = CATALOGUE.part_row
 
 
-def lay(grid, fixed):
-    """Lay the cells around fixed bricks, without ties."""
-    return lay_fixed(grid, CATALOGUE, fixed, Manner("standard"), rng=np.random.default_rng(0)), grid
+def around(grid):
+    """Return what lays the cells of a grid around slopes, without ties."""
+
+    def lay(fixed):
+        cells = with_fixed(grid, fixed, CATALOGUE)
+        return lay_fixed(cells, CATALOGUE, fixed, Manner("standard"), rng=np.random.default_rng(0)), cells
+
+    return lay
 
 
 def tower_with_a_wing():
@@ -35,7 +41,7 @@ def test_slopes_in_the_way_of_bricks_go():
     # a slope below the third layer of the tower has its fall under no stud
     grid.cover[2, :, :, 1] = Fill.EMPTY
     grid.colour[2, :, :, 1] = COLOUR_EMPTY
-    bricks, laid = lay_around_slopes(grid, slopes, CATALOGUE, lay)
+    bricks, laid = lay_around_slopes(slopes, CATALOGUE, around(grid))
     assert contact_graph(bricks, CATALOGUE).n_components == 1
     assert not (bricks.part == ROW("3039")).any()
     assert not (laid.cover == Fill.FIXED).any()
@@ -46,7 +52,7 @@ def test_slopes_that_hold_stay():
     colour = np.full((2, 2, 6), RED)
     colour[1, :, 5] = COLOUR_EMPTY
     slopes = table([(ROW("3039"), 4, 0, 3, 0, RED, Role.SHELL, 0, 1)])
-    bricks, laid = lay_around_slopes(brick_grid(colour), slopes, CATALOGUE, lay)
+    bricks, laid = lay_around_slopes(slopes, CATALOGUE, around(brick_grid(colour)))
     assert np.count_nonzero(bricks.part == ROW("3039")) == 1
     assert np.count_nonzero(laid.cover == Fill.FIXED) == 12
 
@@ -58,7 +64,7 @@ def test_what_is_loose_without_slopes_too():
     colour[1, :, 5] = COLOUR_EMPTY
     colour[:, :, 9:] = RED
     slopes = table([(ROW("3039"), 4, 0, 3, 0, RED, Role.SHELL, 0, 1)])
-    bricks, _ = lay_around_slopes(brick_grid(colour), slopes, CATALOGUE, lay)
+    bricks, _ = lay_around_slopes(slopes, CATALOGUE, around(brick_grid(colour)))
     assert contact_graph(bricks, CATALOGUE).n_components == 2
     assert np.count_nonzero(bricks.part == ROW("3039")) == 1
 
@@ -70,6 +76,26 @@ def test_a_model_on_a_loose_foot():
     colour[2, :, 5] = COLOUR_EMPTY
     colour[0, :, 9:] = RED
     slopes = table([(ROW("3039"), 4, 0, 6, 0, RED, Role.SHELL, 0, 1)])
-    bricks, _ = lay_around_slopes(brick_grid(colour), slopes, CATALOGUE, lay)
+    bricks, _ = lay_around_slopes(slopes, CATALOGUE, around(brick_grid(colour)))
     assert contact_graph(bricks, CATALOGUE).n_components == 2
     assert np.count_nonzero(bricks.part == ROW("3039")) == 1
+
+
+def test_slopes_beside_bricks():
+    """A slope that touches what is meant, or is meant, is found; one further on and a brick are not."""
+    bricks = table(
+        [
+            (ROW("3003"), 0, 0, 0, 0, RED, Role.SHELL, 0, 0),
+            (ROW("3039"), 2, 0, 0, 0, RED, Role.SHELL, 0, 0),
+            (ROW("3039"), 6, 0, 0, 0, RED, Role.SHELL, 0, 0),
+        ]
+    )
+    assert slopes_beside(bricks, np.array([True, False, False]), CATALOGUE).tolist() == [False, True, False]
+    assert slopes_beside(bricks, np.array([False, False, True]), CATALOGUE).tolist() == [False, False, True]
+
+
+def test_what_lies_among_others():
+    """Only the same part at the same corner is the same brick."""
+    one = [(ROW("3039"), 2, 0, 0, 0, RED, Role.SHELL, 0, 0), (ROW("3039"), 6, 0, 0, 0, RED, Role.SHELL, 0, 0)]
+    others = [(ROW("3003"), 2, 0, 0, 0, RED, Role.SHELL, 0, 0), one[1]]
+    assert lie_among(table(one), table(others)).tolist() == [False, True]

@@ -1,4 +1,4 @@
-"""Where slopes pay: on a ramp that they fit, in the colours of its cells, where they hold and open no hole."""
+"""Where slopes pay: on a ramp that they fit, in the colours of its cells, and where they hold."""
 
 from __future__ import annotations
 
@@ -59,14 +59,16 @@ def test_colours():
     assert not any(part == "3039" for part, *_ in listed(grid, catalogue=replace(CATALOGUE, exists=exists)))
 
 
-def test_no_hole_is_opened():
-    """Past the open side of a slope no hidden cell may be seen."""
+def test_what_is_seen_past_slopes_costs():
+    """What has to be built because one looks at it past a slope costs a plate's share of the price of a part."""
     grid = cells_of_ramp()
-    colour = grid.colour.copy()
+    colour, cover = grid.colour.copy(), grid.cover.copy()
     colour[1, 1, 3, 6] = COLOUR_ANY
-    found = listed(replace(grid, colour=colour))
-    assert ("3039", 0, (5, 1, 3)) not in found
-    assert ("3039", 0, (5, 3, 3)) in found
+    at = ("3039", 0, (5, 1, 3))
+    usual = listed(grid)[at][1]
+    assert listed(replace(grid, colour=colour))[at][1] == pytest.approx(usual)
+    cover[1, 1, 3, 6] = Fill.OPTIONAL
+    assert listed(replace(grid, colour=colour, cover=cover))[at][1] == pytest.approx(usual - 0.3 * 0.15)
 
 
 def test_it_holds_to_the_shell():
