@@ -7,6 +7,7 @@ from collections.abc import Callable
 from threading import Event
 
 import bpy
+import numpy as np
 import pytest
 
 from legorize_addon.core import preview as core_preview
@@ -247,6 +248,21 @@ def test_a_changed_object_is_read_again(settings) -> None:
     bpy.data.objects["Cube.001"].hide_viewport = False
     bpy.context.view_layer.update()
     assert live._live.mesh is None
+
+
+def test_another_weight_is_read(settings) -> None:
+    """The preview has what is painted under the name that the panel says; a wrong name is told and shows nothing."""
+    settings.width = 12
+    soon()
+    assert live._live.mesh.weight is None
+    settings.weight = "face"
+    soon()
+    assert live._live.said.startswith("weight is 'face', but no vertex group")
+    table = bpy.data.objects["Cube.001"]
+    table.vertex_groups.new(name="leg").add(list(range(8)), 0.5, "REPLACE")
+    settings.weight = "leg"
+    soon()
+    assert np.unique(live._live.mesh.weight).tolist() == [0, 0.5]
 
 
 def test_what_is_too_large_is_refused(settings, monkeypatch) -> None:
