@@ -23,11 +23,12 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from ..arrays import Floats, Ints, Mask
-from ..model import NOBODY, ContactGraph, components
+from ..model import ContactGraph
 from ..progress import Progress, silent
 from .collapse import CollapseProgram, is_collapse, least_imbalance
 from .equilibrium import RESIDUAL, Aim, Balance, Plane, balance, is_equilibrium
 from .forces import Statics
+from .lumps import grown, lumps_around, stiff_lumps, touching
 from .region import mended
 from .tipping import toppling
 from .upright import Upright, upright
@@ -55,9 +56,6 @@ RESERVE: Final = 0.05
 
 POLISH: Final = (Aim(0.03, 0.0, 12),)
 """What projections aim at from there."""
-
-STILL: Final = 1e-6
-"""Share of the widest gap of a motion up to which a contact does not open."""
 
 ROUNDING: Final = 1e-6
 """Imbalance in N, summed over all lumps, that is none."""
@@ -169,7 +167,7 @@ def _straight(
     found = _projected(reduced.statics, aims, near, UPRIGHT_ROUNDS, progress)
     forces, motion = reduced.raised(found.forces), reduced.spread(found.motion)
     enough = found.found and is_equilibrium(equations, forces)
-    stiff = _stiff(reduced.statics, found.motion) if found.collapse else None
+    stiff = stiff_lumps(reduced.statics, found.motion) if found.collapse else None
     # a collapse under upright forces is none yet
     return Balance(forces, enough, motion, False, found.turns, upright=True), stiff
 
@@ -181,12 +179,12 @@ def _failing(equations: Statics, reduced: Upright, start: Floats, progress: Prog
     """
     progress("stability", 0.0)
     few, forces = reduced.statics, reduced.lowered(start)
-    near = _touching(few)
-    loose = _grown(near, _worst(few, forces) | _unbalanced(few, forces))
-    solved = None if np.count_nonzero(loose) > _most(few) else _balanced(few, _lumps(near, loose))
+    near = touching(few)
+    loose = grown(near, _worst(few, forces) | _unbalanced(few, forces))
+    solved = None if np.count_nonzero(loose) > _most(few) else _balanced(few, lumps_around(near, loose))
     if solved is None or not solved.motion.any():
         return None
-    torn = least_imbalance(equations, _stiff(few, solved.motion), reserve=RESERVE)
+    torn = least_imbalance(equations, stiff_lumps(few, solved.motion), reserve=RESERVE)
     if torn is None or not is_collapse(equations, torn.motion):
         return None
     return replace(_given(equations, start), motion=torn.motion, collapse=True)
@@ -216,12 +214,12 @@ def _projected(
 
 def _changed(equations: Statics, start: Floats, progress: Progress) -> Balance:
     """Look for a proof around the bodies at which forces fail or are out of balance, if these are few."""
-    found, near = _given(equations, start), _touching(equations)
+    found, near = _given(equations, start), touching(equations)
     wrong = _wrong(equations, start)
-    if np.count_nonzero(loose := _grown(near, wrong)) > _most(equations):
+    if np.count_nonzero(loose := grown(near, wrong)) > _most(equations):
         return found
     progress("stability", 0.0)
-    solved = _balanced(equations, _lumps(near, loose))
+    solved = _balanced(equations, lumps_around(near, loose))
     if solved is not None and solved.motion.any():
         return replace(found, motion=solved.motion, collapse=True)
     return _mended(equations, found, near)
@@ -239,8 +237,8 @@ def _most(equations: Statics) -> int:
 
 def _mended(equations: Statics, found: Balance, near: csr_array) -> Balance:
     """Look for other forces of the bodies around all that is wrong, of as many as a linear programme takes soon."""
-    around = _grown(near, _wrong(equations, found.forces))
-    while (count := np.count_nonzero(around)) < np.count_nonzero(more := _grown(near, around)) <= _most(equations):
+    around = grown(near, _wrong(equations, found.forces))
+    while (count := np.count_nonzero(around)) < np.count_nonzero(more := grown(near, around)) <= _most(equations):
         around = more
     if not 0 < count <= _most(equations):
         return found
@@ -252,14 +250,14 @@ def _mended(equations: Statics, found: Balance, near: csr_array) -> Balance:
 
 def _decided(equations: Statics, found: Balance, plane: Plane | None, rounds: int, progress: Progress) -> Balance:
     """Decide what projections left open by linear programmes, and more projections from their forces."""
-    near, loose = _touching(equations), np.zeros(len(equations.rows), dtype=bool)
+    near, loose = touching(equations), np.zeros(len(equations.rows), dtype=bool)
     for turn in range(rounds):
         if found.found or found.collapse:
             break
         progress("stability", turn / rounds)
-        more = loose | _grown(near, _worst(equations, found.forces) | _unbalanced(equations, found.forces))
-        loose = more if (more != loose).any() else _grown(near, loose)
-        solved = None if np.count_nonzero(loose) > LOOSE else _balanced(equations, _lumps(near, loose))
+        more = loose | grown(near, _worst(equations, found.forces) | _unbalanced(equations, found.forces))
+        loose = more if (more != loose).any() else grown(near, loose)
+        solved = None if np.count_nonzero(loose) > LOOSE else _balanced(equations, lumps_around(near, loose))
         if solved is None:
             break
         if solved.motion.any():
@@ -331,37 +329,3 @@ def _worst(equations: Statics, forces: Floats) -> Mask:
     chosen = np.zeros(len(worst), dtype=bool)
     chosen[order] = worst[order] > 0
     return chosen
-
-
-def _touching(equations: Statics) -> csr_array:
-    """Return which bodies have a contact with which, (n, n)."""
-    contacts, n = equations.contacts, len(equations.rows)
-    inner = contacts.by != NOBODY
-    one, other = np.divmod(np.unique(contacts.on[inner] * n + contacts.by[inner]), n)
-    entries = np.ones(2 * len(one), dtype=np.int32)
-    return csr_array((entries, (np.append(one, other), np.append(other, one))), shape=(n, n))
-
-
-def _grown(near: csr_array, bodies: Mask) -> Mask:
-    """Add the bodies that touch some."""
-    grown: Mask = bodies | (near @ bodies.astype(np.int32) > 0)
-    return grown
-
-
-def _lumps(near: csr_array, loose: Mask) -> Ints:
-    """Return a lump of its own for each loose body, and one for each part of the rest that hangs together, (n,)."""
-    pairs = near.tocoo()
-    kept = ~(loose[pairs.row] | loose[pairs.col])
-    return components(np.column_stack([pairs.row, pairs.col])[kept], len(loose)).astype(np.int64)
-
-
-def _stiff(equations: Statics, motion: Floats) -> Ints:
-    """Return lumps of the bodies that do not move against each other, (n,)."""
-    contacts, n = equations.contacts, len(equations.rows)
-    inner = contacts.by != NOBODY
-    opening = np.abs(equations.matrix.T @ motion)
-    pairs, at = np.unique(contacts.on[inner] * n + contacts.by[inner], return_inverse=True)
-    moving = np.zeros(len(pairs))
-    np.maximum.at(moving, at, opening[inner])
-    kept = moving <= STILL * opening.max(initial=0)
-    return components(np.stack(np.divmod(pairs[kept], n), axis=1), n).astype(np.int64)

@@ -168,26 +168,6 @@ def test_a_motion_that_tears_all_apart_is_not_asked(monkeypatch) -> None:
     assert asked == [4]
 
 
-def test_lumps_hang_together() -> None:
-    """Of a column with one loose brick in it and a brick beside it, what is below, above and beside are lumps."""
-    bricks = table(*(("3003", 0, 0, 3 * level) for level in range(5)), ("3003", 8, 0, 0))
-    near = module._touching(equations(bricks))
-    assert module._lumps(near, np.arange(6) == 2).tolist() == [0, 0, 1, 2, 2, 3]
-    assert module._grown(near, np.arange(6) == 2).tolist() == [False, True, True, True, False, False]
-    assert len(np.unique(module._lumps(near, np.ones(6, dtype=bool)))) == 6
-
-
-def test_what_does_not_move_against_each_other_is_a_lump() -> None:
-    """A column whose upper half turns is two lumps; at rest it is one."""
-    whole = equations(table(*(("3003", 0, 0, 3 * level) for level in range(4))))
-    turning = np.zeros((4, 6))
-    assert module._stiff(whole, turning.reshape(-1)).tolist() == [0, 0, 0, 0]
-    # about an axis along x through the origin
-    turning[2:, 3] = 1
-    turning[2:, :3] = np.cross((1, 0, 0), whole.middle[2:])
-    assert module._stiff(whole, turning.reshape(-1)).tolist() == [0, 0, 1, 1]
-
-
 def test_the_worst_are_few(monkeypatch) -> None:
     """Bricks at contacts that bear least come first, the ground is none of them, and what holds is none either."""
     whole = equations(table(*(("3003", 0, 0, 3 * level) for level in range(4))))
