@@ -12,7 +12,7 @@ from .arrays import Floats
 from .building import Proof
 from .colours import SurfaceColours
 from .edits import NO_EDITS, Edits, Outcome
-from .half_studs import Plane
+from .half_studs import Halves
 from .mesh import Repairs, TriangleMesh
 from .model import Assembly, Bricks, ContactGraph, UnitGrid
 from .mosaic import Canvas, Covered, Goal
@@ -74,8 +74,8 @@ class Draft:
         Required and optional cells.
     wanted : WantedColours
         The surface on each cell that shows it, whatever colour the cell has.
-    planes : tuple of Plane
-        Above which all lies half a stud further on; mesh, cut, cells and what follows from them are drawn together.
+    halves : Halves or None
+        Where parts lie half a stud off the rest; mesh, cut, cells and what follows from them are drawn together.
     """
 
     mesh: TriangleMesh
@@ -89,7 +89,7 @@ class Draft:
     grid: UnitGrid
     hollow: UnitGrid
     wanted: WantedColours
-    planes: tuple[Plane, ...] = ()
+    halves: Halves | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -201,8 +201,8 @@ class Build(Finished):
         Required and optional cells.
     wanted : WantedColours
         The surface on each cell that shows it, whatever colour the cell has.
-    planes : tuple of Plane
-        Above which all lies half a stud further on; mesh, cut and cells are drawn together, the bricks are not.
+    halves : Halves or None
+        Where parts lie half a stud off the rest; mesh, cut and cells are drawn together, the bricks are not.
     edits : Edits
         Changes by hand that were made.
     outcomes : tuple of Outcome
@@ -224,7 +224,7 @@ class Build(Finished):
     hollow: UnitGrid
     wanted: WantedColours
 
-    planes: tuple[Plane, ...] = ()
+    halves: Halves | None = None
     edits: Edits = NO_EDITS
     outcomes: tuple[Outcome, ...] = ()
     unedited: Bricks | None = None

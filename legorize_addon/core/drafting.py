@@ -9,7 +9,7 @@ from .build import Cut, Draft
 from .colours import SurfaceColours
 from .errors import SettingsError, enough_memory
 from .estimate import COUNTED, estimate
-from .half_stages import find_planes
+from .half_stages import Barred, find_regions
 from .limits import check_limits
 from .mesh import Repairs, TriangleMesh
 from .model import UnitGrid
@@ -72,7 +72,7 @@ def _draft_model(mesh: TriangleMesh, settings: Settings, seconds: dict[str, floa
     return paint_draft(run, made)
 
 
-def drafted(run: Run, given: TriangleMesh, barred: tuple[int, ...] = ()) -> tuple[Draft, tuple[str, ...]]:
+def drafted(run: Run, given: TriangleMesh, barred: Barred = ()) -> tuple[Draft, tuple[str, ...]]:
     """Go through the stages of a run before its layout.
 
     Parameters
@@ -80,8 +80,8 @@ def drafted(run: Run, given: TriangleMesh, barred: tuple[int, ...] = ()) -> tupl
     run : Run
     given : TriangleMesh
         As read, in world mm.
-    barred : tuple of int, optional
-        Levels at which nothing may lie half a stud further on.
+    barred : tuple of tuple, optional
+        Regions that must not lie half a stud off the rest.
 
     Returns
     -------
@@ -93,15 +93,16 @@ def drafted(run: Run, given: TriangleMesh, barred: tuple[int, ...] = ()) -> tupl
     with run.stage("mesh"):
         mesh, repairs, turn, scale, unseen = run.once(prepare_mesh, given)
         mesh, scale, frame, sized = run.once(place_grid, mesh, scale)
-        mesh, frame, planes = run.once(find_planes, mesh, frame, barred)
+        mesh, frame, halves = run.once(find_regions, mesh, frame, barred)
     with run.stage("colours"):
         surface = run.once(find_colours, mesh, given)
     cut, trajectories, grid, feet = gridded(run, mesh, repairs, surface, frame)
     wanted = _wanted(run, mesh, surface, grid)
     grid, offsets, shell = hollowed(run, grid)
+    halves = halves and halves.standing_at(float(grid.origin[2]))
     made = Draft(
         mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut, trajectories=trajectories,
-        offsets=offsets, grid=grid, hollow=shell, wanted=wanted, planes=planes,
+        offsets=offsets, grid=grid, hollow=shell, wanted=wanted, halves=halves,
     )  # fmt: skip
     return made, (*unseen, *sized, *feet)
 

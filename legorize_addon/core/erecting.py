@@ -84,12 +84,12 @@ def _erected(run: Run, made: Draft, edits: Edits, *, last: bool = False) -> Erec
         assembly, found, smoothed = run.once(smooth_surface, assembly, found, by_hand.made)
         pieces = run.once(cut_pieces, assembly)
     with run.stage("supports"):
-        plan, joints = plan_pieces(run, assembly, *pieces)
-    if made.planes or len(plan.final) > len(assembly):
+        plan, joints = plan_pieces(run, assembly, *pieces, made.halves and made.halves.half)
+    if made.halves is not None or len(plan.final) > len(assembly):
         with run.stage("stability again"):
             found = run.once(check_final, plan.final)
-            if made.planes:
-                plan, found = run.once(lie_apart, plan, made.planes, found)
+            if made.halves is not None:
+                plan, found = run.once(lie_apart, plan, made.halves, found)
     if last:
         with run.stage("colours"):
             made = run.once(paint_draft, made)

@@ -27,7 +27,7 @@ from .existing import (
     without_overlaps,
 )
 from .fitting import fit
-from .half_stages import Levels, remarks_on_half_studs, with_half_studs
+from .half_stages import Barred, remarks_on_half_studs, with_half_studs
 from .limits import check_limits, check_size
 from .memo import Trial
 from .mesh import TriangleMesh
@@ -106,7 +106,7 @@ def legorize(
 
 
 def _legorize(
-    edits: Edits, trial: Trial | None, barred: Levels, mesh: TriangleMesh, settings: Settings, progress: Progress
+    edits: Edits, trial: Trial | None, barred: Barred, mesh: TriangleMesh, settings: Settings, progress: Progress
 ) -> Build:
     """Go through the stages; nothing lies half a stud further on from barred levels on."""
     check_limits(expected := estimate(mesh, settings), settings)
@@ -120,7 +120,7 @@ def _legorize(
     notes = (
         *made.repairs.sentences(), *told, *remarks_on_dithering(made.mesh, settings.dithering), *run.learning,
         *((beyond.sentence(),) if beyond else ()), *up.remarks,
-        *remarks_on_half_studs(made.planes, plan.final.bricks, run.catalogue),
+        *remarks_on_half_studs(made.halves, plan.final.bricks, run.catalogue),
         *remarks_on_edits(outcomes := by_hand.outcomes(plan.final), run.catalogue),
         *_notes(run, found, plan, proof, run.parts.owned), *remarks_on_split(plan, most=settings.split),
     )  # fmt: skip
@@ -129,7 +129,7 @@ def _legorize(
         surface=made.surface, cut=made.cut, trajectories=made.trajectories, offsets=made.offsets, grid=made.grid,
         hollow=up.shell, wanted=made.wanted, edits=by_hand.edits, outcomes=outcomes,
         unedited=without_proof(run, by_hand), assembly=plan.final, stability=found, supports=plan,
-        joints=up.joints, **run.parts.files, proof=proof, notes=notes, timings=run.timings, planes=made.planes,
+        joints=up.joints, **run.parts.files, proof=proof, notes=notes, timings=run.timings, halves=made.halves,
         beyond=asdict(beyond) if beyond else {},
     )  # fmt: skip
 

@@ -175,7 +175,7 @@ def make_unit_grid(
     lattice = frame.plates() if _in_plates(settings) else frame
     facing = facing_of(mesh, surface) if settings.backing else None
     rules = Rules(
-        symmetric=settings.symmetric and not frame.drawn_together,
+        symmetric=settings.symmetric,
         keep_thin=settings.keep_thin,
         longest=settings.cell_colour == "longest",
         closed=repairs.watertight,
@@ -293,7 +293,7 @@ def cut_pieces(
 
 
 def plan_pieces(
-    run: Run, whole: Assembly, cut: Assembly, joints: tuple[Joint, ...]
+    run: Run, whole: Assembly, cut: Assembly, joints: tuple[Joint, ...], kinds: NDArray[np.uint8] | None = None
 ) -> tuple[AssemblyPlan, tuple[Joint, ...]]:
     """Plan a model in pieces, or with other cuts where the supports that are laid turn out to save too little.
 
@@ -304,6 +304,8 @@ def plan_pieces(
         The model in one piece, and as :func:`cut_pieces` cuts it.
     joints : tuple of Joint
         Its joints.
+    kinds : (n_layers, n_y, n_x) uint8 array, optional
+        The half studs of cells, for :func:`make_plan`.
 
     Returns
     -------
@@ -311,10 +313,10 @@ def plan_pieces(
     joints : tuple of Joint
         None where no cut pays.
     """
-    plan = run.once(make_plan, cut)
+    plan = run.once(make_plan, cut, kinds)
     if not joints or not run.settings.supported:
         return plan, joints
-    alone, barred = run.once(make_plan, whole), frozenset[int]()
+    alone, barred = run.once(make_plan, whole, kinds), frozenset[int]()
     for left in reversed(range(CUTS)):
         # what is left in the air either way weighs more than any support
         hanging, before = (len(each.walk.in_air) for each in (plan, alone))
@@ -326,14 +328,17 @@ def plan_pieces(
         cut, joints = run.once(cut_pieces, whole, barred)
         if not joints:
             break
-        plan = run.once(make_plan, cut)
+        plan = run.once(make_plan, cut, kinds)
     return alone, ()
 
 
-def make_plan(run: Run, assembly: Assembly) -> AssemblyPlan:
-    """Put supports under the pieces, find the building order, and take the parts from those that are owned."""
+def make_plan(run: Run, assembly: Assembly, kinds: NDArray[np.uint8] | None = None) -> AssemblyPlan:
+    """Put supports under the pieces, find the building order, and take the parts from those that are owned.
+
+    Supports of bricks with some half studs keep off those with others, if these are given.
+    """
     settings, few = run.settings, run.settings.support_parts == "paper"
-    planned = partial(plan_assembly, deepest=settings.hanging, clutch=settings.clutch, long_bricks=few)
+    planned = partial(plan_assembly, deepest=settings.hanging, clutch=settings.clutch, long_bricks=few, kinds=kinds)
 
     def plan(catalogue: Catalogue | None, wish: Wish) -> AssemblyPlan:
         """Plan with supports of a kind, and of the parts of a catalogue if there is one."""

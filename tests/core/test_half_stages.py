@@ -11,15 +11,16 @@ from legorize_addon.core.edits import Edit, Edits
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.files.ldraw import write_ldr
 from legorize_addon.core.half_stages import with_half_studs
-from legorize_addon.core.half_studs import Plane
+from legorize_addon.core.half_studs import Region
 from legorize_addon.core.half_studs.truth import HalfStudsError
 from legorize_addon.core.ldraw.reader import read_ldraw
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shopping.shopping_list import extent
-from tests.core.half_studs.tower import BLOCK, tower
+from tests.core.half_studs.tower import BLOCK, table, tower
 
+REGIONS = (Region(3, 9, True, 4, (1, 0)), Region(1, 5, False, 2, (1, 0)))
 SETTINGS = Settings(width=6, half_studs=True, hollow=False)
 
 
@@ -32,7 +33,8 @@ def build(request):
 def test_the_tower_stands_where_it_is(build):
     """Its bricks fill 3 x 3 studs at the place in the mesh, on jumpers, in one component that is proven to stand."""
     off, found = build
-    assert found.planes == (Plane(3 * BLOCK, tuple(int(2 * each) for each in off)),)
+    [region] = found.halves.regions
+    assert (region.low, region.high, region.half) == (BLOCK, BLOCK + 3, tuple(int(2 * each) for each in off))
     bricks = found.bricks
     above = bricks.corner[:, 2] >= 3 * BLOCK
     low = (bricks.corner + bricks.shift)[:, :2]
@@ -45,7 +47,7 @@ def test_the_tower_stands_where_it_is(build):
     assert found.supports.walk.buildable
     jumpers = np.array([part.jumper for part in found.assembly.catalogue.parts])[bricks.part]
     assert set(bricks.corner[jumpers, 2].tolist()) == {3 * BLOCK - 1}
-    assert any(f"on {jumpers.sum()} jumpers" in note for note in found.notes)
+    assert any(f"{jumpers.sum()} jumpers hold" in note for note in found.notes)
 
 
 def test_its_file_is_read_back(build):
@@ -65,7 +67,7 @@ def test_its_file_is_read_back(build):
 def test_none_by_default():
     """Without the setting all lies on one grid, and bricks know of no half studs."""
     found = legorize(tower(), replace(SETTINGS, half_studs=False))
-    assert found.planes == ()
+    assert found.halves is None
     assert found.bricks.half is None
 
 
@@ -87,7 +89,7 @@ def test_without_jumpers_it_is_refused(tmp_path):
 def test_jumpers_have_colours_of_the_model(build):
     """No other colour has to be bought for them."""
     found = legorize(tower(0.5, 0.0), replace(SETTINGS, palette="4"))
-    assert found.planes
+    assert found.halves is not None
     assert set(found.bricks.colour.tolist()) == {4}
 
 
@@ -98,7 +100,7 @@ def test_edits_by_hand_are_refused():
         legorize(tower(), SETTINGS, edits=edits)
 
 
-def test_planes_that_do_not_hold_are_given_up(build):
+def test_regions_that_do_not_hold_are_given_up(build):
     """They are barred and the model is made anew, until it holds; the layers are told."""
     tried = []
 
@@ -106,11 +108,34 @@ def test_planes_that_do_not_hold_are_given_up(build):
         tried.append(barred)
         progress("layout", 0.5)
         if len(tried) < 3:
-            raise HalfStudsError((9 * len(tried),))
+            raise HalfStudsError((REGIONS[len(tried) - 1],))
         return build[1]
 
     told = []
     found = with_half_studs(make, None, SETTINGS, lambda stage, share: told.append(share))
-    assert tried == [(), (9,), (9, 18)]
-    assert "above layer 3, 6" in found.notes[-1]
+    assert tried == [(), (REGIONS[0].key,), tuple(sorted(each.key for each in REGIONS))]
+    assert "at layer 3, 6" in found.notes[-1]
     assert told == sorted(told)
+
+
+def test_a_leg_between_the_studs_stands_by_itself():
+    """One leg of a table lies half a stud off, the rest does not; all holds, and what carries the top is built."""
+    found = legorize(table(0.5), replace(SETTINGS, width=8, surface="slopes"))
+    [region] = found.halves.regions
+    assert (region.low, region.upwards) == (0, False)
+    off = found.bricks.half[:, 0] != found.bricks.half[found.bricks.corner[:, 2].argmax(), 0]
+    low = (found.bricks.corner + found.bricks.shift)[off & (found.bricks.role < 4)]
+    assert np.ptp(low[:, 0]) <= 1
+    assert low[:, 2].max() < 3 * BLOCK
+    assert found.graph.collisions == 0
+    assert found.graph.n_components == 1
+    assert found.supports.walk.buildable
+    assert found.stability.stable
+    assert any(f"up to layer {region.high + 1} lies half a stud aside along x" in note for note in found.notes)
+
+
+def test_without_a_region_nothing_lies_off():
+    """On its studs a table is built as without half studs."""
+    found = legorize(table(0.0), replace(SETTINGS, width=8))
+    assert found.halves is None
+    assert found.bricks.half is None

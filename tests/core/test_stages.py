@@ -80,7 +80,7 @@ def test_the_next_cut_is_tried_where_one_saves_too_little(monkeypatch):
     plans = {"whole": made(10, in_air=1), "first": made(9, in_air=1), "second": made(20)}
     cuts = {frozenset(): ("first", (SimpleNamespace(level=3), SimpleNamespace(level=9)))}
     cuts[frozenset({9})] = ("second", (SimpleNamespace(level=6),))
-    monkeypatch.setattr(stages, "make_plan", lambda run, assembly: plans[assembly])
+    monkeypatch.setattr(stages, "make_plan", lambda run, assembly, kinds: plans[assembly])
     monkeypatch.setattr(stages, "cut_pieces", lambda run, whole, no: barred.append(no) or cuts.get(no, (whole, ())))
     assert stages.plan_pieces(run_of(), "whole", *cuts[frozenset()]) == (plans["second"], cuts[frozenset({9})][1])
     assert barred == [frozenset({9})]
@@ -95,7 +95,7 @@ def test_no_cut_is_planned_in_vain(monkeypatch):
     """Of more cuts than may be tried, each is planned once, and each plan is weighed."""
     planned = []
 
-    def plan(run, assembly):
+    def plan(run, assembly, kinds):
         planned.append(assembly)
         return SimpleNamespace(removed=range(10), walk=SimpleNamespace(in_air=()))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -14,7 +13,7 @@ from ..arrays import Ints, Mask
 from ..colours import ciede2000, lab_from_srgb
 from ..model import COLOUR_ANY, COLOUR_EMPTY, Bricks, Catalogue, Fill, Role, UnitGrid, columns, concatenate
 from ..units import PLATES_PER_BRICK
-from .planes import Plane
+from .halves import Halves
 
 Square = tuple[int, int]
 
@@ -60,17 +59,15 @@ class _Site:
     held: Mask
 
 
-def lay_jumpers(
-    grid: UnitGrid, planes: tuple[Plane, ...], catalogue: Catalogue, *, filler: int
-) -> tuple[Bricks, UnitGrid]:
-    """Lay jumpers under everything that lies on planes.
+def lay_jumpers(grid: UnitGrid, halves: Halves, catalogue: Catalogue, *, filler: int) -> tuple[Bricks, UnitGrid]:
+    """Lay jumpers under everything that lies half a stud off what it stands on.
 
     Parameters
     ----------
     grid : UnitGrid
         A hollowed model that is drawn together.
-    planes : tuple of Plane
-        From below.
+    halves : Halves
+        The half studs of its cells.
     catalogue : Catalogue
     filler : int
         LDraw code of hidden bricks.
@@ -82,18 +79,25 @@ def lay_jumpers(
     grid : UnitGrid
         The cells under jumpers and over their studs have to be built; what could not be covered is empty.
     """
-    laid, halves = [], [(0, 0), *(plane.half for plane in planes)]
-    for plane, (before, half) in zip(planes, pairwise(halves), strict=True):
-        made, grid = _lay(grid, plane.level, (half[0] - before[0], half[1] - before[1]), catalogue, filler)
-        laid.append(made)
+    tile = _form(catalogue, catalogue.part_row(_COVER), (0, 0))
+    laid = [_table(tile, np.zeros((0, 2), np.int64), 0, grid.colour[0, 0], catalogue, filler)]
+    for layer in range(1, min(len(grid.cover), len(halves.half))):
+        below, above = halves.half[layer - 1], halves.half[layer]
+        changes = (below != above) & (grid.cover[layer, 0] != Fill.EMPTY)
+        for one, other in np.unique(np.stack([below[changes], above[changes]], axis=1), axis=0).tolist():
+            made, grid = _lay(grid, layer, halves, (one, other), catalogue, filler)
+            laid.append(made)
     return concatenate(laid), grid
 
 
-def _lay(grid: UnitGrid, level: int, step: Square, catalogue: Catalogue, filler: int) -> tuple[Bricks, UnitGrid]:
-    """Lay the jumpers of one plane, above which all lies some half studs (x, y) further on."""
+def _lay(
+    grid: UnitGrid, layer: int, halves: Halves, kinds: tuple[int, int], catalogue: Catalogue, filler: int
+) -> tuple[Bricks, UnitGrid]:
+    """Lay the jumpers under what has some half studs in a layer, on what has some others below it."""
+    level, step = PLATES_PER_BRICK * layer, _step(*kinds)
     shape, plates = grid.cover.shape, (-1, *grid.cover.shape[2:])
     cover, colour = grid.cover.reshape(plates).copy(), grid.colour.reshape(plates).copy()
-    site = _site(cover != Fill.EMPTY, level, step)
+    site = _site(cover != Fill.EMPTY, level, step, halves.half[layer - 1] == kinds[0], halves.half[layer] == kinds[1])
     jumper = catalogue.part_row(_BOTH_WAYS if all(step) else _ONE_WAY)
     tile = _form(catalogue, catalogue.part_row(_COVER), (0, 0))
     form = _form(catalogue, jumper, step)
@@ -114,15 +118,23 @@ def _lay(grid: UnitGrid, level: int, step: Square, catalogue: Catalogue, filler:
     return bricks, replace(grid, cover=cover.reshape(shape), colour=colour.reshape(shape))
 
 
-def _site(solid: Mask, level: int, step: Square) -> _Site:
-    """Return what lies at a plane."""
-    above, below = solid[level], solid[level - 1]
+def _step(below: int, above: int) -> Square:
+    """Return by how many half studs, x and y, what is above lies further on than what is below."""
+    return (above & 1) - (below & 1), (above >> 1) - (below >> 1)
+
+
+def _site(solid: Mask, level: int, step: Square, lower: Mask, upper: Mask) -> _Site:
+    """Return what lies at a plane, of cells that are of its kinds below and above."""
+    above, below = solid[level] & upper, solid[level - 1] & lower
     over = above.copy()
     for axis, by in ((1, step[0]), (0, step[1])):
         if by:
             # nothing lies at the rim of a grid
             over |= np.roll(over, by, axis)
-    return _Site(above, below & over, ~below & over, below & over & solid[level - 2])
+    # nor under what lies on it as ever
+    over &= ~solid[level] | upper
+    free = ~solid[level - 1] & lower & over
+    return _Site(above, below & over, free, below & over & solid[level - 2])
 
 
 def _form(catalogue: Catalogue, part: int, step: Square) -> _Form:

@@ -1,45 +1,64 @@
-"""Meshes drawn together: what lies above a plane is moved back by half a stud, the plate below the plane leans."""
+"""Meshes drawn together: what lies half a stud off the rest is moved back, and the plate between both leans."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Final
 
 import numpy as np
 
 from ..arrays import Floats, Ints
 from ..mesh import TriangleMesh
-from ..units import PLATE, STUD
-from .planes import Plane
+from ..units import BRICK, PLATE, STUD
+from .islands import Islands
+
+_NEAR: Final = 0.5
+"""Studs around what lies above, within which the plate below it leans."""
 
 
-def draw_together(mesh: TriangleMesh, ground: float, planes: tuple[Plane, ...]) -> TriangleMesh:
-    """Move what is above planes back by their half studs.
+def draw_together(mesh: TriangleMesh, ground: float, islands: Islands, half: Ints) -> TriangleMesh:
+    """Move islands back by their half studs.
 
     Parameters
     ----------
     mesh : TriangleMesh
         In mm.
     ground : float
-        Height of level 0 in mm.
-    planes : tuple of Plane
-        At least two plates apart.
+        Height of the first layer in mm.
+    islands : Islands
+        Of this mesh.
+    half : (n, 2) int64 array
+        Half studs of each island along x and y.
 
     Returns
     -------
     TriangleMesh
-        As closed as it was, of the same volume: cut at both ends of the plates that lean.
+        As closed as it was: where an island lies over another one that is moved otherwise, the upmost plate of the
+        lower one leans, and is cut at both ends.
     """
-    if not planes:
-        return mesh
-    height = ground + PLATE * np.array([plane.level - below for plane in planes for below in (1, 0)])
-    for each in height.tolist():
-        mesh = cut_at(mesh, each)
-    half = np.array([(0, 0), *(plane.half for plane in planes)])
-    half = np.stack([half[:-1], half[1:]], axis=1).reshape(-1, 2)
+    lower, upper = islands.links.T
+    across = np.unique(islands.layer[upper[(half[lower] != half[upper]).any(axis=1)]])
+    for layer in across.tolist():
+        for height in (ground + BRICK * layer - PLATE, ground + BRICK * layer):
+            mesh = cut_at(mesh, height)
     vertices = mesh.vertices.copy()
-    for axis in range(2):
-        vertices[:, axis] -= STUD / 2 * np.interp(vertices[:, 2], height, half[:, axis])
+    vertices[:, :2] -= STUD / 2 * _moved(vertices, ground, islands, half, across)
     return replace(mesh, vertices=vertices)
+
+
+def _moved(vertices: Floats, ground: float, islands: Islands, half: Ints, across: Ints) -> Floats:
+    """Return by how many half studs points move back, (n, 2)."""
+    near, far = islands.nearest
+    y, x = islands.squares(vertices[:, :2])
+    above = (vertices[:, 2] - ground) / BRICK
+    # what is cut at a plane belongs to what is below it
+    layer = np.clip(np.ceil(above - 1e-9).astype(np.int64) - 1, 0, len(near) - 1)
+    own = half[near[layer, y, x]].astype(np.float64)
+    top = np.minimum(layer + 1, len(near) - 1)
+    lean = np.clip(1 - (layer + 1 - above) * BRICK / PLATE, 0, 1) * np.clip(1 - far[top, y, x] / _NEAR, 0, 1)
+    lean = np.where(np.isin(layer + 1, across), lean, 0)
+    moved: Floats = own + lean[:, None] * (half[near[top, y, x]] - own)
+    return moved
 
 
 def cut_at(mesh: TriangleMesh, height: float) -> TriangleMesh:

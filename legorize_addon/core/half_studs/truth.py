@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Final
 
 import numpy as np
 
-from ..arrays import Ints
-from ..model import Assembly, Bricks, Rows, collisions_between_grids, contact_graph
-from .planes import Plane, halves_at
+from ..arrays import Ints, Mask
+from ..model import (
+    Assembly,
+    Bricks,
+    Role,
+    Rows,
+    collisions_between_grids,
+    column_facts,
+    components,
+    contact_graph,
+    stud_columns,
+)
+from ..units import PLATES_PER_BRICK
+from .halves import Halves
+from .regions import Region
+
+_ALONG_Y: Final = (..., slice(None, -1), slice(None)), (..., slice(1, None), slice(None))
 
 
 class HalfStudsError(Exception):
@@ -16,24 +31,23 @@ class HalfStudsError(Exception):
 
     Attributes
     ----------
-    levels : tuple of int
-        Of the planes at which it does not.
+    regions : tuple of Region
+        Those with which it does not.
     """
 
-    def __init__(self, levels: tuple[int, ...]) -> None:
-        super().__init__(levels)
-        self.levels = levels
+    def __init__(self, regions: tuple[Region, ...]) -> None:
+        super().__init__(regions)
+        self.regions = regions
 
 
-def set_apart(assembly: Assembly, planes: tuple[Plane, ...]) -> Assembly:
-    """Give every brick the half studs of its level.
+def set_apart(assembly: Assembly, halves: Halves) -> Assembly:
+    """Give every brick the half studs of its cells, and supports those of what they carry.
 
     Parameters
     ----------
     assembly : Assembly
         Drawn together; bricks, jumpers, and all supports.
-    planes : tuple of Plane
-        From below.
+    halves : Halves
 
     Returns
     -------
@@ -43,36 +57,89 @@ def set_apart(assembly: Assembly, planes: tuple[Plane, ...]) -> Assembly:
     Raises
     ------
     HalfStudsError
-        Bricks reach through a plane, or touch across one otherwise than by a jumper, or collide.
+        Bricks lie in cells of several half studs, or touch across otherwise than by a jumper, or collide.
     """
     bricks = assembly.bricks
-    half = halves_at(bricks.corner[:, 2].astype(np.int64), planes)
+    half, several = _of_bricks(assembly, halves)
+    several &= bricks.role != Role.SUPPORT_OUTSIDE
+    half, torn = _of_supports(assembly, half)
     apart = Assembly(replace(bricks, half=half.astype(np.uint8)), assembly.catalogue)
-    wrong = {*_across(assembly, planes), *_untrue(assembly, apart.bricks, planes)}
-    if wrong:
-        raise HalfStudsError(tuple(sorted(wrong)))
+    lost, collide = _untrue(assembly, apart.bricks)
+    wrong = np.unique(np.concatenate([np.flatnonzero(several), torn, lost]))
+    if len(wrong) or collide:
+        raise HalfStudsError(halves.near(bricks.corner[wrong, 2].astype(np.int64) // PLATES_PER_BRICK))
     return apart
 
 
-def _across(assembly: Assembly, planes: tuple[Plane, ...]) -> list[int]:
-    """Return the levels of planes that bricks reach through."""
-    low = assembly.bricks.corner[:, 2]
-    high = low + assembly.height
-    return [plane.level for plane in planes if ((low < plane.level) & (high > plane.level)).any()]
+def check_apart(solid: Mask, halves: Halves) -> None:
+    """Make sure that no brick could cover cells of several half studs.
+
+    Parameters
+    ----------
+    solid : (n_layers, 3, n_y, n_x) bool array
+        The cells of a model that is drawn together.
+    halves : Halves
+
+    Raises
+    ------
+    HalfStudsError
+        Cells of different half studs lie beside each other.
+    """
+    layers = []
+    for one, other in (((..., slice(None, -1)), (..., slice(1, None))), _ALONG_Y):
+        touches = (solid[one] & solid[other]).any(axis=1)
+        differs = halves.half[: len(solid)][one] != halves.half[: len(solid)][other]
+        layers.append(np.flatnonzero((touches & differs).any(axis=(1, 2))))
+    wrong = np.unique(np.concatenate(layers))
+    if len(wrong):
+        raise HalfStudsError(halves.near(wrong))
 
 
-def _untrue(assembly: Assembly, apart: Bricks, planes: tuple[Plane, ...]) -> list[int]:
-    """Return the levels of planes at which contacts are not what they seemed; of all if bricks collide."""
+def lies_in_several(assembly: Assembly, halves: Halves) -> Mask:
+    """Tell which bricks lie in cells of several half studs, (n,)."""
+    return _of_bricks(assembly, halves)[1]
+
+
+def _of_bricks(assembly: Assembly, halves: Halves) -> tuple[Ints, Mask]:
+    """Return the half studs of the first cell of each brick, (n, 2), and which bricks have cells with others."""
+    brick, squares = stud_columns(assembly.bricks, assembly.catalogue)
+    facts = column_facts(assembly.bricks, assembly.catalogue)
+    cells = squares.astype(np.int64)
+    ends = []
+    for level in (squares[:, 2], squares[:, 2] + facts.high - facts.low - 1):
+        cells[:, 2] = level // PLATES_PER_BRICK
+        ends.append(halves.at(cells))
+    own = np.zeros((len(assembly), 2), np.int64)
+    own[brick[::-1]] = ends[0][::-1]
+    wrong = (ends[0] != own[brick]).any(axis=1) | (ends[1] != own[brick]).any(axis=1)
+    several = np.zeros(len(assembly), bool)
+    several[brick[wrong]] = True
+    return own, several
+
+
+def _of_supports(assembly: Assembly, half: Ints) -> tuple[Ints, Ints]:
+    """Return the half studs of all bricks, those of supports as what they carry, and rows that one cannot carry."""
+    support = assembly.bricks.role == Role.SUPPORT_OUTSIDE
+    lower, upper = assembly.graph.pairs.T
+    # supports stand on the ground, with nothing of the model below them
+    group = components(assembly.graph.pairs[support[lower] & support[upper]], len(assembly))
+    carries = support[lower] & ~support[upper]
+    of, carried = group[lower[carries]], upper[carries]
+    found = np.full((len(assembly), 2), -1)
+    found[of[::-1]] = half[carried[::-1]]
+    torn = carried[(half[carried] != found[of]).any(axis=1)]
+    mine = support & (found[group] >= 0).all(axis=1)
+    return np.where(mine[:, None], found[group], half), torn.astype(np.int64)
+
+
+def _untrue(assembly: Assembly, apart: Bricks) -> tuple[Ints, bool]:
+    """Return the upper bricks of contacts that are not what they seemed, and whether bricks collide that did not."""
     links = contact_graph(apart, assembly.catalogue)
-    levels = [plane.level for plane in planes]
     # supports of a piece may lie where other pieces will be
-    if links.collisions > collisions_between_grids(assembly.bricks, assembly.catalogue):
-        return levels
+    collide = links.collisions > collisions_between_grids(assembly.bricks, assembly.catalogue)
     n = len(assembly)
     before, after = (_keyed(each.pairs, each.studs, n) for each in (assembly.graph, links))
-    # the level of a plane is that of the brick above it
-    gone = np.setdiff1d(before, after) // 64 % n
-    return np.intersect1d(apart.corner[gone, 2], levels).tolist() if len(gone) else []
+    return np.setdiff1d(before, after) // 64 % n, collide
 
 
 def _keyed(pairs: Rows, studs: Rows, n: int) -> Ints:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints, Mask
 from ..geometry import corners, inside
@@ -40,8 +41,9 @@ class Grid:
         Layers, and cells along y and x.
     height : float
         Height of a layer in mm: that of a brick or of a plate.
-    drawn_together : bool
-        Whether parts of what lies in it were moved by half a stud, so that it is no image of itself.
+    moved : (n_layers of bricks, n_y, n_x) uint8 array, optional
+        Half studs along x plus twice those along y by which what lies in a cell was moved against the rest, so that
+        it is no image of what lies across the middle.
     """
 
     origin: Floats
@@ -49,7 +51,7 @@ class Grid:
     n_y: int
     n_x: int
     height: float = BRICK
-    drawn_together: bool = False
+    moved: NDArray[np.uint8] | None = None
 
     @property
     def shape(self) -> tuple[int, int, int]:

@@ -28,7 +28,7 @@ from ..memo import Recall, plainly
 from ..model import Assembly, Bricks, Role, concatenate
 from ..progress import Progress, part, silent
 from ..statics import HOLD
-from .clearance import Clearance, clearance_around
+from .clearance import Clearance, Kinds, clearance_around
 from .demand import Demand, support_demand
 from .pillars import add_inner_pillars
 from .plan import Plan, Way, plan_supports
@@ -161,13 +161,14 @@ class AssemblyPlan:
         return held
 
 
-def plan_assembly(
+def plan_assembly(  # noqa: PLR0913
     assembly: Assembly,
     *,
     wish: Wish = "best",
     deepest: int,
     clutch: float = HOLD,
     long_bricks: bool = False,
+    kinds: Kinds | None = None,
     progress: Progress = silent,
     recall: Recall = plainly,
 ) -> AssemblyPlan:
@@ -187,6 +188,8 @@ def plan_assembly(
         Pull in N that one contact point bears.
     long_bricks : bool
         Whether trees carry wide undersides by bricks of eight studs, see :mod:`.chassis`.
+    kinds : (n_layers, n_y, n_x) uint8 array, optional
+        The half studs of cells, see :func:`~.clearance.clearance_around`.
     progress : Progress
     recall : Recall
         Returns supports that were found before.
@@ -201,8 +204,9 @@ def plan_assembly(
         here = part(progress, 0.8 * turn / len(numbers), 0.8 * (turn + 1) / len(numbers))
         here("supports", 0.0)
         # supports of the first piece are still there when the others are joined to it
-        room = clearance_around(assembly.graph) if number == 0 and len(numbers) > 1 else None
         rows = np.flatnonzero(assembly.bricks.piece == number)
+        whole = assembly if number == 0 and len(numbers) > 1 else assembly.take(rows)
+        room = clearance_around(whole.graph, kinds) if kinds is not None or whole is assembly else None
         look = partial(plan_supports, clutch=clutch, long_bricks=long_bricks, progress=here, recall=recall)
         pieces.append(_piece(assembly, rows, room, wish, deepest, look))
     pillars = [_numbered(piece.pillars, number) for piece, number in zip(pieces, numbers, strict=True)]

@@ -142,7 +142,7 @@ def unit_bricks(
     factor = _factors(mesh, grid)
     solid = _solid(share, samples, factor, rules, progress=part(progress, 0.2, 0.6))
     if rules.symmetric:
-        solid = mirror_shapes(solid, share, height=round(BRICK / grid.height))
+        solid = mirror_shapes(solid, share, height=round(BRICK / grid.height), moved=grid.moved)
     progress("unit bricks", 0.6)
     air = outer_air(solid)
     progress("unit bricks", 0.65)
@@ -158,20 +158,21 @@ def unit_bricks(
     colour = np.full(grid.shape, COLOUR_EMPTY, dtype=np.int16)
     colour[solid] = COLOUR_ANY
     colour[seen] = ballot.winners(seen, grid.height)
-    colour = _settled(colour, seen, ballot, rules, height=round(BRICK / grid.height))
+    colour = _settled(colour, seen, ballot, rules, grid)
     if rules.dithering is not None:
         light = light_in_the_open(mesh, samples, grid)
         colour = dither(colour, seen, air, light, rules.dithering, catalogue)
     return _unit_grid(colour, grid)
 
 
-def _settled(colour: Codes, seen: Mask, ballot: Ballot, rules: Rules, *, height: int) -> Codes:
+def _settled(colour: Codes, seen: Mask, ballot: Ballot, rules: Rules, grid: Grid) -> Codes:
     """Let columns take other colours than their own best: for fewer parts, like their image, or as they are specks."""
+    height = round(BRICK / grid.height)
     if rules.detail is not None:
         colour = settle_colours(colour, seen, ballot, rules.detail)
     # of a picture, little differences are what it shows
     if rules.symmetric and rules.facing is None:
-        colour = mirror_colours(colour, seen, ballot, height=height)
+        colour = mirror_colours(colour, seen, ballot, height=height, moved=grid.moved)
     if rules.specks or rules.longest or rules.facing is not None:
         return colour
     return without_specks(colour, seen, ballot, height=height)

@@ -10,11 +10,14 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..arrays import Floats, Mask
 from ..geometry import mirror_axis
 from ..model import COLOUR_EMPTY
 from .colour_votes import CLEAR, Ballot, Codes
+
+Moved = NDArray[np.uint8]
 
 NEAR: Final = 0.1
 """Share of a cell by which the mesh inside it may differ from that in its image."""
@@ -24,7 +27,7 @@ CLOSE: Final = CLEAR / 2
 is clear at a glance."""
 
 
-def mirror_shapes(solid: Mask, share: Floats, *, height: int) -> Mask:
+def mirror_shapes(solid: Mask, share: Floats, *, height: int, moved: Moved | None = None) -> Mask:
     """Give columns and their images the same cells, where the mesh in both is the same.
 
     Parameters
@@ -35,6 +38,8 @@ def mirror_shapes(solid: Mask, share: Floats, *, height: int) -> Mask:
         Share of each cell inside the mesh.
     height : int
         Levels of a column that is decided about at once: those of a layer.
+    moved : (n_layers, n_y, n_x) uint8 array, optional
+        As in :class:`~.slicing.Grid`: what was moved along the axis stays as it is.
 
     Returns
     -------
@@ -47,7 +52,7 @@ def mirror_shapes(solid: Mask, share: Floats, *, height: int) -> Mask:
     if axis is None:
         return solid
     image, far = np.flip(solid, axis), np.flip(share, axis)
-    alike = _of_columns(np.abs(share - far) <= NEAR, height).all(axis=1)
+    alike = _of_columns(np.abs(share - far) <= NEAR, height).all(axis=1) & ~_moved(moved, axis)
     own, others = (_sums(np.abs(share - each) + np.abs(far - each), height) for each in (solid, image))
     here, there = (_of_columns(each, height).sum(axis=1) for each in (solid, image))
     more = (there > here) | ((there == here) & _first(solid.shape, axis, height))
@@ -57,7 +62,7 @@ def mirror_shapes(solid: Mask, share: Floats, *, height: int) -> Mask:
     return found
 
 
-def mirror_colours(colour: Codes, seen: Mask, ballot: Ballot, *, height: int) -> Codes:
+def mirror_colours(colour: Codes, seen: Mask, ballot: Ballot, *, height: int, moved: Moved | None = None) -> Codes:
     """Give columns and their images the same colours, where these hardly matter to the surface of both.
 
     Parameters
@@ -70,6 +75,8 @@ def mirror_colours(colour: Codes, seen: Mask, ballot: Ballot, *, height: int) ->
         What the surface of each visible cell asks for.
     height : int
         Levels of a column that is decided about at once: those of a layer.
+    moved : (n_layers, n_y, n_x) uint8 array, optional
+        As in :class:`~.slicing.Grid`: what was moved along the axis stays as it is.
 
     Returns
     -------
@@ -86,6 +93,7 @@ def mirror_colours(colour: Codes, seen: Mask, ballot: Ballot, *, height: int) ->
     decided = (colour >= 0) & (image >= 0) & seen & np.flip(seen, axis)
     differs = _of_columns(decided & (colour != image), height).any(axis=1, keepdims=True)
     # whole columns, so that no brick is torn into plates
+    differs &= ~_moved(moved, axis)[:, None]
     differs = np.broadcast_to(differs, _of_columns(decided, height).shape).reshape(colour.shape) & decided
     own, others = _price(cost, colour, ballot.codes, differs), _price(cost, image, ballot.codes, differs)
     own_far, others_far = _price(far, image, ballot.codes, differs), _price(far, colour, ballot.codes, differs)
@@ -96,6 +104,15 @@ def mirror_colours(colour: Codes, seen: Mask, ballot: Ballot, *, height: int) ->
     takes &= _of_columns(others - own, height).max(axis=1) <= CLOSE
     found: Codes = np.where(_spread(takes, height) & differs, image, colour).astype(np.int16)
     return found
+
+
+def _moved(moved: Moved | None, axis: int) -> Mask:
+    """Return which columns, or their images, were moved along an axis."""
+    if moved is None:
+        return np.zeros((1, 1, 1), bool)
+    there = moved & (1 if axis == 2 else 2) > 0
+    either: Mask = there | np.flip(there, axis)
+    return either
 
 
 def _of_columns(cells: np.ndarray, height: int) -> np.ndarray:

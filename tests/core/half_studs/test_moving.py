@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from legorize_addon.core.half_studs.islands import PHASES, find_islands
 from legorize_addon.core.half_studs.moving import cut_at, draw_together
-from legorize_addon.core.half_studs.planes import Plane
-from tests.core.half_studs.tower import BLOCK, tower
+from legorize_addon.core.half_studs.regions import choose_regions
+from legorize_addon.core.slicing.lattice import fit_grid
+from tests.core.half_studs.tower import BLOCK, table, tower
 from tests.core.mesh.test_vertex_weights import by_x
 from tests.core.solids import sphere
 
@@ -41,24 +43,25 @@ def test_a_cut_leaves_the_surface_where_it_is(height):
     assert len(cut.face_image) == len(cut.faces)
 
 
-def test_what_is_above_a_plane_comes_back():
-    """The tower is moved back by half a stud along x, the block stays, the volume is the same."""
+def drawn(mesh, half_of):
+    """Draw a mesh together, with half studs by the layer of islands."""
+    grid = fit_grid(mesh, symmetric=True, plates=True)
+    islands = find_islands(mesh, grid)
+    half = np.array([half_of(layer) for layer in islands.layer.tolist()])
+    return draw_together(mesh, float(grid.origin[2]), islands, half)
+
+
+def test_what_is_above_comes_back():
+    """The tower is moved back by half a stud along x, the block stays but for the plate that leans below the tower."""
     mesh = tower()
-    drawn = draw_together(mesh, 0.0, (Plane(3 * BLOCK, (1, 0)),))
+    found = drawn(mesh, lambda layer: (int(layer >= BLOCK), 0))
     high = 9.6 * BLOCK
-    above = drawn.vertices[:, 2] > high + 1e-9
-    assert drawn.vertices[above, 0].min() == pytest.approx(8)
-    below = drawn.vertices[:, 2] < high - 3.2 + 1e-9
-    assert (drawn.vertices[below, 0].min(), drawn.vertices[below, 0].max()) == (0, 48)
-    assert volume(draw_together(sphere(6, 30), -30.0, (Plane(6, (1, 1)), Plane(12, (0, 1))))) == pytest.approx(
-        volume(sphere(6, 30))
-    )
-
-
-def test_without_planes_a_mesh_stays():
-    """The same object comes back."""
-    mesh = sphere(3)
-    assert draw_together(mesh, 0.0, ()) is mesh
+    above = found.vertices[:, 2] > high + 1e-9
+    assert found.vertices[above, 0].min() == pytest.approx(8)
+    # half a stud beside the tower nothing leans
+    assert (found.vertices[~above, 0].min(), found.vertices[~above, 0].max()) == (0, 48)
+    assert volume(found) == pytest.approx(volume(mesh), rel=0.01)
+    assert (edges(found) == 2).all()
 
 
 def test_a_cut_keeps_the_weights():
@@ -67,3 +70,24 @@ def test_a_cut_keeps_the_weights():
     cut = cut_at(mesh, 0.123)
     assert len(cut.vertices) > len(mesh.vertices)
     np.testing.assert_allclose(cut.weight, rise(cut.vertices), atol=1e-12)
+
+
+def test_a_leg_comes_back_alone():
+    """Three legs and the top stay, the fourth one stands on the studs."""
+    mesh = table(0.5)
+    grid = fit_grid(mesh, symmetric=True, plates=True)
+    islands = find_islands(mesh, grid)
+    choice = choose_regions(islands, price=1.0, anywhere=False)
+    found = draw_together(mesh, float(grid.origin[2]), islands, np.array(PHASES)[choice.off])
+    low = found.vertices[:, 2] < 9.6
+    assert sorted(set(np.round(found.vertices[low, 0], 6).tolist())) == [0, 16, 40, 48, 56, 64]
+    top = found.vertices[:, 2] > 9.6 * BLOCK + 1e-6
+    assert (found.vertices[top, 0].min(), found.vertices[top, 0].max()) == (0, 64)
+
+
+def test_the_volume_of_a_ball_stays():
+    """Cut and sheared, as much is inside."""
+    ball = sphere(6, 30)
+    found = drawn(ball, lambda layer: (int(layer >= 2), int(layer >= 2)))
+    assert np.ptp(found.vertices[:, 0]) != np.ptp(ball.vertices[:, 0])
+    assert volume(found) == pytest.approx(volume(ball), rel=0.01)

@@ -76,3 +76,18 @@ def test_open_room_has_nothing_below(places):
     assert not (room.free & room.filled).any()
     sky = ~np.logical_or.accumulate(room.filled[::-1], axis=0)[::-1]
     assert room.free[sky].all()
+
+
+def test_supports_keep_off_what_lies_half_a_stud_aside():
+    """Under a plate of which one half carries other half studs, a column is closed on each side between them."""
+    graph = contact_graph(table(("3005", 0, 0, 0), ("3024", 0, 0, 3), ("3034", 0, 0, 6)), CATALOGUE)
+    kinds = np.zeros((3, 4, 9), np.uint8)
+    kinds[2, :, 4:] = 1
+    plain, room = clearance_around(graph), clearance_around(graph, kinds)
+    assert (room.low == plain.low).all()
+    row = room.open[5, MARGIN + 1, MARGIN : MARGIN + 8]
+    assert plain.open[5, MARGIN + 1, MARGIN : MARGIN + 8].all()
+    assert row.tolist() == [True, True, True, False, False, True, True, True]
+    # nothing stands below where nothing may be
+    assert (room.open[:-1] | ~room.open[1:]).all()
+    assert (clearance_around(graph, np.zeros_like(kinds)).open == plain.open).all()

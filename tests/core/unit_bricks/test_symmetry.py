@@ -104,3 +104,20 @@ def test_hidden_cells_stay():
     found = mirror_colours(colour, seen, ballot_of(votes[seen], 40), height=3)
     assert (found[1] == COLOUR_ANY).all()
     np.testing.assert_array_equal(found, found[..., ::-1])
+
+
+@pytest.mark.parametrize(("moved", "like"), [(0, True), (1, False), (2, True)])
+def test_what_was_moved_along_the_axis_stays(moved, like):
+    """Half a stud along x, a cell is no image of that across the middle; along y it is."""
+    share = np.ones((3, 4, 10))
+    solid = np.ones((3, 4, 10), dtype=bool)
+    solid[:, 0, 0] = False
+    share[:, 0, 0], share[:, 0, 9] = 0.5 - 0.9 * NEAR, 0.5
+    cells = np.zeros((1, 4, 10), np.uint8)
+    cells[0, 0, 9] = moved
+    assert mirror_shapes(solid, share, height=3, moved=cells)[:, 0, 0].all() == like
+    colour = np.full((3, 4, 10), RED, np.int16)
+    colour[:, 0, 0] = WHITE
+    ballot = ballot_of(np.full(colour.shape, 0.5), 1.0)
+    found = mirror_colours(colour, solid | True, ballot, height=3, moved=cells)
+    assert (found[0, 0, 0] == found[0, 0, 9]) == like
