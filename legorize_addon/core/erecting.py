@@ -84,7 +84,7 @@ def _erected(run: Run, made: Draft, edits: Edits, *, last: bool = False) -> Erec
         assembly, found, smoothed = run.once(smooth_surface, assembly, found, by_hand.made)
         pieces = run.once(cut_pieces, assembly)
     with run.stage("supports"):
-        plan, joints = plan_pieces(run, assembly, *pieces, made.halves and made.halves.half)
+        plan, joints = plan_pieces(run, assembly, *pieces, made.halves.half if made.halves is not None else None)
     if made.halves is not None or len(plan.final) > len(assembly):
         with run.stage("stability again"):
             found = run.once(check_final, plan.final)

@@ -130,8 +130,8 @@ class Settings:
             "symmetric model stays so", "sizes": "the same, also of a size up to 3 % smaller or larger if it is set in "
             "studs, bricks or cm"})
     half_studs: bool = setting(
-        False, "Half studs", "Shift all above a plane by half a stud, on jumper plates, where that comes closer to the "
-        "shape: it must save as much for each part as slopes.", group="Shape")
+        False, "Half studs", "Shift parts such as a head or a tail by half a stud, on jumper plates, where that comes "
+        "closer to the shape: it must save as much for each part as slopes.", group="Shape")
     superposition: Literal["median", "middle"] = setting(
         "median", "Ends of plates", "Where a brick ends if its three plates end at different places.", group="Shape",
         words={"median": "between the two others, which keeps its volume",

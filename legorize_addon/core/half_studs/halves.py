@@ -62,7 +62,8 @@ def halves_of(choice: Choice, islands: Islands) -> Ints:
     """Return the half studs of islands on the grid of :func:`grid_together`, (n, 2), x and y."""
     off = np.array(PHASES)[choice.off]
     used = off.any(axis=0)
-    return off ^ (np.array(choice.forward) & used)
+    half: Ints = np.where(used, off ^ np.array(choice.forward), off)
+    return half
 
 
 def grid_together(grid: Grid, choice: Choice) -> Grid:

@@ -150,7 +150,8 @@ def _greedy(
             break
         off, now = tried[best], float(cost[best])
         phase, row = divmod(best, len(candidates))
-        regions.append(Region(*candidates[row][0], PHASES[phase]))
+        low, high, upwards, number = candidates[row][0]
+        regions.append(Region(low, high, upwards, number, PHASES[phase]))
     return now, off, tuple(regions)
 
 
