@@ -46,7 +46,10 @@ def updated(memo: Memo, settings: Settings) -> Build:
 def other_value(name: str):
     """Return another value of a setting than it has at the start; None for what has no effect without files."""
     entry = next(entry for entry in fields(Settings) if entry.name == name)
-    value, special = getattr(START, name), {"palette": "0 1 4 15 72", "width": 8, "parts": 30, "replace_colours": "4=1"}
+    value, special = (
+        getattr(START, name),
+        {"palette": "0 1 4 15 72", "width": 8, "parts": 30, "replace_colours": "4=1", "weight": "face"},
+    )
     if name in special:
         return special[name]
     if entry.metadata["files"] or name == "learned_from" or {"prices", "owned"} & {*entry.metadata["needs"]}:
