@@ -14,7 +14,6 @@ from .half_studs import (
     NEEDED,
     HalfStudsError,
     Halves,
-    Key,
     check_apart,
     choose_regions,
     draw_together,
@@ -39,8 +38,8 @@ from .statics import Stability
 from .strength import check_final
 from .supports import AssemblyPlan, walk_apart
 
-Barred = tuple[Key, ...]
-"""Regions that there must not be."""
+Barred = tuple[tuple[int, int, bool, int], ...]
+"""Keys of regions that there must not be."""
 
 
 def find_regions(run: Run, mesh: TriangleMesh, frame: Grid, barred: Barred) -> tuple[TriangleMesh, Grid, Halves | None]:

@@ -119,8 +119,8 @@ class Settings:
         "", "Weight", "Vertex group, or attribute of points, that says where likeness counts more, as on eyes and "
         "letters: from 0, as elsewhere, to 1; empty for none.", group="Shape")
     emphasis: float = setting(
-        3.0, "Emphasis", "How many times more than elsewhere likeness counts where the weight is 1.", group="Shape",
-        limits=(0.0, 100.0), needs=("weight",))
+        3.0, "Emphasis", "How much more than elsewhere likeness counts where the weight is 1: with 3, four times as "
+        "much.", group="Shape", limits=(0.0, 100.0), needs=("weight",))
     symmetric: bool = setting(
         True, "Symmetric", "Centre the grid on the model, so that a symmetric object becomes a symmetric model.",
         group="Shape")

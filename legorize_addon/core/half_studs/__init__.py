@@ -13,14 +13,13 @@ from .halves import Halves, grid_together, halves_in, halves_of
 from .islands import find_islands
 from .jumpers import NEEDED, lay_jumpers
 from .moving import draw_together
-from .regions import Key, Region, choose_regions
+from .regions import Region, choose_regions
 from .truth import HalfStudsError, check_apart, lies_in_several, set_apart
 
 __all__ = [
     "NEEDED",
     "HalfStudsError",
     "Halves",
-    "Key",
     "Region",
     "check_apart",
     "choose_regions",

@@ -30,6 +30,7 @@ _MOST: Final = 8
 
 
 Key = tuple[int, int, bool, int]
+"""What tells a region from all others: its first and last layer, whether it reaches upwards, its lowest island."""
 
 _Candidate = tuple[Key, Ints]
 
