@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ..arrays import Floats, Ints, Mask
+from ..arrays import Floats, Ints
 from ..mesh import TriangleMesh, cell_factors
 from ..slicing import Grid, covered_area, linked, slice_mesh
 from ..units import CELL_AREA, PLATE, PLATES_PER_BRICK, STUD
@@ -109,7 +109,7 @@ def find_islands(mesh: TriangleMesh, grid: Grid) -> Islands:
         label, n = ndimage.label(shares.max(axis=0) > _LEAST, np.ones((3, 3)))
         label = np.where(label > 0, label - 1 + len(layer), -1).astype(np.int32)
         for island, box in enumerate(ndimage.find_objects(label - len(layer) + 1), len(layer)):
-            made = _fitted(shares, label == island, box, factor)
+            made = _fitted(shares, label, island, box, factor)
             error.append(made[0])
             cells.append(made[1])
         layer += [number] * n
@@ -145,13 +145,15 @@ def _layers(mesh: TriangleMesh, grid: Grid) -> Iterator[Floats]:
         yield from area.reshape(-1, PLATES_PER_BRICK, height, width)
 
 
-def _fitted(shares: Floats, mine: Mask, box: tuple[slice, slice], factor: Floats) -> tuple[Floats, tuple[Ints, ...]]:
+def _fitted(
+    shares: Floats, label: NDArray[np.int32], island: int, box: tuple[slice, slice], factor: Floats
+) -> tuple[Floats, tuple[Ints, ...]]:
     """Return by how many cells an island errs in each phase, and where its bricks would lie."""
     # whole studs around it, one more on each side
     low = [max(side.start // PARTS - 1, 0) * PARTS for side in box]
-    high = [min((-(-side.stop // PARTS) + 2) * PARTS, size) for side, size in zip(box, mine.shape, strict=True)]
+    high = [min((-(-side.stop // PARTS) + 2) * PARTS, size) for side, size in zip(box, label.shape, strict=True)]
     within = slice(low[0], high[0]), slice(low[1], high[1])
-    own = np.where(mine[within], shares[:, within[0], within[1]], 0)
+    own = np.where(label[within] == island, shares[:, within[0], within[1]], 0)
     error, cells = np.zeros(len(PHASES)), []
     for phase, half in enumerate(PHASES):
         x, y = (PARTS // 2 * each for each in half)

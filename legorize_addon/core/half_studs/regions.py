@@ -7,10 +7,10 @@ leg, a wheel). All regions of a model are tried in all phases, and the one that 
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, Self
 
 import numpy as np
-from scipy.sparse import coo_array
+from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components
 
 from ..arrays import Floats, Ints
@@ -28,11 +28,12 @@ _ASKEW: Final = 0.005
 _MOST: Final = 8
 """Regions of a model."""
 
+_DIGITS: Final = 9
+"""Decimals of costs, in cells, that count."""
+
 
 Key = tuple[int, int, bool, int]
 """What tells a region from all others: its first and last layer, whether it reaches upwards, its lowest island."""
-
-_Candidate = tuple[Key, Ints]
 
 
 class Region(NamedTuple):
@@ -82,6 +83,63 @@ class Choice(NamedTuple):
     regions: tuple[Region, ...]
 
 
+class _Candidates(NamedTuple):
+    """Regions that there may be, k of them: leaves have thousands, most of few islands.
+
+    Attributes
+    ----------
+    keys : list of tuple
+    islands : (k, n) sparse array
+        1 where an island belongs to a region.
+    lower, upper, both : (k, m) sparse arrays
+        1 where the lower or the upper island of a link does, or both.
+    """
+
+    keys: list[Key]
+    islands: csr_array
+    lower: csr_array
+    upper: csr_array
+    both: csr_array
+
+    @classmethod
+    def of(cls, keys: list[Key], members: list[Ints], islands: Islands) -> Self:
+        """Gather regions of which the islands are known."""
+        first = np.cumsum([0, *map(len, members)])
+        column = np.concatenate([np.zeros(0, np.int64), *members])
+        of = csr_array((np.ones(len(column)), column, first), shape=(len(keys), len(islands.layer)))
+        links, (low, high) = np.arange(len(islands.links)), islands.links.T
+        ends = [
+            csr_array((np.ones(len(links)), (end, links)), shape=(len(islands.layer), len(links)))
+            for end in (low, high)
+        ]
+        lower, upper = (csr_array(of @ each) for each in ends)
+        return cls(keys, of, lower, upper, csr_array(lower * upper))
+
+    def changes(self, islands: Islands, error: Floats, off: Ints, price: float) -> Floats:
+        """Return by how much what is to pay changes in (n,) phases if a region is moved to one, (4 k,), by phase.
+
+        To pay are what islands err, (n, 4), and the parts between those of different phases.
+        """
+        low, high = islands.links.T
+        parts = price * _PARTS * np.maximum(islands.overlap, 1)
+        now = parts * (off[low] != off[high])
+        found = []
+        for phase in range(len(PHASES)):
+            # what of a link is moved: its lower end, its upper one, or both
+            alone = [parts * (off[other] != phase) - now for other in (high, low)]
+            change = self.islands @ (error[:, phase] - error[np.arange(len(off)), off])
+            change += self.lower @ alone[0] + self.upper @ alone[1] - self.both @ (alone[0] + alone[1] + now)
+            found.append(change)
+        # sums of other orders do not choose between regions that are alike
+        return np.round(np.concatenate(found), _DIGITS)
+
+    def moved(self, off: Ints, row: int, phase: int) -> Ints:
+        """Return (n,) phases with a region moved to one."""
+        tried = off.copy()
+        tried[self.islands.indices[self.islands.indptr[row] : self.islands.indptr[row + 1]]] = phase
+        return tried
+
+
 def choose_regions(islands: Islands, *, price: float, anywhere: bool, barred: Collection[Key] = frozenset()) -> Choice:
     """Choose the regions of a model, and the grid of the rest.
 
@@ -99,7 +157,7 @@ def choose_regions(islands: Islands, *, price: float, anywhere: bool, barred: Co
     -------
     Choice
     """
-    candidates = [each for each in _candidates(islands) if each[0] not in barred]
+    candidates = _candidates(islands, barred)
     best: tuple[float, Choice] | None = None
     for base in PHASES if anywhere else PHASES[:1]:
         for forward in PHASES:
@@ -111,57 +169,53 @@ def choose_regions(islands: Islands, *, price: float, anywhere: bool, barred: Co
     return best[1]
 
 
-def _candidates(islands: Islands) -> list[_Candidate]:
-    """List all regions: the key of each, and its islands."""
+def _candidates(islands: Islands, barred: Collection[Key] = frozenset()) -> _Candidates:
+    """List all regions that there may be."""
     n, known = len(islands.layer), set()
-    found: list[_Candidate] = []
+    keys, members = list[Key](), list[Ints]()
     for upwards in (True, False):
         for layer in range(int(islands.layer.max(initial=0)) + 1):
             inside = islands.layer >= layer if upwards else islands.layer <= layer
             links = islands.links[inside[islands.links].all(axis=1)]
             graph = coo_array((np.ones(len(links)), (links[:, 0], links[:, 1])), shape=(n, n))
             label = connected_components(graph, directed=False)[1]
-            for each in np.unique(label[inside & (islands.layer == layer)]).tolist():
-                rows = np.flatnonzero(inside & (label == each))
-                key = rows.tobytes()
-                if key not in known and len(rows) < n:
-                    known.add(key)
-                    low, high = islands.layer[rows[[0, -1]]].tolist()
-                    found.append(((low, high, upwards, int(rows[0])), rows))
-    return found
+            there = np.unique(label[inside & (islands.layer == layer)])
+            mine = np.flatnonzero(inside & np.isin(label, there))
+            mine = mine[np.argsort(label[mine], kind="stable")]
+            for rows in np.split(mine, np.flatnonzero(np.diff(label[mine])) + 1) if len(mine) else ():
+                low, high = islands.layer[rows[[0, -1]]].tolist()
+                key = low, high, upwards, int(rows[0])
+                if rows.tobytes() not in known and len(rows) < n:
+                    known.add(rows.tobytes())
+                    if key not in barred:
+                        keys.append(key)
+                        members.append(rows)
+    return _Candidates.of(keys, members, islands)
 
 
 def _greedy(
-    islands: Islands, candidates: list[_Candidate], base: tuple[int, int], forward: tuple[int, int], price: float
+    islands: Islands, candidates: _Candidates, base: tuple[int, int], forward: tuple[int, int], price: float
 ) -> tuple[float, Ints, tuple[Region, ...]]:
     """Take the region that saves most until none pays; return what is left to pay, the phases, and the regions."""
     n = len(islands.layer)
     error = islands.error[:, [PHASES.index((base[0] ^ x, base[1] ^ y)) for x, y in PHASES]]
-    member = np.array([np.isin(np.arange(n), each[1]) for each in candidates]).reshape(-1, n)
-    least = _GAIN * error[:, 0].sum()
+    now = float(error[:, 0].sum())
+    least = _GAIN * now
     off, regions = np.zeros(n, np.int64), list[Region]()
-    now = float(_cost(islands, error, off[None], price)[0])
     while len(regions) < _MOST:
-        tried = np.stack([np.where(member, phase, off) for phase in range(len(PHASES))]).reshape(-1, n)
-        cost = _cost(islands, error, tried, price)
-        order = np.argsort(cost, kind="stable")
-        pays = order[cost[order] < now - least].tolist()
-        best = next((row for row in pays if _apart(islands, tried[row], base, forward)), None)
-        if best is None:
+        change = candidates.changes(islands, error, off, price)
+        order = np.argsort(change, kind="stable")
+        for best in order[change[order] < -least].tolist():
+            phase, row = divmod(best, len(candidates.keys))
+            tried = candidates.moved(off, row, phase)
+            if _apart(islands, tried, base, forward):
+                break
+        else:
             break
-        off, now = tried[best], float(cost[best])
-        phase, row = divmod(best, len(candidates))
-        low, high, upwards, number = candidates[row][0]
+        off, now = tried, now + float(change[best])
+        low, high, upwards, number = candidates.keys[row]
         regions.append(Region(low, high, upwards, number, PHASES[phase]))
     return now, off, tuple(regions)
-
-
-def _cost(islands: Islands, error: Floats, off: Ints, price: float) -> Floats:
-    """Return what phases of islands cost, (k,) for (k, n): what they err, and the parts between them."""
-    lower, upper = islands.links.T
-    jumps = off[:, lower] != off[:, upper]
-    parts: Floats = _PARTS * jumps @ np.maximum(islands.overlap, 1)
-    return error[np.arange(off.shape[1]), off].sum(axis=1) + price * parts
 
 
 def _apart(islands: Islands, off: Ints, base: tuple[int, int], forward: tuple[int, int]) -> bool:

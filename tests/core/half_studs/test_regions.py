@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from legorize_addon.core.half_studs.islands import find_islands
+from legorize_addon.core.half_studs.islands import Islands, find_islands
 from legorize_addon.core.half_studs.regions import _candidates, choose_regions
 from legorize_addon.core.slicing.lattice import fit_grid
 from tests.core.half_studs.tower import BLOCK, table, tower
@@ -82,7 +83,9 @@ def test_what_would_touch_is_moved_the_other_way_or_not_at_all():
 def test_every_region_hangs_together():
     """Upwards and downwards, each is connected and all of its layers."""
     islands, _ = choose(table(0.5))
-    for (low, high, upwards, number), rows in _candidates(islands):
+    found = _candidates(islands)
+    members = np.split(found.islands.indices, found.islands.indptr[1:-1])
+    for (low, high, upwards, number), rows in zip(found.keys, members, strict=True):
         assert rows[0] == number
         assert (islands.layer[rows].min(), islands.layer[rows].max()) == (low, high)
         lower, upper = islands.links.T
@@ -98,3 +101,45 @@ def test_a_weighted_tower_pays_sooner():
         price *= 1.5
     above = replace(mesh, weight=3.0 * (mesh.vertices[:, 2] >= 9.6 * BLOCK))
     assert [region.low for region in choose(above, price=price)[1].regions] == [BLOCK]
+
+
+def test_leaves_take_no_memory_for_pairs():
+    """Two thousand pieces that touch nothing: what is known of each region grows with its own islands."""
+    n = 2000
+    error = np.ones((n, 4))
+    error[:, 1] = 0.0
+    leaves = Islands(
+        corner=np.zeros(2),
+        label=np.full((20, 8, 8), -1, np.int32),
+        layer=np.arange(n) // 100,
+        error=error,
+        cells=((np.zeros((1, 2), np.int64),) * 4,) * n,
+        links=np.zeros((0, 2), np.int64),
+        overlap=np.zeros(0),
+    )
+    tracemalloc.start()
+    try:
+        found = choose_regions(leaves, price=1.0, anywhere=False)
+        most = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    # each leaf alone is too little
+    assert found.regions == ()
+    assert most < 8 * n**2
+
+
+def test_changes_are_what_all_costs_anew():
+    """For any phases, what a region in another one saves is the difference of what both cost in full."""
+    islands, _ = choose(table(0.5))
+    numbers = np.random.default_rng(0)
+    found, off = _candidates(islands), numbers.integers(0, 4, len(islands.layer))
+
+    def cost(phases):
+        """Return what phases cost, link by link."""
+        between = zip(islands.links.tolist(), islands.overlap.tolist(), strict=True)
+        parts = sum(max(overlap, 1) for (low, high), overlap in between if phases[low] != phases[high])
+        return sum(each[phase] for each, phase in zip(islands.error, phases, strict=True)) + 2.0 * 0.35 * parts
+
+    changes = found.changes(islands, islands.error, off, 2.0).reshape(4, -1)
+    for phase, row in np.ndindex(changes.shape):
+        assert changes[phase, row] == pytest.approx(cost(found.moved(off, row, phase)) - cost(off), abs=1e-6)
