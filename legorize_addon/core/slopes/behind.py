@@ -44,6 +44,9 @@ def open_up(shell: UnitGrid, solid: Mask, slopes: Bricks, catalogue: Catalogue, 
     seen = np.zeros(cover.shape, bool)
     seen[beside] = (solid.reshape(shape) & (colour < 0))[beside]
     around = ndimage.binary_dilation(taken, np.ones((3, 3, 3), bool))
+    # what else is fixed stands on something, and something on it: a jumper
+    given = (cover == Fill.FIXED) & ~taken
+    around &= ~ndimage.binary_dilation(given, np.ones((3, 1, 1), bool))
     if not filled:
         cover[around & (cover == Fill.REQUIRED) & (colour < 0)] = Fill.OPTIONAL
     cover[seen] = Fill.REQUIRED

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from legorize_addon.core.layout import with_fixed
 from legorize_addon.core.model import COLOUR_ANY, COLOUR_EMPTY, Fill
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.slopes import open_up
@@ -14,7 +15,7 @@ from tests.core.any_bricks import table
 from tests.core.layout.cells import CATALOGUE, RED, brick_grid
 
 WHITE = 15
-SLOPE, BRICK = CATALOGUE.part_row("3040b"), CATALOGUE.part_row("3004")
+SLOPE, BRICK, PLATE = map(CATALOGUE.part_row, ("3040b", "3004", "3024"))
 
 
 def block():
@@ -52,6 +53,14 @@ def test_what_is_hidden(filled, left):
     assert (opened.cover[1, :, 1, 2] == left).all()
     assert (opened.cover[1, :, 1, 3:] == Fill.REQUIRED).all()
     assert (opened.colour[1, :, 1, 2:] == COLOUR_ANY)[opened.cover[1, :, 1, 2:] == left].all()
+
+
+def test_what_a_jumper_lies_on():
+    """Hidden cells below and above what else is fixed stay required, whatever slopes are beside."""
+    grid, solid = block()
+    grid = with_fixed(grid, table([(PLATE, 2, 1, 4, 0, RED, Role.PLATE, 0, 1)]), CATALOGUE)
+    opened = open_up(grid, solid, at(SLOPE, 0, 0), CATALOGUE)
+    assert opened.cover[1, :, 1, 2].tolist() == [Fill.REQUIRED, Fill.FIXED, Fill.REQUIRED]
 
 
 def test_nothing_but_slopes():
