@@ -179,6 +179,9 @@ def remarks_on_half_studs(halves: Halves | None, bricks: Bricks, catalogue: Cata
     jumpers = int(np.count_nonzero(np.array([each.jumper for each in catalogue.parts])[bricks.part]))
     told = []
     for region in halves.regions:
+        if not any(region.half):
+            # part of another region lies on the studs of the rest again
+            continue
         ways = " and ".join(axis for axis, by in zip("xy", region.half, strict=True) if by)
         way = f"above layer {region.low}" if region.upwards else f"up to layer {region.high + 1}"
         told.append(f"A part {way} lies half a stud aside along {ways}.")

@@ -10,7 +10,7 @@ import pytest
 from legorize_addon.core.edits import Edit, Edits
 from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.files.ldraw import write_ldr
-from legorize_addon.core.half_stages import with_half_studs
+from legorize_addon.core.half_stages import remarks_on_half_studs, with_half_studs
 from legorize_addon.core.half_studs import Region
 from legorize_addon.core.half_studs.truth import HalfStudsError
 from legorize_addon.core.ldraw.reader import read_ldraw
@@ -28,6 +28,15 @@ SETTINGS = Settings(width=6, half_studs=True, hollow=False)
 def build(request):
     """Build a tower off the studs."""
     return request.param, legorize(tower(*request.param), SETTINGS)
+
+
+def test_a_part_on_the_studs_again_is_not_told_of(build):
+    """What lies within a region that lies aside may lie as the rest does: nothing of it is aside."""
+    _, found = build
+    halves = found.halves
+    told = remarks_on_half_studs(halves, found.bricks, found.assembly.catalogue)
+    inner = replace(halves, regions=(*halves.regions, Region(2, 3, False, 1, (0, 0))))
+    assert remarks_on_half_studs(inner, found.bricks, found.assembly.catalogue) == told
 
 
 def test_the_tower_stands_where_it_is(build):
