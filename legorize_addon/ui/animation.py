@@ -11,6 +11,7 @@ from bpy.props import BoolProperty, IntProperty
 from ..core.errors import BuildError
 from ..render import Cut, make_film
 from ..view import animate, animation_of, n_steps, stop_animation
+from . import counts
 from .build import OnBuild
 from .properties import current_build
 
@@ -37,7 +38,9 @@ class LEGORIZE_OT_animate(OnBuild, bpy.types.Operator):
         made = animate(scene, current_build(scene), first=scene.frame_start, frames=self.frames)
         scene.frame_end = made.last + HOLD
         scene.frame_set(made.first)
-        told = rpt("{} steps in frames {} to {}. Press Space to play.").format(made.steps, made.first, made.last)
+        told = rpt("{} in frames {} to {}. Press Space to play.").format(
+            counts.steps(made.steps), made.first, made.last
+        )
         self.report({"INFO"}, told)
         return {"FINISHED"}
 

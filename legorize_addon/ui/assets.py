@@ -8,6 +8,7 @@ import bpy
 from bpy.app.translations import pgettext_rpt as rpt
 
 from ..scene import state_of
+from . import counts
 from .build import OnBuild
 from .export import title_of
 from .properties import current_build
@@ -32,9 +33,8 @@ class LEGORIZE_OT_mark_asset(OnBuild, bpy.types.Operator):
         build = current_build(context.scene)
         build.asset_mark()
         summary = state_of(build).summary
-        build.asset_data.description = (
-            f"{summary['bricks']} bricks, {summary['studs_x']} x {summary['studs_y']} studs, {summary['layers']} layers"
-        )
+        extent = counts.extent(summary["studs_x"], summary["studs_y"], summary["layers"])
+        build.asset_data.description = f"{counts.bricks(summary['bricks'])}, {extent}"
         for tag in (*TAGS, title_of(build)):
             build.asset_data.tags.new(tag, skip_if_exists=True)
         if not bpy.app.background:

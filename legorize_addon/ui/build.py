@@ -10,18 +10,19 @@ from bpy.app.handlers import persistent
 from bpy.app.translations import pgettext_iface as iface
 from bpy.app.translations import pgettext_n as n
 from bpy.app.translations import pgettext_rpt as rpt
+from bpy.app.translations import pgettext_tip as tip
 
 from ..core.errors import BuildError, LimitError
 from ..scene import Source, builds, clear_build, damage, orphans, show_orphans, show_sources, state_of, sweep
 from ..view import show_result, shows_step
-from . import job
+from . import counts, job
 from .build_larger import ask
 from .duplicates import adopt
 from .live import leave_preview
 from .progress_text import progress_text
 from .properties import current_build
 from .reporting import Reporting, forget_status
-from .requests import BuildRequest, build_request, by_uid, chosen_sources
+from .requests import BuildRequest, build_request, by_uid, chosen_sources, why_nothing
 from .session import SESSION
 from .setting_names import as_in_panel
 from .settings_properties import settings_of, take_renamed
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 TICK: Final = 0.1
 """Seconds between two looks at a running job."""
+
+BUSY: Final = n("A model is being built: wait for it, or press Esc to stop it.")
 
 NAVIGATION: Final = frozenset(
     {"MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM"}
@@ -58,9 +61,10 @@ class Working(Reporting):
     def poll(cls, context: bpy.types.Context) -> bool:
         """Tell whether there is something to work on, and why not."""
         if job.running():
-            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+            cls.poll_message_set(tip(BUSY))
         elif not chosen_sources(context):
-            cls.poll_message_set(cls.nothing_chosen)
+            # looked for when the reason is read, not whenever the button is drawn
+            cls.poll_message_set(why_nothing, context.scene, context.view_layer, cls.nothing_chosen)
         else:
             return True
         return False
@@ -135,7 +139,7 @@ class Building(Working):
     """What makes a brick model of objects; afresh, or from what earlier runs of the session have found."""
 
     afresh = True
-    nothing_chosen = "Select an object with a surface."
+    nothing_chosen = n("Select an object with a surface.")
 
     larger: bpy.props.BoolProperty(
         name="Larger Than the Limits",
@@ -190,7 +194,7 @@ class Building(Working):
         view.show_sources = False
         if scene == context.scene:
             select_only(context, state_of(collection).root)
-        self.report({"INFO"}, rpt("Model built: {} bricks.").format(len(build.bricks)))
+        self.report({"INFO"}, rpt("Model built: {}.").format(counts.bricks(len(build.bricks))))
         for note in notes:
             self.report({"WARNING"}, note)
         return {"FINISHED"}
@@ -261,13 +265,13 @@ class OnBuild(Reporting):
     def poll(cls, context: bpy.types.Context) -> bool:
         """Tell whether there is a build, and why not."""
         if job.running():
-            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+            cls.poll_message_set(tip(BUSY))
         elif not current_build(context.scene):
-            cls.poll_message_set("Legorize an object first.")
+            cls.poll_message_set(tip("Legorize an object first."))
         elif not cls.mends and damage(current_build(context.scene)):
             cls.poll_message_set(damage(current_build(context.scene)).removesuffix("."))
         elif not cls.of_steps and shows_step(current_build(context.scene)):
-            cls.poll_message_set(A_STEP)
+            cls.poll_message_set(tip(A_STEP))
         else:
             return True
         return False
@@ -301,7 +305,7 @@ class LEGORIZE_OT_show_originals(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Tell whether there are such objects."""
-        cls.poll_message_set("There are no hidden originals of deleted models.")
+        cls.poll_message_set(tip("There are no hidden originals of deleted models."))
         return bool(orphans(context.scene))
 
     def execute(self, context: bpy.types.Context) -> set[str]:

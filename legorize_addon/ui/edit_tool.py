@@ -9,12 +9,13 @@ from typing import Any, Final
 import bpy
 import gpu
 from bpy.app.translations import pgettext_iface as iface
+from bpy.app.translations import pgettext_n as n
 from gpu_extras.batch import batch_for_shader
 
 from ..core.model import load_catalogue
 from ..scene import damage, state_of
 from ..view import edges_of, shows_step
-from . import job
+from . import counts, job
 from .edits import (
     LEGORIZE_OT_edit,
     LEGORIZE_OT_edit_automatic,
@@ -75,7 +76,7 @@ class LEGORIZE_WT_edit(bpy.types.WorkSpaceTool):
         """Draw how many bricks are picked, and what can be done, in the tool's header."""
         build = current_build(context.scene)
         count = len(state_of(build).picked) if build else 0
-        layout.label(text=iface("1 brick picked") if count == 1 else iface("{} bricks picked").format(count))
+        layout.label(text=counts.count_of(count, n("1 brick picked"), n("{} bricks picked")))
         if count:
             _draw_changes(layout.row(align=True))
 
@@ -142,7 +143,7 @@ class LEGORIZE_PT_edits(BuildTab, bpy.types.Panel):
         build = current_build(context.scene)
         self.layout.operator("wm.tool_set_by_id", text="Edit Bricks", icon="RESTRICT_SELECT_OFF").name = TOOL
         count = len(state_of(build).picked)
-        self.layout.label(text=iface("1 brick picked") if count == 1 else iface("{} bricks picked").format(count))
+        self.layout.label(text=counts.count_of(count, n("1 brick picked"), n("{} bricks picked")))
         if count:
             _draw_changes(self.layout.grid_flow(columns=2, even_columns=True, align=True))
         if len(build.legorize_edits):

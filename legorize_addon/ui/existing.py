@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_rpt as rpt
+from bpy.app.translations import pgettext_tip as tip
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
 from ..core.errors import BuildError
@@ -18,8 +19,8 @@ from ..core.progress import Progress
 from ..core.units import MM_PER_METRE
 from ..scene import Source, read_bricks, sources_of, state_of
 from ..view import show_result
-from . import job
-from .build import Browsing, OnBuild, Working, select_only
+from . import counts, job
+from .build import BUSY, Browsing, OnBuild, Working, select_only
 from .edits import list_edits
 from .export import chosen_path, title_of
 from .kept_texts import with_texts
@@ -117,7 +118,7 @@ class Judging(Working):
         scene.legorize.build = shown
         if scene == context.scene:
             select_only(context, state_of(shown).root)
-        self.report({"INFO"}, rpt("Model built: {} bricks.").format(len(made.bricks)))
+        self.report({"INFO"}, rpt("Model built: {}.").format(counts.bricks(len(made.bricks))))
         for note in made.notes:
             self.report({"WARNING"}, note)
         return {"FINISHED"}
@@ -151,7 +152,7 @@ class LEGORIZE_OT_open_ldraw(Browsing, Judging, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Tell whether nothing else is at work."""
-        cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+        cls.poll_message_set(tip(BUSY))
         return not job.running()
 
     def _take_order(self, context: bpy.types.Context) -> ExistingRequest:

@@ -19,7 +19,7 @@ from bpy.app.translations import pgettext_iface as iface
 from ..core.errors import LegorizeError
 from ..core.progress import duration
 from ..core.settings import Settings
-from . import job
+from . import counts, job
 from .requests import by_uid, chosen_sources
 from .setting_names import as_in_panel
 from .settings_properties import settings_of
@@ -94,10 +94,12 @@ def _lines(mesh: TriangleMesh, settings: Settings) -> tuple[str, ...]:
     found = estimate_of(_measured(mesh, settings.up), settings)
     wide, deep = (max(1, round(studs)) for studs in found.studs)
     return (
-        iface("{} x {} studs, {} layers").format(wide, deep, found.layers),
+        counts.extent(wide, deep, found.layers),
         "{:.1f} x {:.1f} x {:.1f} cm".format(*found.cm),
-        iface("about {} bricks, {}, {} MB").format(
-            _rounded(found.bricks), duration(found.seconds), _rounded(found.megabytes)
+        iface("about {}, {}, {} MB").format(
+            counts.bricks(round(found.bricks), _rounded(found.bricks)),
+            duration(found.seconds),
+            _rounded(found.megabytes),
         ),
     )
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import bpy
 import numpy as np
+from bpy.app.translations import pgettext_n as n
 from bpy.app.translations import pgettext_rpt as rpt
 
 from ..core.model import Bricks, UnitGrid, load_catalogue
@@ -104,7 +105,7 @@ class LEGORIZE_OT_learn(Working, bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    nothing_chosen = "Select brick models, or objects with a surface."
+    nothing_chosen = n("Select brick models, or objects with a surface.")
 
     def _take_order(self, context: bpy.types.Context) -> Lessons:
         from ..core.layout.learning import grades_text, grades_version, samples_text, version_of

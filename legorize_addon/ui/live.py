@@ -22,7 +22,7 @@ from ..core.settings import Settings
 from ..core.units import MM_PER_METRE
 from ..scene import end_preview, preview_in, show_preview
 from ..view import readable
-from . import job
+from . import counts, job
 from .properties import current_build
 from .requests import by_uid, chosen_sources, replaced_by, resolved_settings
 from .setting_names import as_in_panel
@@ -181,11 +181,10 @@ def _working(context: bpy.types.Context, asked: Asked) -> Iterator[None]:
     if unchanged:
         # what was hidden is noted like a change
         _live.mesh = mesh
-    _live.said = iface("Preview: {} bricks").format(f"{len(found.bricks):,}")
+    bricks = counts.bricks(len(found.bricks), f"{len(found.bricks):,}")
+    _live.said = iface("Preview: {}").format(bricks)
     if found.shown < found.studs:
-        _live.said = iface("Preview at {} instead of {} studs: {} bricks").format(
-            found.shown, found.studs, f"{len(found.bricks):,}"
-        )
+        _live.said = iface("Preview at {} instead of {} studs: {}").format(found.shown, found.studs, bricks)
 
 
 def _there(context: bpy.types.Context, asked: Asked) -> list[bpy.types.Object] | None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 import bpy
 import numpy as np
 from bpy.app.translations import pgettext_iface as iface
+from bpy.app.translations import pgettext_n as n
 from bpy.app.translations import pgettext_rpt as rpt
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
@@ -17,7 +18,7 @@ from ..core.model import Assembly, Role, load_catalogue
 from ..core.progress import Progress, part
 from ..scene import builds_of, damage, read_bricks, state_of
 from ..view import STEPS, MethodView, has_trajectories, show_method
-from . import job
+from . import counts, job
 from .build import Browsing, Working
 from .export import chosen_path, proposed_path
 from .live import leave_preview
@@ -117,7 +118,7 @@ class LEGORIZE_OT_show_method(Working, bpy.types.Operator):
         "panel Layers shows it layer by layer"
     )
     bl_options = {"REGISTER", "UNDO"}
-    nothing_chosen = "Select an object with a surface."
+    nothing_chosen = n("Select an object with a surface.")
 
     step: EnumProperty(name="Step", description="What to show", items=STEP_ITEMS)
     lines: EnumProperty(name="Trajectories", description="Colours of the trajectories", items=LINE_ITEMS)
@@ -136,7 +137,9 @@ class LEGORIZE_OT_show_method(Working, bpy.types.Operator):
         )  # fmt: skip
         self.report(
             {"INFO"},
-            rpt("{} of {}: {} slices.").format(iface(STEPS[self.step][0]), request.name, len(draft.cut.slices.heights)),
+            rpt("{} of {}: {}.").format(
+                iface(STEPS[self.step][0]), request.name, counts.slices(len(draft.cut.slices.heights))
+            ),
         )
         return {"FINISHED"}
 
@@ -151,7 +154,7 @@ class LEGORIZE_OT_write_method(Browsing, bpy.types.Operator):
         "bricks (.ldr), into a folder"
     )
     bl_options = {"REGISTER"}
-    nothing_chosen = "Select an object with a surface."
+    nothing_chosen = n("Select an object with a surface.")
     _timer = None
     kept = ("filepath", "lines")
 

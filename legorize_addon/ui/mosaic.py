@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt
+from bpy.app.translations import pgettext_tip as tip
 
 from ..core.errors import BuildError, MeshError
 from ..core.progress import Progress
@@ -16,8 +17,8 @@ from ..core.units import MM_PER_METRE
 from ..reading import image_of
 from ..scene import Source, builds, sources_of
 from ..view import show_result
-from . import job
-from .build import Working
+from . import counts, job
+from .build import BUSY, Working
 from .kept_texts import with_texts
 from .parts import list_parts_of
 from .properties import current_build
@@ -84,9 +85,9 @@ class LEGORIZE_OT_image(Working, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         """Tell whether there is an image, and why not."""
         if job.running():
-            cls.poll_message_set("A model is being built: wait for it, or press Esc to stop it.")
+            cls.poll_message_set(tip(BUSY))
         elif _chosen(context) is None:
-            cls.poll_message_set("Choose an image, or select an empty that shows one.")
+            cls.poll_message_set(tip("Choose an image, or select an empty that shows one."))
         else:
             return True
         return False
@@ -130,7 +131,7 @@ class LEGORIZE_OT_image(Working, bpy.types.Operator):
         view.build[IMAGE_KEY] = order.name
         list_parts_of(view.build, mosaic)
         across, deep = mosaic.canvas.size
-        told = rpt("Mosaic built: {} bricks on {} x {} studs.").format(len(mosaic.bricks), across, deep)
+        told = rpt("Mosaic built: {} on {} x {} studs.").format(counts.bricks(len(mosaic.bricks)), across, deep)
         self.report({"INFO"}, told)
         for note in notes:
             self.report({"WARNING"}, note)

@@ -26,7 +26,7 @@ from ..view import (
     roles_shown,
     shows_step,
 )
-from . import job
+from . import counts, job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
 from .assets import LEGORIZE_OT_mark_asset
 from .build import A_STEP, LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
@@ -284,9 +284,9 @@ def _figures(summary: Any) -> tuple[str, ...]:
     x, y, layers = summary["studs_x"], summary["studs_y"], summary["layers"]
     size = [length / MM_PER_CM for length in (x * STUD, y * STUD, layers * BRICK)]
     return (
-        iface("{} bricks, {:.0f} g").format(summary["bricks"], summary["mass"]),
-        iface("{} kinds of parts, {} colours").format(summary["parts"], summary["colours"]),
-        iface("{} x {} studs, {} layers").format(x, y, layers),
+        iface("{}, {:.0f} g").format(counts.bricks(summary["bricks"]), summary["mass"]),
+        iface("{}, {}").format(counts.kinds_of_parts(summary["parts"]), counts.colours(summary["colours"])),
+        counts.extent(x, y, layers),
         "{:.1f} x {:.1f} x {:.1f} cm".format(*size),
     )
 

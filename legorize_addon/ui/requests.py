@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import bpy
+from bpy.app.translations import pgettext_tip as tip
 
 from ..core.edits import NO_EDITS, Edits
 from ..core.progress import Progress
@@ -122,6 +123,35 @@ def chosen_sources(context: bpy.types.Context) -> list[bpy.types.Object]:
         again = [entry.source for entry in orphans(context.scene) if has_surface(entry.source)]
     here = {thing for thing in (*selected, *again) if context.scene in thing.users_scene}
     return sorted(here, key=lambda thing: (thing.name, thing.library.filepath if thing.library else ""))
+
+
+def why_nothing(scene: bpy.types.Scene, layer: bpy.types.ViewLayer, usual: str) -> str:
+    """Return why nothing is chosen: that nothing is selected, or that what could be is hidden or out of reach.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    layer : bpy.types.ViewLayer
+        In which one selects.
+    usual : str
+        English sentence for where there is something to select.
+
+    Returns
+    -------
+    str
+        In the language of tooltips.
+    """
+    able = sorted(
+        (thing for thing in scene.objects if not is_own(thing) and has_surface(thing)), key=lambda it: it.name
+    )
+    if not able or any(thing.visible_get(view_layer=layer) for thing in able):
+        return tip(usual)
+    for thing in able:
+        if thing.name in layer.objects:
+            return tip("{!r} is hidden: show it in the outliner and select it.").format(thing.name)
+    return tip("{!r} is in a collection that is unticked in the outliner: tick it, and select the object.").format(
+        able[0].name
+    )
 
 
 def replaced_by(context: bpy.types.Context, sources: Sequence[bpy.types.Object]) -> list[bpy.types.Collection]:

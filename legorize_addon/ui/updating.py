@@ -33,11 +33,11 @@ class _Again(Building):
         """Tell whether there is a build that can be made again, and why not."""
         build = current_build(context.scene)
         if not build:
-            cls.poll_message_set("Legorize an object first.")
+            cls.poll_message_set(tip("Legorize an object first."))
         elif damage(build):
             cls.poll_message_set(damage(build).removesuffix("."))
         elif not sources_of(build):
-            cls.poll_message_set("This model was not made of an object in the scene.")
+            cls.poll_message_set(tip("This model was not made of an object in the scene."))
         else:
             return super().poll(context)
         return False

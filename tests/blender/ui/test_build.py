@@ -574,3 +574,29 @@ def test_end_of_the_memory_is_one_sentence(box, monkeypatch) -> None:
     monkeypatch.setattr(operators, "show_result", full)
     with pytest.raises(RuntimeError, match=r"^Error: There is not enough memory[^\n]*\.\n?$"):
         bpy.ops.legorize.build()
+
+
+def test_what_cannot_be_selected_is_named(box) -> None:
+    """With nothing chosen, the button says what to do first where an object is hidden or its collection is unticked."""
+
+    def said() -> str:
+        bpy.context.view_layer.update()
+        with pytest.raises(RuntimeError) as caught:
+            bpy.ops.legorize.build()
+        return str(caught.value)
+
+    shelf = bpy.data.collections.new("shelf")
+    bpy.context.scene.collection.children.link(shelf)
+    for collection in box.users_collection:
+        collection.objects.unlink(box)
+    shelf.objects.link(box)
+    box.select_set(False)
+    assert "Select an object with a surface." in said()
+    box.hide_set(True)
+    assert f"{box.name!r} is hidden: show it" in said()
+    box.hide_set(False)
+    bpy.context.view_layer.layer_collection.children[shelf.name].exclude = True
+    assert f"{box.name!r} is in a collection that is unticked in the outliner: tick it" in said()
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.context.object.select_set(False)
+    assert "Select an object with a surface." in said()
