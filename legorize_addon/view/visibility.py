@@ -93,7 +93,7 @@ def show_role(build: bpy.types.Collection, role: Role, *, visible: bool) -> None
     for points in point_objects(build):
         modifier = bricks_modifier(points)
         if modifier is not None and has_input(modifier, HIDDEN_ROLES):
-            if (read_column(points.data, "role") == role).any():
+            if _may_have(points, role):
                 set_input(modifier, HIDDEN_ROLES, hidden)
             # what an earlier version hid is shown below
             if HIDDEN_KEY not in points:
@@ -106,6 +106,15 @@ def show_role(build: bpy.types.Collection, role: Role, *, visible: bool) -> None
         else:
             points[HIDDEN_KEY] = [points.hide_viewport, points.hide_render]
             points.hide_viewport = points.hide_render = True
+
+
+def _may_have(points: bpy.types.Object, role: Role) -> bool:
+    """Tell whether an object has bricks of a role, as far as that is known."""
+    mesh = points.data
+    # in Edit Mode nothing can be read, and a user may have removed what tells it
+    if mesh.is_editmode or "role" not in mesh.attributes:
+        return True
+    return bool((read_column(mesh, "role") == role).any())
 
 
 def roles_shown(build: bpy.types.Collection) -> dict[Role, bool]:

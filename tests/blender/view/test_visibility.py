@@ -127,6 +127,32 @@ def as_before(build: bpy.types.Collection) -> list[bpy.types.Object]:
     return point_objects(build)
 
 
+@pytest.mark.parametrize("odd", ["edited", "emptied", "without roles"])
+def test_roles_of_points_that_cannot_be_read(odd: str) -> None:
+    """Points in Edit Mode, or changed by hand, stop no role from being hidden; all others are."""
+    build = show(table(ALL_ROLES))
+    before = places()
+    points = point_objects(build)[0]
+    if odd == "edited":
+        bpy.context.view_layer.objects.active = points
+        bpy.ops.object.mode_set(mode="EDIT")
+    elif odd == "emptied":
+        points.data.clear_geometry()
+    else:
+        points.data.attributes.remove(points.data.attributes["role"])
+    try:
+        show_role(build, Role.PLATE, visible=False)
+    finally:
+        if odd == "edited":
+            bpy.ops.object.mode_set(mode="OBJECT")
+    assert not roles_shown(build)[Role.PLATE]
+    bpy.context.view_layer.update()
+    plates = [place for place in before if place[0] == feet(table([ALL_ROLES[list(Role).index(Role.PLATE)]]))[0][0]]
+    rest = [place for place in places() if place in plates]
+    # without their roles, the first three are taken for those of the first role
+    assert len(rest) == (1 if odd == "without roles" else 0)
+
+
 def test_roles_keep_what_the_user_hid() -> None:
     """An object that the user hid is hidden after its role was switched off and on; the eye is not touched at all."""
     for change in (point_objects, as_before):
