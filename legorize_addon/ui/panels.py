@@ -53,7 +53,8 @@ from .weakest import LEGORIZE_OT_show_weakest, LEGORIZE_OT_show_worst_colour
 MM_PER_CM: Final = 10.0
 
 BARE: Final = n(
-    "{} is the root of a model of another file, without its bricks: File > Append brings the collection of a model"
+    "{} is the root of a model whose bricks are not in this scene: delete it, or bring the model's collection with "
+    "File > Append"
 )
 
 
