@@ -99,7 +99,7 @@ def drafted(run: Run, given: TriangleMesh, barred: Barred = ()) -> tuple[Draft, 
     cut, trajectories, grid, feet = gridded(run, mesh, repairs, surface, frame)
     wanted = _wanted(run, mesh, surface, grid)
     grid, offsets, shell = hollowed(run, grid)
-    halves = halves and halves.standing_at(float(grid.origin[2]))
+    halves = halves and halves.lying_in(grid.origin, (len(grid.colour), *grid.colour.shape[2:]))
     made = Draft(
         mesh=mesh, repairs=repairs, scale=scale, turn=turn, surface=surface, cut=cut, trajectories=trajectories,
         offsets=offsets, grid=grid, hollow=shell, wanted=wanted, halves=halves,

@@ -19,6 +19,7 @@ from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shopping.shopping_list import extent
 from tests.core.half_studs.tower import BLOCK, table, tower
+from tests.core.solids import box, joined
 
 REGIONS = (Region(3, 9, True, 4, (1, 0)), Region(1, 5, False, 2, (1, 0)))
 SETTINGS = Settings(width=6, half_studs=True, hollow=False)
@@ -148,3 +149,13 @@ def test_without_a_region_nothing_lies_off():
     found = legorize(table(0.0), replace(SETTINGS, width=8))
     assert found.halves is None
     assert found.bricks.half is None
+
+
+def test_feet_beside_half_studs():
+    """A thin high tower between the studs gets feet, for which the grid grows, and all holds."""
+    mesh = joined(box((0, 0, 0), (64, 16, 19.2)), box((12, 0, 19.2), (36, 16, 192)))
+    found = legorize(mesh, Settings(width=8, half_studs=True, feet=True, slope_price=0.2))
+    assert any(note.startswith("Feet of") for note in found.notes)
+    assert found.halves is not None
+    assert found.stability.stable
+    assert found.halves.half.shape == found.grid.solid[:, 0].shape

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ..arrays import Ints, Mask
+from ..arrays import Floats, Ints, Mask
 from ..slicing import Grid
 from ..units import BRICK, STUD
 from .islands import PARTS, PHASES, Islands
@@ -25,8 +25,8 @@ class Halves:
         Half studs along x plus twice those along y by which all in a cell lies beyond it, by layers of bricks.
     rest : int
         The same of all that is in no region.
-    ground : float
-        Height of the first layer in mm.
+    origin : (3,) float64 array
+        Corner of the first cell in mm.
     below : int
         Layers of the regions below that one.
     regions : tuple of Region
@@ -35,14 +35,23 @@ class Halves:
 
     half: NDArray[np.uint8]
     rest: int
-    ground: float
+    origin: Floats
     below: int
     regions: tuple[Region, ...]
 
-    def standing_at(self, ground: float) -> Halves:
-        """Return those of a model that begins at another height in mm, some layers further up."""
-        layers = round((ground - self.ground) / BRICK)
-        return self if not layers else replace(self, half=self.half[layers:], ground=ground, below=self.below + layers)
+    def lying_in(self, origin: Floats, shape: tuple[int, ...]) -> Halves:
+        """Return those of a grid, n_layers, n_y and n_x, that begins some cells elsewhere in mm: room for feet.
+
+        What lies outside has the half studs of the nearest cell.
+        """
+        steps = np.round((origin - self.origin) / [STUD, STUD, BRICK]).astype(np.int64)[::-1]
+        if not steps.any() and shape == self.half.shape:
+            return self
+        cells = (
+            np.clip(np.arange(many) + step, 0, size - 1)
+            for many, step, size in zip(shape, steps.tolist(), self.half.shape, strict=True)
+        )
+        return replace(self, half=self.half[np.ix_(*cells)], origin=origin, below=self.below + int(steps[0]))
 
     def at(self, cells: Ints) -> Ints:
         """Return the half studs of cells (n, 3), x, y and layer, along x and y, (n, 2); of the nearest outside."""
@@ -99,7 +108,7 @@ def halves_in(grid: Grid, islands: Islands, choice: Choice) -> Halves:
         there = many.any(axis=0)
         y, x = ndimage.distance_transform_edt(~there, return_distances=False, return_indices=True)
         found[layer] = here[many.argmax(axis=0)[y, x]]
-    return Halves(found, rest, float(grid.origin[2]), 0, choice.regions)
+    return Halves(found, rest, grid.origin, 0, choice.regions)
 
 
 def _covered(squares: Mask, grid: Grid, islands: Islands, half: int) -> Ints:

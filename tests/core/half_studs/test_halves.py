@@ -52,10 +52,22 @@ def test_half_studs_of_a_model_that_begins_higher():
     mesh = tower()
     grid, islands, choice = chosen(mesh)
     halves = halves_in(grid_together(grid, choice), islands, choice)
-    higher = halves.standing_at(halves.ground + BRICK)
+    n_layers, n_y, n_x = halves.half.shape
+    higher = halves.lying_in(halves.origin + np.array([0, 0, BRICK]), (n_layers - 1, n_y, n_x))
     assert higher.half.tolist() == halves.half[1:].tolist()
     assert halves.near(np.array([BLOCK])) == higher.near(np.array([BLOCK - 1])) == choice.regions
-    assert halves.standing_at(halves.ground) is halves
+    assert halves.lying_in(halves.origin.copy(), halves.half.shape) is halves
+
+
+def test_half_studs_of_a_grid_with_room_for_feet():
+    """Cells keep theirs, and those around have those of the nearest."""
+    mesh = tower()
+    grid, islands, choice = chosen(mesh)
+    halves = halves_in(grid_together(grid, choice), islands, choice)
+    n_layers, n_y, n_x = halves.half.shape
+    wider = halves.lying_in(halves.origin - np.array([0, 2 * STUD, 0]), (n_layers, n_y + 4, n_x))
+    assert wider.half.tolist() == np.pad(halves.half, ((0, 0), (2, 2), (0, 0)), mode="edge").tolist()
+    assert wider.below == 0
 
 
 def test_nothing_is_moved_without_regions():

@@ -21,7 +21,7 @@ RED = 4
 def halves(*layers, shape):
     """Return half studs that are the same all over each layer."""
     half = np.array([x + 2 * y for x, y in layers], np.uint8)
-    return Halves(np.broadcast_to(half[:, None, None], (len(half), *shape)).copy(), 0, 0.0, 0, ())
+    return Halves(np.broadcast_to(half[:, None, None], (len(half), *shape)).copy(), 0, np.zeros(3), 0, ())
 
 
 def block(n_x, n_y):
@@ -97,8 +97,8 @@ def test_what_stays_on_its_studs_needs_no_jumper():
     colour = np.where(cover > 0, RED, COLOUR_EMPTY).astype(np.int16)
     grid = UnitGrid(colour, cover, np.full(cover.shape, Role.SHELL, np.uint8), np.zeros(3))
     half = np.zeros((2, 6, 14), np.uint8)
-    assert len(lay_jumpers(grid, Halves(half, 0, 0.0, 0, ()), CATALOGUE, filler=RED)[0]) == 0
+    assert len(lay_jumpers(grid, Halves(half, 0, np.zeros(3), 0, ()), CATALOGUE, filler=RED)[0]) == 0
     half[1, :, 6:] = 1
-    jumpers, _ = lay_jumpers(grid, Halves(half, 0, 0.0, 0, ()), CATALOGUE, filler=RED)
+    jumpers, _ = lay_jumpers(grid, Halves(half, 0, np.zeros(3), 0, ()), CATALOGUE, filler=RED)
     covered = {tuple(each) for each in stud_columns(jumpers, CATALOGUE)[1][:, :2].tolist()}
     assert covered == {(x, y) for x in (8, 9, 10) for y in (2, 3)}

@@ -21,7 +21,7 @@ REGION = Region(1, 2, True, 7, (1, 0))
 def halves(*layers, region=(REGION,)):
     """Return half studs along x, the same all over each layer."""
     half = np.array(layers, np.uint8)
-    return Halves(np.broadcast_to(half[:, None, None], (len(half), 4, 9)).copy(), 0, 0.0, 0, region)
+    return Halves(np.broadcast_to(half[:, None, None], (len(half), 4, 9)).copy(), 0, np.zeros(3), 0, region)
 
 
 HALVES = halves(0, 1, 1)
