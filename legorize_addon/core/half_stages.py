@@ -37,6 +37,7 @@ from .slopes import Slopes
 from .statics import Stability
 from .strength import check_final
 from .supports import AssemblyPlan, walk_apart
+from .units import count_of
 
 Barred = tuple[tuple[int, int, bool, int], ...]
 """Keys of regions that there must not be."""
@@ -185,4 +186,4 @@ def remarks_on_half_studs(halves: Halves | None, bricks: Bricks, catalogue: Cata
         ways = " and ".join(axis for axis, by in zip("xy", region.half, strict=True) if by)
         way = f"above layer {region.low}" if region.upwards else f"up to layer {region.high + 1}"
         told.append(f"A part {way} lies half a stud aside along {ways}.")
-    return (*told, f"{jumpers} jumpers hold what lies half a stud aside.")
+    return (*told, f"{count_of(jumpers, 'jumper holds', 'jumpers hold')} what lies half a stud aside.")

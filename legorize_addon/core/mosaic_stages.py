@@ -27,7 +27,7 @@ from .mosaic import (
 )
 from .run import Run
 from .settings import Settings
-from .units import BRICK, STUD
+from .units import BRICK, STUD, count_of
 
 
 def mosaic_canvas(picture: Picture, settings: Settings) -> Canvas:
@@ -137,8 +137,8 @@ def remarks_on_mosaic(picture: Picture, canvas: Canvas, covered: Covered) -> tup
             "same pixel."
         )
     if covered.changed or covered.added:
+        studs = count_of(covered.changed + covered.added, "stud", "studs")
         notes.append(
-            f"{covered.changed + covered.added} studs got another colour than the image has, so that a part joins the "
-            "parts of the base there."
+            f"{studs} got another colour than the image has, so that a part joins the parts of the base there."
         )
     return tuple(notes)

@@ -36,3 +36,8 @@ MM_PER_METRE: Final = 1000.0
 LDU_PER_MM: Final = 2.5
 STUD_LDU: Final = 20
 PLATE_LDU: Final = 8
+
+
+def count_of(number: int, one: str, more: str) -> str:
+    """Return a number with its noun in singular or plural, such as "1 brick" and "2 bricks"."""
+    return f"{number} {one if number == 1 else more}"

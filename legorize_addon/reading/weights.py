@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import SettingsError
+from ..core.units import count_of
 from .colours import Floats
 
 KINDS: Final = ("FLOAT", "INT", "INT8", "BOOLEAN")
@@ -63,7 +64,8 @@ class Weights:
         bad = int(np.count_nonzero(~np.isfinite(values)))
         if bad:
             raise SettingsError(
-                f"weight is {self.name!r}, which is no finite number on {bad} vertices of {obj.name!r}: paint it again."
+                f"weight is {self.name!r}, which is no finite number on {count_of(bad, 'vertex', 'vertices')} of "
+                f"{obj.name!r}: paint it again."
             )
         low, high = values.min(initial=0.0), values.max(initial=0.0)
         if low < -_ROUNDING or high > 1 + _ROUNDING:

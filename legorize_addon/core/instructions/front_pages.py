@@ -11,7 +11,7 @@ from ..building import Kind
 from ..model import Bricks, Catalogue
 from ..progress import duration
 from ..shopping import SECONDS_A_BRICK
-from ..units import PLATE, STUD
+from ..units import PLATE, STUD, count_of
 from .canvas import Item, Page, Paint, Rgb, Text, lines, moved, rectangle
 from .fonts import shortened, width, wrapped
 from .icons import arrow, hold_sign, turn_sign
@@ -71,10 +71,11 @@ def _facts(panels: Panels, model: Bricks) -> list[tuple[str, str]]:
     supports = int(panels.temporary.sum())
     lots, _ = lots_of(model, panels.catalogue)
     colours = len(np.unique(model.colour))
+    kinds, below = count_of(len(lots), "kind", "kinds"), count_of(supports, "support brick", "support bricks")
     return [
         (f"{across:.0f} x {deep:.0f} x {high:.0f} cm", "wide, deep, high"),
-        (f"{len(model)} bricks", f"{len(lots)} kinds in {colours} colour{'s' * (colours != 1)}"),
-        (f"{len(panels.steps)} steps", f"with {supports} support bricks to take out" if supports else "no supports"),
+        (count_of(len(model), "brick", "bricks"), f"{kinds} in {count_of(colours, 'colour', 'colours')}"),
+        (count_of(len(panels.steps), "step", "steps"), f"with {below} to take out" if supports else "no supports"),
         (f"about {duration(SECONDS_A_BRICK * len(panels.steps.moves))}", "for practised hands"),
     ]
 

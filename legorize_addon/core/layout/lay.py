@@ -19,7 +19,7 @@ from ..arrays import Floats, Mask
 from ..errors import BuildError
 from ..model import COLOUR_EMPTY, NOBODY, Bricks, Catalogue, Fill, UnitGrid, ground_of
 from ..progress import Progress, silent
-from ..units import PLATES_PER_BRICK
+from ..units import PLATES_PER_BRICK, count_of
 from .fixed import owners_of
 from .joining import connect_loose, join_by_windows
 from .learning import improved, shipped
@@ -305,7 +305,8 @@ def check_covered(sheets: Sheets, missing: Mask) -> None:
     if not missing.any():
         return
     code = sheets.colour.reshape(-1)[sheets.cells[missing]][0]
+    cells = count_of(np.count_nonzero(missing), "cell", "cells")
     raise BuildError(
-        f"{np.count_nonzero(missing)} cells cannot be covered, because no part of one cell is made in their colour: "
-        f"leave colour {code} out of the palette."
+        f"{cells} cannot be covered, because no part of one cell is made in such a colour: leave colour {code} out of "
+        "the palette."
     )

@@ -10,9 +10,9 @@ import numpy as np
 from ..building import Proof
 from ..model import Role
 from ..supports import SAVING, SLIM, AssemblyPlan, slim_stacks
-from ..units import PLATES_PER_BRICK
+from ..units import PLATES_PER_BRICK, count_of
 from .places import listed, pillar_places
-from .remarks import brick_name, count_of, layer_of
+from .remarks import brick_name, layer_of
 
 SHOWN: Final = 5
 """Steps that a sentence names."""

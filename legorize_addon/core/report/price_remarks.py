@@ -6,6 +6,7 @@ import numpy as np
 
 from ..model import Bricks, Catalogue
 from ..stock import Prices
+from ..units import count_of
 
 
 def remarks_on_prices(prices: Prices | None, bricks: Bricks, removed: Bricks, catalogue: Catalogue) -> tuple[str, ...]:
@@ -33,7 +34,8 @@ def remarks_on_prices(prices: Prices | None, bricks: Bricks, removed: Bricks, ca
     if not known.all():
         lots = np.unique(np.column_stack([bricks.part, bricks.colour])[~known], axis=0)
         sentences.append(
-            f"The price file has no price for {len(lots)} of the model's lots ({np.count_nonzero(~known)} bricks): "
+            f"The price file has no price for {len(lots)} of the model's lots "
+            f"({count_of(np.count_nonzero(~known), 'brick', 'bricks')}): "
             f"{prices.money(each[~known].sum())} of the sum are estimated from the same parts in other colours, or "
             "from their mass."
         )

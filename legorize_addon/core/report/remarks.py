@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Ints
 from ..model import NOBODY, Assembly, Bricks, Verdict
-from ..units import PLATES_PER_BRICK
+from ..units import PLATES_PER_BRICK, count_of
 from .separation import reasons
 
 if TYPE_CHECKING:
@@ -183,8 +183,3 @@ def _undecided(assembly: Assembly, found: Stability) -> str:
 
 def _ends(levels: Rows) -> list[int]:
     return [int(levels.argmin()), int(levels.argmax())]
-
-
-def count_of(n: int, one: str, more: str) -> str:
-    """Return a number with its noun in singular or plural."""
-    return f"{n} {one if n == 1 else more}"

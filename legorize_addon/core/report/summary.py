@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import Any, Final
 
 from ..progress import duration
-from .remarks import count_of
+from ..units import count_of
 
 _VERDICTS: Final = {
     "stable": "the model is proven to stand",

@@ -156,7 +156,7 @@ def test_a_colour_without_bricks_of_one_cell():
     exists = CATALOGUE.exists.copy()
     exists[CATALOGUE.part_row("3005"), CATALOGUE.colour_row(RED)] = False
     catalogue = replace(CATALOGUE, exists=exists)
-    with pytest.raises(BuildError, match=f"1 cells .* colour {RED}"):
+    with pytest.raises(BuildError, match=f"1 cell .* colour {RED}"):
         lay(brick_grid([[[RED]]]), catalogue, rng=np.random.default_rng(0))
     pair = brick_grid([[[RED, RED]]])
     assert_covers(lay(pair, catalogue, rng=np.random.default_rng(0)), pair, catalogue)
