@@ -25,8 +25,9 @@ from legorize_addon.core.instructions.paper import MARGIN, PAPERS
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.progress import duration
 from legorize_addon.core.shopping.shopping_list import shopping_list
-from tests.core.any_bricks import CATALOGUE
-from tests.core.instructions.built import arm, leaning, pair
+from legorize_addon.core.supports.assembly_plan import plan_assembly
+from tests.core.any_bricks import CATALOGUE, table
+from tests.core.instructions.built import PART, arm, leaning, pair
 from tests.core.instructions.test_panels import panels_of
 
 A4 = PAPERS["A4"]
@@ -54,6 +55,13 @@ def test_the_cover_tells_size_parts_steps_and_time():
     seconds = shopping_list(Assembly(plan.bricks, CATALOGUE), moves=len(plan.moves)).seconds
     assert f"about {duration(seconds)}" in shown
     assert f"with {plan.temporary.sum()} support bricks to take out" in shown
+
+
+def test_the_cover_of_a_brick_is_in_the_singular():
+    """One brick is one kind in one colour, put down in one step."""
+    one = plan_assembly(Assembly(table([(PART["3001"], 0, 0, 0, 0, 4, 0, 0, 0)]), CATALOGUE))
+    shown = list(texts(cover(panels_of(one), Title("One"), A4).items))
+    assert {"1 brick", "1 kind in 1 colour", "1 step", "no supports"} <= set(shown)
 
 
 @pytest.mark.parametrize("model", [arm, pair])
