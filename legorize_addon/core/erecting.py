@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from .build import Draft
 from .by_hand import ByHand, edit_bricks
 from .edits import Edits
 from .half_stages import given_bricks, lie_apart
+from .half_studs import HalfStudsError
 from .model import Assembly, UnitGrid
 from .painting import NotMadeError, cells_to_lay, paint_bricks, paint_cells, paint_draft, paint_plan
 from .run import Run
@@ -25,8 +28,9 @@ from .strength import (
     take_fewer_lots,
     tie_parts,
 )
-from .supports import AssemblyPlan, Joint
+from .supports import AssemblyPlan, Joint, LooseError
 from .tile_stages import smooth_surface
+from .units import PLATES_PER_BRICK
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,7 +82,13 @@ def erect(run: Run, made: Draft, edits: Edits) -> Erected:
 def _erected(run: Run, made: Draft, edits: Edits, *, last: bool = False) -> Erected:
     """Go through the stages; paint what was laid in other colours, unless there are edits, before them."""
     made, given = given_bricks(run, made)
-    assembly, shell, found, by_hand = put_up(run, made.hollow, edits, made.scale, given, last=last)
+    try:
+        assembly, shell, found, by_hand = put_up(run, made.hollow, edits, made.scale, given, last=last)
+    except LooseError as error:
+        if made.halves is None:
+            raise
+        # where no jumper fits there are tiles
+        raise HalfStudsError(made.halves.near(error.levels.astype(np.int64) // PLATES_PER_BRICK)) from error
     with run.stage("pieces"):
         assembly, found, exchanged = run.once(take_fewer_lots, assembly, found)
         assembly, found, smoothed = run.once(smooth_surface, assembly, found, by_hand.made)

@@ -18,6 +18,7 @@ from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.shopping.shopping_list import extent
+from legorize_addon.core.supports.pillars import LooseError
 from tests.core.half_studs.tower import BLOCK, table, tower
 from tests.core.solids import box, joined
 
@@ -159,3 +160,19 @@ def test_feet_beside_half_studs():
     assert found.halves is not None
     assert found.stability.stable
     assert found.halves.half.shape == found.grid.solid[:, 0].shape
+
+
+def test_what_lies_loose_on_tiles_has_no_half_studs(monkeypatch):
+    """Where nothing can hold what lies over a plane of jumpers, the region there is given up."""
+
+    def carry(run, assembly):
+        """Find something loose in the layer above jumpers, if there are any."""
+        jumpers = np.array([part.jumper for part in assembly.catalogue.parts])[assembly.bricks.part]
+        if jumpers.any():
+            raise LooseError(assembly.bricks.corner[jumpers, 2] + 1)
+        return assembly
+
+    monkeypatch.setattr("legorize_addon.core.erecting.carry", carry)
+    found = legorize(tower(), SETTINGS)
+    assert found.halves is None
+    assert [note for note in found.notes if note.startswith("Half studs were given up")]

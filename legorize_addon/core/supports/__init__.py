@@ -6,7 +6,7 @@ from .assembly_plan import KINDS, AssemblyPlan, Wish, plan_as_given, plan_assemb
 from .boxes import INSIDE_COLOUR, of_the_paper
 from .bracing import add_bracing
 from .demand import parts_of_supports
-from .pillars import add_pillars
+from .pillars import LooseError, add_pillars
 from .segmentation import SAVING, Joint, pays, segment
 from .stacks import SLIM, slim_stacks
 from .strengthening import strengthen
@@ -18,6 +18,7 @@ __all__ = [
     "SLIM",
     "AssemblyPlan",
     "Joint",
+    "LooseError",
     "Wish",
     "add_bracing",
     "add_pillars",

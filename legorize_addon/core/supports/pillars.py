@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays import Floats, Ints, Mask
 from ..building import STEADY
+from ..errors import BuildError
 from ..geometry import corners, inside
 from ..model import (
     NOBODY,
@@ -27,6 +28,24 @@ from ..model import (
 from ..units import PLATES_PER_BRICK
 from .boxes import INSIDE_COLOUR, Boxes, boxes_of, bricks_of_boxes, merge_upwards, sizes_in
 from .stacks import cells_in, widen
+
+
+class LooseError(BuildError):
+    """Bricks lie loose on tiles or slopes, which bear no pillar.
+
+    Attributes
+    ----------
+    levels : (n,) int32 array
+        The plates in which they lie.
+    """
+
+    def __init__(self, levels: Ints) -> None:
+        super().__init__(
+            f"A part of the model, in layer {levels.min() // PLATES_PER_BRICK + 1} from below, lies loose on tiles or "
+            "slopes, which bear no pillar: choose another size, or surface 'studs'."
+        )
+        self.levels = levels
+
 
 GROUND: Final = 30
 """Plates that a pillar to a brick may be longer than one to the ground."""
@@ -76,6 +95,11 @@ def add_pillars(assembly: Assembly) -> Assembly:
     Assembly
         All that came in, in their order, and then the pillars, ``SUPPORT_KEPT``:
         nothing floats.
+
+    Raises
+    ------
+    LooseError
+        No pillar can stand under a component.
     """
     while assembly.graph.n_floating:
         graph = assembly.graph
@@ -132,6 +156,8 @@ def _under(assembly: Assembly, mine: Mask) -> tuple[Boxes, int]:
     pillars are added there until the middle of their weight lies over the feet.
     """
     under = places_below(assembly, mine)
+    if not len(under):
+        raise LooseError(assembly.bricks.corner[mine, 2])
     # a pillar on the ground leaves its part beside the model, one on a brick joins the two
     first = int(np.lexsort((under.y, under.x, under.length + GROUND * ~under.on_brick))[0])
     chosen = [first]

@@ -11,7 +11,7 @@ from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.statics.stability import stability
 from legorize_addon.core.supports.boxes import INSIDE_COLOUR
-from legorize_addon.core.supports.pillars import add_inner_pillars, add_pillars, places_below
+from legorize_addon.core.supports.pillars import LooseError, add_inner_pillars, add_pillars, places_below
 from tests.core.standing import CATALOGUE, table
 
 
@@ -21,6 +21,13 @@ def carried(*rows, colour=4):
     bricks = replace(bricks, colour=np.full(len(bricks), colour, np.int16))
     after = add_pillars(Assembly(bricks, CATALOGUE))
     return after.bricks, after.graph, len(bricks)
+
+
+def test_nothing_holds_what_lies_on_a_tile():
+    """It is said where, and what to do: no pillar stands on a tile."""
+    with pytest.raises(LooseError, match=r"layer 2 .* choose another size") as caught:
+        carried(("3005", 0, 0, 0), ("3070b", 0, 0, 3), ("3024", 0, 0, 4))
+    assert caught.value.levels.tolist() == [4]
 
 
 @pytest.mark.parametrize("gap", range(1, 12))
