@@ -305,7 +305,7 @@ def check_covered(sheets: Sheets, missing: Mask) -> None:
     if not missing.any():
         return
     code = sheets.colour.reshape(-1)[sheets.cells[missing]][0]
-    cells = count_of(np.count_nonzero(missing), "cell", "cells")
+    cells = count_of(int(np.count_nonzero(missing)), "cell", "cells")
     raise BuildError(
         f"{cells} cannot be covered, because no part of one cell is made in such a colour: leave colour {code} out of "
         "the palette."

@@ -35,7 +35,7 @@ def remarks_on_prices(prices: Prices | None, bricks: Bricks, removed: Bricks, ca
         lots = np.unique(np.column_stack([bricks.part, bricks.colour])[~known], axis=0)
         sentences.append(
             f"The price file has no price for {len(lots)} of the model's lots "
-            f"({count_of(np.count_nonzero(~known), 'brick', 'bricks')}): "
+            f"({count_of(int(np.count_nonzero(~known)), 'brick', 'bricks')}): "
             f"{prices.money(each[~known].sum())} of the sum are estimated from the same parts in other colours, or "
             "from their mass."
         )

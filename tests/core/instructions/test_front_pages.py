@@ -59,7 +59,7 @@ def test_the_cover_tells_size_parts_steps_and_time():
 
 def test_the_cover_of_a_brick_is_in_the_singular():
     """One brick is one kind in one colour, put down in one step."""
-    one = plan_assembly(Assembly(table([(PART["3001"], 0, 0, 0, 0, 4, 0, 0, 0)]), CATALOGUE))
+    one = plan_assembly(Assembly(table([(PART["3001"], 0, 0, 0, 0, 4, 0, 0, 0)]), CATALOGUE), deepest=0)
     shown = list(texts(cover(panels_of(one), Title("One"), A4).items))
     assert {"1 brick", "1 kind in 1 colour", "1 step", "no supports"} <= set(shown)
 
