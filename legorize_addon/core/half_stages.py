@@ -166,7 +166,8 @@ def _given_up(barred: Barred) -> tuple[str, ...]:
     """Say at which layers there are no half studs although they would pay."""
     if not barred:
         return ()
-    layers = ", ".join(str(each) for each in sorted({low if upwards else high + 1 for low, high, upwards, _ in barred}))
+    at = {max(low, 1) if upwards else high + 1 for low, high, upwards, _ in barred}
+    layers = ", ".join(map(str, sorted(at)))
     return (
         f"Half studs were given up at layer {layers}: with them something would rest on supports across the "
         "jumpers, collide, or not hold.",
@@ -184,6 +185,7 @@ def remarks_on_half_studs(halves: Halves | None, bricks: Bricks, catalogue: Cata
             # part of another region lies on the studs of the rest again
             continue
         ways = " and ".join(axis for axis, by in zip("xy", region.half, strict=True) if by)
-        way = f"above layer {region.low}" if region.upwards else f"up to layer {region.high + 1}"
+        above = f"above layer {region.low}" if region.low else "from the ground up"
+        way = above if region.upwards else f"up to layer {region.high + 1}"
         told.append(f"A part {way} lies half a stud aside along {ways}.")
     return (*told, f"{count_of(jumpers, 'jumper holds', 'jumpers hold')} what lies half a stud aside.")

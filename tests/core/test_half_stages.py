@@ -32,13 +32,17 @@ def build(request):
     return request.param, legorize(tower(*request.param), SETTINGS)
 
 
-def test_a_part_on_the_studs_again_is_not_told_of(build):
-    """What lies within a region that lies aside may lie as the rest does: nothing of it is aside."""
+def test_remarks_on_parts_without_a_layer_below_or_a_side(build):
+    """What lies as the rest does within a region is not told of; a part may begin on the ground."""
     _, found = build
     halves = found.halves
     told = remarks_on_half_studs(halves, found.bricks, found.assembly.catalogue)
     inner = replace(halves, regions=(*halves.regions, Region(2, 3, False, 1, (0, 0))))
     assert remarks_on_half_studs(inner, found.bricks, found.assembly.catalogue) == told
+    whole = replace(halves, regions=(Region(0, 3, True, 1, (1, 0)),))
+    assert remarks_on_half_studs(whole, found.bricks, found.assembly.catalogue)[0] == (
+        "A part from the ground up lies half a stud aside along x."
+    )
 
 
 def test_the_tower_stands_where_it_is(build):
