@@ -18,6 +18,9 @@ from ..core.errors import SettingsError
 from ..core.setting import renamed
 from ..core.settings import Settings, choices, setting_type
 
+_OFFERS: Final = bpy.app.version >= (4, 5)
+"""Whether texts can offer choices: earlier Blenders crash when they end after a property that does."""
+
 
 def label(name: str) -> str:
     """Return a word of the code as the panel shows it; units stay as they are."""
@@ -51,7 +54,7 @@ def _property(entry: Field[Any]) -> Any:
     if kind is str:
         # Blender's file browser gives one name, several are typed
         file = {"subtype": "FILE_PATH"} if entry.metadata["files"] == 1 else {}
-        return StringProperty(**common, **file, **({"search": _weights} if entry.name == "weight" else {}))
+        return StringProperty(**common, **file, **({"search": _weights} if entry.name == "weight" and _OFFERS else {}))
     limits = {"min": entry.metadata["low"], "max": entry.metadata["high"]}
     return IntProperty(**common, **limits) if kind is int else FloatProperty(**common, **limits)
 

@@ -92,7 +92,8 @@ def show_role(build: bpy.types.Collection, role: Role, *, visible: bool) -> None
     hidden = sum(1 << each for each, shown in roles_shown(build).items() if not shown)
     for points in point_objects(build):
         modifier = bricks_modifier(points)
-        if modifier is not None and has_input(modifier, HIDDEN_ROLES):
+        # supports are hidden as a whole: an object that shows nothing makes View All zoom out
+        if ROLE_KEY not in points and modifier is not None and has_input(modifier, HIDDEN_ROLES):
             if _may_have(points, role):
                 set_input(modifier, HIDDEN_ROLES, hidden)
             # what an earlier version hid is shown below
