@@ -15,7 +15,7 @@ from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.model.unit_grid import CELL_SIZE
 from legorize_addon.scene.brick_points import box_corners, middles
 from legorize_addon.scene.brick_tree import HIDDEN_ROLES, brick_tree
-from legorize_addon.scene.builds import builds, layers_of, point_objects
+from legorize_addon.scene.builds import ROLE_KEY, builds, layers_of, point_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
 from legorize_addon.scene.instancing import bricks_modifier, change_tree
 from legorize_addon.scene.section import AXES, Section
@@ -95,6 +95,15 @@ def test_a_role_is_hidden_in_all_layers(role: Role) -> None:
     show_role(build, role, visible=True)
     assert places() == feet(bricks)
     assert_same(shown_bricks(build), bricks)
+
+
+def test_supports_are_hidden_as_objects() -> None:
+    """View All does not frame what is hidden; an object that shows nothing would make it zoom out."""
+    build = show(table(ALL_ROLES))
+    show_role(build, Role.SUPPORT_OUTSIDE, visible=False)
+    hidden = [points for points in point_objects(build) if points.hide_viewport]
+    assert hidden
+    assert all(points[ROLE_KEY] == Role.SUPPORT_OUTSIDE for points in hidden)
 
 
 def test_only_roles_that_occur_are_offered() -> None:
