@@ -40,7 +40,8 @@ Strengthening and bracing the four weakest of eight models at 48 studs took 34 s
 15 and with 20, because more verdicts stay open."""
 
 LOOSE: Final = 250
-"""Bodies that are let loose at most: a linear programme of so many takes some seconds."""
+"""Bodies that are let loose at most, and lumps of a motion that are asked: a linear programme of so many takes some
+seconds."""
 
 ROUNDS: Final = 3
 """Linear programmes that are tried: of the proofs of eight models at 48 studs none took more."""
