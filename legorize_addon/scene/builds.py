@@ -14,14 +14,12 @@ from ..core.errors import BuildError
 from ..core.model import Bricks, load_catalogue
 from .brick_points import read_points
 from .instancing import bricks_modifier
+from .root import is_root
 from .state import VERSION, is_build, state_of
 
 LAYER_KEY: Final = "legorize_layer"
 ROLE_KEY: Final = "legorize_role"
 OWN_KEY: Final = "legorize_own"
-MODEL_KEY: Final = "legorize_model"
-"""Key, on roots, of a word that no other model has: a root that was pasted tells by it what it is a copy of."""
-
 LINES_KEY: Final = "legorize_lines"
 """Key, on curves, of the trajectories in a layer of a build."""
 
@@ -99,7 +97,8 @@ def point_objects(build: bpy.types.Collection) -> list[bpy.types.Object]:
     """Return the objects whose points are the bricks of a build, without copies that a user made of them."""
     layer = {thing: collection[LAYER_KEY] for collection in layers_of(build) for thing in collection.all_objects}
     root = state_of(build).root
-    own = [thing for thing in build.all_objects if is_own(thing) and thing.type == "MESH" and thing.parent == root]
+    meshes = (thing for thing in build.all_objects if is_own(thing) and thing.type == "MESH")
+    own = [thing for thing in meshes if thing.parent == root and not is_root(thing)]
     # a copy of an object has the same properties, and its name comes after: names of copies grow
     first: dict[tuple[int | None, int | None], bpy.types.Object] = {}
     for thing in sorted(own, key=lambda thing: thing.name):

@@ -2,8 +2,8 @@
 
 A build is a collection "Legorize <name>" that holds all that re-export needs,
 see :mod:`.build_state`. The points are in model mm and carry the
-columns of :class:`~legorize_addon.core.model.bricks.Bricks` as named attributes; an
-empty, their parent, brings them to the place and size of the source objects.
+columns of :class:`~legorize_addon.core.model.bricks.Bricks` as named attributes; their
+parent, the root, brings them to the place and size of the source objects.
 The objects that are instanced stand in a collection of their own, outside of
 every scene, see :mod:`.shared_parts`.
 """
@@ -12,23 +12,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
-from uuid import uuid4
+from typing import Any
 
 import bpy
 import numpy as np
-from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ..core.building import Steps
 from ..core.errors import BuildError
 from ..core.model import Bricks, Catalogue, Role
-from ..core.units import PLATES_PER_BRICK, STUD
+from ..core.units import PLATES_PER_BRICK
 from .assembly_columns import Columns, assembly_columns
 from .brick_points import MARGIN, NO_MARGIN, box_corners, points_mesh
 from .builds import (
     LAYER_KEY,
-    MODEL_KEY,
     OWN_KEY,
     ROLE_KEY,
     all_builds,
@@ -51,14 +48,12 @@ from .kept_steps import read_steps
 from .model import Model, Source
 from .part_meshes import Detail, parts_collection, parts_in_use
 from .placing import Place, hang, middle_of, upright
+from .root import POINTS_KEY, new_root
 from .section import Section, add_plane
-from .shared_parts import POINTS_KEY, leave_plane, sweep
+from .shared_parts import leave_plane, sweep
 from .state import BUILD_KEY as BUILD_KEY
 from .state import state_of, write_state
 from .verdict import judged_rows
-
-if TYPE_CHECKING:
-    pass
 
 
 def show_build(
@@ -109,16 +104,18 @@ def show_build(
     place.collection.children.link(build)
     facts = _table_facts(bricks, catalogue)
     first = upright(np.add(model.origin, facts["middle"]).tolist(), 1.0 / (model.scale * model.mm_per_unit))
-    root = _add_root(build, place.moved @ first, place.parent)
+    root = _own(build, new_root(build.name, facts["extent"]))
+    place.put(root, first)
     plane = _own(build, add_plane(build.name))
     hang(plane, root, facts["middle"])
     parts = parts_collection([(part, colour_material(colour)) for part, colour in pairs], detail, source.name)
     errors, error_facts = colour_error_facts(model)
-    _add_layers(build, bricks, variant.reshape(-1), {**_more(model), **errors}, catalogue, plane, parts)
+    objects = _add_layers(build, bricks, variant.reshape(-1), {**_more(model), **errors}, catalogue, plane, parts)
     hidden = [as_before(scene, each) for each in source.objects]
     held = [as_before(scene, each) for each in holders(scene, source.objects)]
     write_state(
         build,
+        objects=objects,
         origin=model.origin,
         sources=hidden,
         holders=held,
@@ -211,18 +208,6 @@ def clear_build(scene: bpy.types.Scene, build: bpy.types.Collection) -> None:
     sweep()
 
 
-def _add_root(
-    build: bpy.types.Collection, place: Matrix, parent: tuple[bpy.types.Object, Matrix] | None
-) -> bpy.types.Object:
-    root = _own(build, bpy.data.objects.new(build.name, None))
-    root[MODEL_KEY] = uuid4().hex
-    root.empty_display_size = STUD
-    if parent is not None:
-        root.parent, root.matrix_parent_inverse = parent
-    root.matrix_basis = place
-    return root
-
-
 def _move_out(
     scene: bpy.types.Scene, collections: Sequence[bpy.types.Collection], own: Sequence[bpy.types.Object]
 ) -> None:
@@ -254,13 +239,16 @@ def _add_layers(
     catalogue: Catalogue,
     plane: bpy.types.Object,
     parts: bpy.types.Collection,
-) -> None:
+) -> int:
+    """Return how many objects there are."""
+    objects = 0
     for layer, groups in _rows_by_layer(bricks):
         collection = bpy.data.collections.new(f"Layer {layer + 1:03d}")
         collection[LAYER_KEY] = layer
         build.children.link(collection)
         used = np.unique(variant[np.concatenate([rows for _, rows in groups])])
         own_parts = parts_in_use(parts, used, collection.name)
+        objects += len(groups)
         for role, rows in groups:
             name = f"{collection.name} {'bricks' if role is None else 'supports'}"
             own = {key: values[rows] for key, values in more.items()}
@@ -271,6 +259,7 @@ def _add_layers(
             mesh[POINTS_KEY] = True
             points.parent, points.matrix_parent_inverse = plane.parent, plane.matrix_parent_inverse
             add_bricks_modifier(points, own_parts, plane)
+    return objects
 
 
 def _table_facts(bricks: Bricks, catalogue: Catalogue) -> dict[str, Any]:

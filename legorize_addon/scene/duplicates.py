@@ -15,9 +15,10 @@ from uuid import uuid4
 import bpy
 
 from .brick_tree import SECTION
-from .builds import LAYER_KEY, MODEL_KEY, ROLE_KEY, builds, damage, is_own, layers_of, line_objects, point_objects
+from .builds import LAYER_KEY, ROLE_KEY, builds, damage, is_own, layers_of, line_objects, point_objects
 from .instancing import bricks_modifier, set_input
 from .placing import collection_around, layer_collections
+from .root import MODEL_KEY, is_root
 from .state import BUILD_KEY, state_of
 
 Kind = tuple[str, int | None, int | None]
@@ -27,8 +28,7 @@ Kind = tuple[str, int | None, int | None]
 def is_copied_root(thing: bpy.types.Object) -> bool:
     """Tell whether an object may be the root of a build, or a copy of one: a sign to look with :func:`adopt_copies`."""
     free = thing.parent is None or not is_own(thing.parent)
-    # planes are hidden; one may be without a parent because that was deleted
-    return thing.type == "EMPTY" and is_own(thing) and free and thing.empty_display_type != "SINGLE_ARROW"
+    return is_own(thing) and is_root(thing) and free
 
 
 def is_bare_root(scene: bpy.types.Scene, thing: bpy.types.Object) -> bool:
@@ -80,7 +80,8 @@ def _adopted(scene: bpy.types.Scene, build: bpy.types.Collection, root: bpy.type
     collection_around(scene, build).children.link(new)
     for layer in layers:
         new.children.link(copies[layer])
-    copied = {_kind(thing, layers): thing for thing in build.all_objects if is_own(thing) and thing.parent == root}
+    hanging = (thing for thing in build.all_objects if is_own(thing) and thing.parent == root)
+    copied = {_kind(thing, layers): thing for thing in hanging if not is_root(thing)}
     for home in root.users_collection:
         home.objects.unlink(root)
     new.objects.link(root)

@@ -41,6 +41,12 @@ class Place(NamedTuple):
                 return cls(scene.collection if _unticked(scene, around) else around, moved, parent)
         return cls(scene.collection, Matrix(), None)
 
+    def put(self, root: bpy.types.Object, first: Matrix) -> None:
+        """Let a new root stand there, which would stand at its first place had nobody moved the build."""
+        if self.parent is not None:
+            root.parent, root.matrix_parent_inverse = self.parent
+        root.matrix_basis = self.moved @ first
+
 
 def collection_around(scene: bpy.types.Scene, build: bpy.types.Collection) -> bpy.types.Collection:
     """Return the collection in which a build lies."""

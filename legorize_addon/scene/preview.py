@@ -18,8 +18,9 @@ from .brick_points import box_corners, points_mesh
 from .instancing import add_bricks_modifier, colour_material
 from .part_meshes import parts_collection
 from .placing import Place, hang, middle_of, upright
+from .root import POINTS_KEY
 from .section import add_plane
-from .shared_parts import POINTS_KEY, sweep
+from .shared_parts import sweep
 
 PREVIEW_KEY: Final = "legorize_preview"
 """Key, on a collection, of what a preview hides."""
@@ -84,9 +85,7 @@ def show_preview(
     corners = box_corners(bricks, catalogue)
     middle = middle_of({"low": corners.min(axis=0), "high": corners.max(axis=0)})
     root, plane = bpy.data.objects.new(shown.name, None), add_plane(shown.name)
-    if stood.parent is not None:
-        root.parent, root.matrix_parent_inverse = stood.parent
-    root.matrix_basis = stood.moved @ upright(np.add(origin, middle).tolist(), unit_per_mm)
+    stood.put(root, upright(np.add(origin, middle).tolist(), unit_per_mm))
     points = bpy.data.objects.new(shown.name, _points(shown.name, bricks, catalogue))
     for thing in (root, plane, points):
         thing.hide_select = True

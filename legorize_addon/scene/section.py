@@ -18,6 +18,7 @@ from mathutils import Euler, Vector
 
 from ..core.arrays import Floats, Mask
 from ..core.model import CELL_SIZE
+from .root import PLANE
 
 AXES: Final = ("x", "y", "z")
 
@@ -69,7 +70,7 @@ def add_plane(name: str) -> bpy.types.Object:
         An empty, hidden itself, in no collection and without a parent yet.
     """
     plane = bpy.data.objects.new(f"{name} section", None)
-    plane.empty_display_type = "SINGLE_ARROW"
+    plane.empty_display_type = PLANE
     plane.hide_viewport = plane.hide_render = True
     place_plane(plane, Section(), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
     return plane

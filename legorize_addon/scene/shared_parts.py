@@ -8,7 +8,6 @@ while something uses them, and unused ones are removed.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Final
 
 import bpy
 
@@ -16,10 +15,8 @@ from .brick_tree import HEAT_PARTS, PARTS, SECTION, brick_trees
 from .builds import LINES_KEY, is_own
 from .instancing import bricks_modifier, get_input, is_brick_material, set_input
 from .part_meshes import MESH_KEY, PART_KEY
+from .root import POINTS_KEY
 from .state import BuildState
-
-POINTS_KEY: Final = "legorize_points"
-"""Key, on meshes, of the points of a build."""
 
 Tree = list[bpy.types.Collection]
 """A collection of parts and, after it, all that lie inside it."""

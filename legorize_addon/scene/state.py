@@ -357,7 +357,6 @@ def write_state(
     BuildState
     """
     build[BUILD_KEY] = {
-        "objects": sum(thing.type == "MESH" for thing in build.all_objects),
         "version": VERSION,
         "origin": [float(value) for value in origin],
         "sources": {str(i): source.stored() for i, source in enumerate(sources)},

@@ -164,6 +164,18 @@ def move_and_rebuild(seen: dict[str, Any]) -> Wait:
     yield 1.0
     seen["moved"] = list(build["legorize"]["root"].location)
     screenshot("10-moved")
+    with bpy.context.temp_override(window=window(), area=area, region=region_of(area, "WINDOW")):
+        bpy.ops.view3d.view_axis(type="FRONT")
+    yield 0.5
+    view = area.spaces.active.region_3d
+    view.view_distance *= 20
+    yield 0.5
+    yield from press("NUMPAD_PERIOD")
+    yield 1.0
+    extent = build["legorize"]["extent"]
+    high = build["legorize"]["root"].matrix_world.median_scale * (extent["high"][2] - extent["low"][2])
+    seen["framed"] = {"height": high, "distance": view.view_distance, "looked_at": list(view.view_location)}
+    screenshot("10-view-selected")
     yield from click_button(seen)
     yield from wait_until(lambda: not running())
     yield 1.0
@@ -352,7 +364,7 @@ def import_sample() -> str:
 
 def scene_content(sample: str) -> dict[str, Any]:
     """Return what the scene holds: bricks, layers, and the sample as it was."""
-    points = [each for build in builds() for each in build.all_objects if each.type == "MESH"]
+    points = [each for build in builds() for each in build.all_objects if each.modifiers]
     mesh = bpy.data.objects[sample].data
     return {
         "builds": len(builds()),

@@ -184,6 +184,14 @@ def test_moved_model_is_built_again_where_it_is(seen: dict[str, Any]) -> None:
     assert seen["heat_map"]
 
 
+def test_view_selected_frames_the_bricks(seen: dict[str, Any], place: Path) -> None:
+    """With the root selected, the key brings the whole model into view, whose middle is looked at."""
+    framed, (x, y, z) = seen["framed"], seen["moved"]
+    assert framed["looked_at"] == pytest.approx([x, y, z + framed["height"] / 2], abs=0.1 * framed["height"])
+    assert 1 < framed["distance"] / framed["height"] < 5
+    assert vivid(viewport(place, "10-view-selected", seen["region"])) > 0.02
+
+
 def test_bricks_are_edited_by_clicks(seen: dict[str, Any], place: Path) -> None:
     """Two bricks are picked and locked, one recoloured; Ctrl-Z takes a change back, and a build makes the others."""
     assert seen["picked"] == [1, 2]

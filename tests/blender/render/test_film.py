@@ -14,6 +14,7 @@ from PIL import Image
 from legorize_addon.core.errors import BuildError, Cancelled
 from legorize_addon.render.film import FILM_KEY, PAUSE, Cut, make_film, render_frames
 from legorize_addon.scene.builds import builds
+from legorize_addon.scene.state import state_of
 from legorize_addon.view.animation import Animation, animation_of
 from legorize_addon.view.steps import n_steps
 from legorize_addon.view.visibility import shown_corners
@@ -49,7 +50,7 @@ def test_the_camera_sees_the_model_in_every_frame() -> None:
 
 def _scale(build: bpy.types.Collection) -> float:
     """Return world units a mm."""
-    [root] = [each for each in build.objects if each.type == "EMPTY" and each.parent is None]
+    root = state_of(build).root
     return float(root.matrix_world.median_scale)
 
 

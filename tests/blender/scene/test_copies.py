@@ -9,6 +9,7 @@ import pytest
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.scene.builds import builds, damage, layers_of, point_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
+from legorize_addon.scene.duplicates import is_copied_root
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import state_of
 from legorize_addon.ui.properties import current_build
@@ -101,7 +102,7 @@ def test_objects_copied_in_place(build, linked: bool) -> None:
     bpy.ops.object.duplicate(linked=linked)
     assert len(instances()) == 2 * len(before)
     assert_same(read_bricks(build), bricks)
-    [copied_root] = [thing for thing in bpy.context.selected_objects if thing.type == "EMPTY"]
+    [copied_root] = [thing for thing in bpy.context.selected_objects if is_copied_root(thing)]
     copied_root.location.x += 50
     bpy.context.view_layer.update()
     with_copy = seen()

@@ -11,7 +11,7 @@ import pytest
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.scene.builds import builds, damage, layers_of, point_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
-from legorize_addon.scene.duplicates import adopt_copies, is_bare_root
+from legorize_addon.scene.duplicates import adopt_copies, is_bare_root, is_copied_root
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import state_of
 from legorize_addon.ui import duplicates
@@ -43,7 +43,7 @@ def duplicate(*, linked: bool = False, everything: bool = False) -> bpy.types.Ob
     if everything:
         bpy.ops.object.select_all(action="SELECT")
     bpy.ops.object.duplicate(linked=linked)
-    [root] = [each for each in bpy.context.selected_objects if each.type == "EMPTY" and not each.parent]
+    [root] = [each for each in bpy.context.selected_objects if is_copied_root(each)]
     bpy.context.view_layer.objects.active = root
     root.location.x += 50
     return root

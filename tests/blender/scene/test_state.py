@@ -175,7 +175,7 @@ def test_state_is_read_as_it_was_written() -> None:
     assert state.origin == (1.5, -2.0, 0.25)
     assert state.unit_per_mm == 1 / 500
     assert state.notes == ["Careful."]
-    assert state.root.type == state.plane.type == "EMPTY"
+    assert (state.root.type, state.plane.type) == ("MESH", "EMPTY")
     assert isinstance(state.parts, bpy.types.Collection)
     assert state.heat_parts is None
     assert len(state.extent) == 2

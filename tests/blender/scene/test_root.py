@@ -1,0 +1,104 @@
+"""The root of a build as a frame: as large as the bricks, never seen in a render, never a thing to legorize."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Vector
+
+from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.scene.brick_points import box_corners
+from legorize_addon.scene.builds import builds, damage, point_objects
+from legorize_addon.scene.collections import clear_build, read_bricks
+from legorize_addon.scene.duplicates import adopt_copies, is_bare_root
+from legorize_addon.scene.root import RIM
+from legorize_addon.scene.state import state_of
+from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.requests import chosen_sources
+from tests.blender.bricks import assert_same, random_table, show
+
+pytestmark = pytest.mark.usefixtures("registered")
+
+
+@pytest.fixture
+def build(cube) -> bpy.types.Collection:
+    """Return a built cube, whose root is selected."""
+    bpy.ops.legorize.build()
+    return current_build(bpy.context.scene)
+
+
+def test_view_selected_frames_the_bricks() -> None:
+    """What the root spans in the world is what the bricks do, and a rim on the ground."""
+    build = show(random_table(40), origin=(16.0, -24.0, 9.6), scale=0.5, mm_per_unit=1000.0)
+    root = state_of(build).root
+    root.scale *= 3
+    root.location.x += 2
+    bpy.context.view_layer.update()
+    unit = root.matrix_world.median_scale
+    spans = np.array([root.matrix_world @ Vector(corner) for corner in root.bound_box])
+    bricks = box_corners(read_bricks(build), load_catalogue()) * unit
+    wide = np.ptp(bricks, axis=0) + np.array([2, 2, 0]) * RIM * unit
+    np.testing.assert_allclose(np.ptp(spans, axis=0), wide, rtol=1e-5)
+    np.testing.assert_allclose(spans[:, 2].min(), root.location.z, atol=1e-5)
+
+
+def test_a_root_has_nothing_to_render(build) -> None:
+    """It is edges alone: what has no faces is in no picture, and is no surface to build."""
+    root = state_of(build).root
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    assert not root.evaluated_get(depsgraph).data.polygons
+    assert len(root.data.edges) == 4
+
+
+def test_a_root_is_never_legorized(build, cube) -> None:
+    """Selected, it stands for what its model was made of; hung on another root, it is no layer of bricks."""
+    root = state_of(build).root
+    assert bpy.context.selected_objects == [root]
+    assert chosen_sources(bpy.context) == [cube]
+    before = read_bricks(build)
+    bpy.ops.object.duplicate()
+    [copied] = bpy.context.selected_objects
+    copied.parent = root
+    assert len(point_objects(build)) == state_of(build).objects
+    assert_same(read_bricks(build), before)
+    assert damage(build) is None
+
+
+def test_its_mesh_goes_with_the_last_root(build) -> None:
+    """A linked duplicate shares the mesh of the frame until both are removed, or deleted by hand."""
+    mesh = state_of(build).root.data.name
+    bpy.ops.object.duplicate(linked=True)
+    [(_, copy)] = adopt_copies(bpy.context.scene)
+    clear_build(bpy.context.scene, build)
+    assert state_of(copy).root.data.name == mesh
+    bpy.data.objects.remove(state_of(copy).root)
+    clear_build(bpy.context.scene, copy)
+    assert not builds(bpy.context.scene)
+    assert mesh not in bpy.data.meshes
+
+
+def test_an_empty_of_an_earlier_version_is_a_root_too(build) -> None:
+    """Its model is whole, is copied with it, and gets a frame when it is built again."""
+    framed, empty = state_of(build).root, bpy.data.objects.new("Legorize Cube", None)
+    build.objects.link(empty)
+    empty["legorize_own"], empty.matrix_basis = True, framed.matrix_basis
+    for thing in list(framed.children):
+        inverse = thing.matrix_parent_inverse.copy()
+        thing.parent = empty
+        thing.matrix_parent_inverse = inverse
+    build["legorize"]["root"] = empty
+    bpy.data.objects.remove(framed)
+    assert damage(build) is None
+    assert len(point_objects(build)) == state_of(build).objects
+    bpy.ops.object.select_all(action="DESELECT")
+    empty.select_set(True)
+    bpy.ops.object.duplicate()
+    [(_, copy)] = adopt_copies(bpy.context.scene)
+    assert state_of(copy).root.type == "EMPTY"
+    assert not is_bare_root(bpy.context.scene, state_of(copy).root)
+    clear_build(bpy.context.scene, copy)
+    bpy.ops.legorize.build()
+    [again] = builds(bpy.context.scene)
+    assert state_of(again).root.type == "MESH"
