@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import Ints, Mask
-from ..model import Assembly, Bricks, Catalogue, ContactGraph, Rows, contact_graph
+from ..model import Assembly, ContactGraph, Rows, contact_graph
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,7 +29,7 @@ class BuildingContacts:
     collisions: int
 
 
-def building_contacts(assembly: Assembly, *, temporary: Mask) -> BuildingContacts:
+def building_contacts(assembly: Assembly, *, temporary: Mask, model: ContactGraph | None = None) -> BuildingContacts:
     """Find the contacts of a model in pieces, each with its supports.
 
     Parameters
@@ -39,18 +39,23 @@ def building_contacts(assembly: Assembly, *, temporary: Mask) -> BuildingContact
         cells of other pieces, which they never meet.
     temporary : (n,) bool array
         Bricks of supports.
+    model : ContactGraph, optional
+        Of the others, in their order, where it is known.
 
     Returns
     -------
     BuildingContacts
     """
     stays = np.flatnonzero(~temporary)
-    found = [_among(assembly.bricks, assembly.catalogue, stays, np.ones(len(stays), dtype=bool))]
+    if model is None:
+        model = contact_graph(assembly.bricks.take(stays), assembly.catalogue)
+    found = [_wanted(model, stays, np.ones(len(stays), dtype=bool))]
     for number in np.unique(assembly.bricks.piece[temporary]).tolist():
         # those of the first piece are still there when the others are joined
         with_it = ~temporary if number == 0 else ~temporary & (assembly.bricks.piece == number)
         rows = np.flatnonzero(with_it | (temporary & (assembly.bricks.piece == number)))
-        found.append(_among(assembly.bricks, assembly.catalogue, rows, temporary[rows]))
+        graph = contact_graph(assembly.bricks.take(rows), assembly.catalogue)
+        found.append(_wanted(graph, rows, temporary[rows]))
     return BuildingContacts(
         pairs=np.concatenate([each.pairs for each in found]),
         studs=np.concatenate([each.studs for each in found]),
@@ -58,8 +63,7 @@ def building_contacts(assembly: Assembly, *, temporary: Mask) -> BuildingContact
     )
 
 
-def _among(bricks: Bricks, catalogue: Catalogue, rows: Ints, wanted: Mask) -> BuildingContacts:
-    """Return the contacts among some bricks of which one at least is wanted."""
-    graph: ContactGraph = contact_graph(bricks.take(rows), catalogue)
+def _wanted(graph: ContactGraph, rows: Ints, wanted: Mask) -> BuildingContacts:
+    """Return the contacts in a graph of some bricks, given by their rows, of which one at least is wanted."""
     kept = wanted[graph.pairs].any(axis=1)
     return BuildingContacts(rows[graph.pairs[kept]].astype(np.int32), graph.studs[kept], graph.collisions)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -33,12 +34,18 @@ class MirrorPlane(NamedTuple):
 
 def boxes(bricks: Bricks, catalogue: Catalogue) -> Ints:
     """Return the outlines of bricks, (n, 4): the first and the last stud square in x, and those in y."""
-    size = np.array(
-        [[footprint(part, turn).max(axis=0) + 1 for turn in range(4)] for part in catalogue.parts], dtype=np.int64
-    )[bricks.part, bricks.turn]
+    size = _sizes(catalogue)[bricks.part, bricks.turn]
     low = bricks.corner[:, :2].astype(np.int64)
     high = low + size - 1
     return np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1)
+
+
+@lru_cache(maxsize=4)
+def _sizes(catalogue: Catalogue) -> Ints:
+    """Return the squares that each part covers in x and y in each turn, (n_parts, 4, 2)."""
+    return np.array(
+        [[footprint(part, turn).max(axis=0) + 1 for turn in range(4)] for part in catalogue.parts], dtype=np.int64
+    )
 
 
 def mirror_images(bricks: Bricks, catalogue: Catalogue) -> Ints:

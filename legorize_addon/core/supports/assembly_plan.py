@@ -214,8 +214,9 @@ def plan_assembly(  # noqa: PLR0913
     everything = concatenate([assembly.bricks, *pillars, *added])
     temporary = everything.role == Role.SUPPORT_OUTSIDE
     catalogue, ordering = assembly.catalogue, part(progress, 0.8, 0.9)
-    contacts = building_contacts(Assembly(everything, catalogue), temporary=temporary)
-    steps = _steps_known(pieces, everything)
+    contacts, steps = _known(pieces, everything)
+    if contacts is None:
+        contacts = building_contacts(Assembly(everything, catalogue), temporary=temporary)
     if steps is None:
         steps = plan_steps(everything, catalogue, contacts.pairs, temporary=temporary, progress=ordering)
     planned = Assembly(replace(everything, step=steps.moves.step_of(len(everything))), catalogue)
@@ -253,8 +254,11 @@ def plan_as_given(
         _piece(model, np.flatnonzero(model.bricks.piece == number), None, "none", deepest, look)
         for number in np.unique(model.bricks.piece).tolist()
     ]
-    contacts = building_contacts(assembly, temporary=temporary)
-    steps = given_steps(assembly, contacts.pairs) if own_steps else _steps_known(pieces, bricks)
+    contacts, steps = _known(pieces, bricks)
+    if contacts is None:
+        contacts = building_contacts(assembly, temporary=temporary)
+    if own_steps:
+        steps = given_steps(assembly, contacts.pairs)
     if steps is None:
         ordering = part(progress, 0.5, 0.8)
         steps = plan_steps(bricks, assembly.catalogue, contacts.pairs, temporary=temporary, progress=ordering)
@@ -270,12 +274,13 @@ def walk_apart(plan: AssemblyPlan, apart: Assembly) -> AssemblyPlan:
     return replace(plan, assembly=apart, walk=found, unsteady=unsteady, leaning=leaning)
 
 
-def _steps_known(pieces: Sequence[Piece], bricks: Bricks) -> Steps | None:
-    """Return the steps of a model that is its first piece, planned with just its supports; None of any other."""
+def _known(pieces: Sequence[Piece], bricks: Bricks) -> tuple[BuildingContacts | None, Steps | None]:
+    """Return contacts and steps of a model that is its first piece, found with just its supports; None of any other."""
     taken_out = np.count_nonzero(bricks.role == Role.SUPPORT_OUTSIDE)
     if len(pieces) != 1 or bricks.piece.any() or taken_out != len(pieces[0].plan.supports):
-        return None
-    return pieces[0].plan.grown.steps
+        return None, None
+    grown = pieces[0].plan.grown
+    return grown.contacts, grown.steps
 
 
 def _worth_trying(need: Demand) -> tuple[Way, ...]:

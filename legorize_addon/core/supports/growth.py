@@ -46,11 +46,14 @@ class Grown:
         Undersides at which supports save others.
     steps : Steps or None
         In which all is built; None if they were not planned anew.
+    contacts : BuildingContacts
+        Of piece and supports.
     """
 
     towers: list[Tipping]
     braces: list[int]
     steps: Steps | None
+    contacts: BuildingContacts
 
 
 class Growth:
@@ -72,6 +75,8 @@ class Growth:
     def __init__(self, assembly: Assembly, need: Demand) -> None:
         self.assembly, self.need = assembly, need
         self.arrival: Ints | None = None
+        # whether supports are enough is asked twice: of steps planned before, and of their own
+        self._last: tuple[Bricks, Assembly, BuildingContacts] | None = None
 
     @property
     def known(self) -> bool:
@@ -92,10 +97,8 @@ class Growth:
             Whether steps are planned anew; else those planned before count.
         progress : Progress
         """
-        bricks = concatenate([self.assembly.bricks, supports])
-        everything = Assembly(bricks, self.assembly.catalogue)
-        temporary = np.arange(len(bricks)) >= len(self.assembly)
-        contacts = building_contacts(everything, temporary=temporary)
+        everything, contacts = self._together(supports)
+        bricks, temporary = everything.bricks, np.arange(len(everything)) >= len(self.assembly)
         braces: list[int] = []
 
         def prop(tower: Tipping) -> tuple[int, int] | None:
@@ -112,11 +115,22 @@ class Growth:
             ordering, watching = part(progress, 0.0, 0.5), part(progress, 0.5, 1.0)
             steps = plan_steps(bricks, everything.catalogue, contacts.pairs, temporary=temporary, progress=ordering)
             self.arrival = steps.arrival(len(bricks))[: len(self.assembly)].astype(np.int64)
-            return Grown(tipping(steps, everything, contacts.pairs, prop=asked, progress=watching), braces, steps)
+            towers = tipping(steps, everything, contacts.pairs, prop=asked, progress=watching)
+            return Grown(towers, braces, steps, contacts)
         arrivals = _guessed(self.arrival, bricks, contacts)
         floor = int(bricks.corner[:, 2].min(initial=0))
         towers = falling(arrivals, everything, contacts.pairs, floor=floor, prop=asked, progress=progress)
-        return Grown(towers, braces, None)
+        return Grown(towers, braces, None, contacts)
+
+    def _together(self, supports: Bricks) -> tuple[Assembly, BuildingContacts]:
+        """Return the piece with some supports, and their contacts."""
+        if self._last is None or self._last[0] is not supports:
+            bricks = concatenate([self.assembly.bricks, supports])
+            everything = Assembly(bricks, self.assembly.catalogue)
+            temporary = np.arange(len(bricks)) >= len(self.assembly)
+            contacts = building_contacts(everything, temporary=temporary, model=self.assembly.graph)
+            self._last = supports, everything, contacts
+        return self._last[1:]
 
 
 def _guessed(arrival: Ints, bricks: Bricks, contacts: BuildingContacts) -> list[tuple[int, list[int]]]:

@@ -159,12 +159,16 @@ class _Bench:
             for at_y in range(y - b + 1, y + 1)
             if self._fits((at_x, at_y, a, b), z)
         ]
+        if last in places:
+            return last
+        largest = max((a * b for *_, a, b in places), default=0)
+        places = [place for place in places if place[2] * place[3] == largest]
         beside = set(cells_of(foot)) if foot else set()
 
         def worth(place: Area) -> tuple[object, ...]:
             """Return what a better place has less of."""
             on_foot = len(beside.intersection(cells_of(place)))
-            return place != last, -place[2] * place[3], -self._single(place, z), -on_foot, self._off(place), place
+            return -self._single(place, z), -on_foot, self._off(place), place
 
         return min(places, key=worth, default=None)
 
@@ -180,9 +184,9 @@ class _Bench:
     def _fits(self, place: Area, z: int) -> bool:
         """Whether there is such a part, and room for it beside single studs that it takes in."""
         x, y, a, b = place
-        cells = cells_in([x, y, z, a, b, PLATES_PER_BRICK])
         if min(x, y) < 0 or (max(a, b), min(a, b), PLATES_PER_BRICK) not in self.sizes:
             return False
+        cells = cells_in([x, y, z, a, b, PLATES_PER_BRICK])
         if self.free[cells].shape != (PLATES_PER_BRICK, b, a) or not self.free[cells].all():
             return False
         inside = set(self.owner[cells].ravel().tolist()) - {NOBODY}
