@@ -231,9 +231,10 @@ class Trial:
             made_of |= {leaver[asked] for asked in entry.asked if asked in leaver}
             own = {asked: value for asked, value in entry.asked.items() if asked not in leaver}
             found.append(Step(entry.stage, own, frozenset(made_of)))
-            # what it only passes on was made before
-            old = shared | maker.keys()
-            maker |= {id(each): row for each in inner(entry.output) if _is_made(each) and id(each) not in old}
+            for each in inner(entry.output):
+                # what it only passes on was made before
+                if id(each) not in shared and _is_made(each):
+                    maker.setdefault(id(each), row)
             leaver |= dict.fromkeys(entry.left, row)
         return tuple(found)
 

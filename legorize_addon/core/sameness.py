@@ -6,12 +6,16 @@ import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
+from functools import cache
 from typing import Any, Final
 
 import numpy as np
 
 _PLAIN: Final = (bool, int, float, str, bytes, type(None), Enum, np.generic)
 """Types whose values are compared as such."""
+
+_LEAVES: Final = frozenset({bool, int, float, str, bytes, type(None)})
+"""Types whose values are made of nothing else: most of what a run has found."""
 
 
 def same(one: Any, other: Any) -> bool:
@@ -70,15 +74,23 @@ def inner(thing: Any) -> Iterator[Any]:
             continue
         seen.add(id(each))
         yield each
+        if type(each) in _LEAVES:
+            continue
         if isinstance(each, Mapping):
             waiting += [*each.keys(), *each.values()]
         elif isinstance(each, (tuple, list, set, frozenset)):
             waiting += each
         elif isinstance(each, np.ndarray):
             waiting += [] if each.base is None else [each.base]
-        elif is_dataclass(each) and not isinstance(each, type):
+        elif names := _fields(type(each)):
             kept = getattr(each, "__dict__", {})
-            waiting += [*(getattr(each, entry.name) for entry in fields(each)), *kept.values()]
+            waiting += [*(getattr(each, name) for name in names), *kept.values()]
+
+
+@cache
+def _fields(kind: type) -> tuple[str, ...]:
+    """Return the names of the fields of a dataclass; none of any other type."""
+    return tuple(entry.name for entry in fields(kind)) if is_dataclass(kind) else ()
 
 
 def weight(thing: Any) -> int:
