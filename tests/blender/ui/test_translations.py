@@ -34,6 +34,15 @@ SAME = {
 OF_BLENDER = {"filepath", "check_existing", "remove_name", "remove_active", "name"}
 """Properties that Blender's own base classes bring, with Blender's translations."""
 
+WORDS_OF_BLENDER = {
+    "de_DE": {"Auto": "Auto", "Image": "Bild", "Play": "Wiedergabe", "Samples": "Abtastwerte", "Show": "Anzeigen"},
+    "es": {"Auto": "Auto", "Delete": "Borrar", "Image": "Imagen", "Off": "Desactivado", "Weight": "Influencia"},
+    "fr_FR": {"Auto": "Auto", "Play": "Lecture", "Samples": "Échantillons", "Show": "Afficher", "Weight": "Poids"},
+    "ja_JP": {"Image": "画像", "Play": "再生", "Samples": "サンプル数", "Weight": "ウェイト"},
+    "zh_HANS": {"Image": "图像", "Off": "关闭", "Play": "播放", "Seed": "随机种", "Weight": "权重"},
+}
+"""What Blender 4.3 calls the same things, from its own catalogues; words that mean something else there are left out."""
+
 Text = tuple[str, str]
 """Context and English text."""
 
@@ -135,6 +144,14 @@ def test_nothing_is_left_over(language: str) -> None:
     """No catalogue has what is shown no more, where it would hide that a text was changed."""
     left = sorted(messages(language).keys() - set(all_texts()))
     assert not left, f"Take out of assets/translations/{language}.json:\n{as_json(left)}"
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_things_are_called_as_in_blender(language: str) -> None:
+    """What has a name in Blender's own windows has the same name in ours."""
+    known = {text: said for (context, text), said in messages(language).items() if context == DEFAULT}
+    words = WORDS_OF_BLENDER[language]
+    assert {text: known[text] for text in words} == words
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
