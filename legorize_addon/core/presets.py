@@ -40,9 +40,9 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
         ),
         "smooth": Preset(
             "Smooth Surface",
-            "Slopes where the surface falls, tiles where studs would show, and the grid where it fits the shape best: "
-            "closer to it for some more parts.",
-            {"surface": "slopes", "grid_fit": "shifts"},
+            "Slopes where the surface falls, tiles where studs would show, and the grid, in a size up to 3 % off, "
+            "where it fits the shape best: closer to it for some more parts.",
+            {"surface": "slopes", "grid_fit": "sizes"},
         ),
         "bricks": Preset("Bricks Only", "Bold and quick to build: whole bricks, without plates.", {"plates": "none"}),
         "cheapest": Preset(

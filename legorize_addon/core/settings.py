@@ -126,9 +126,9 @@ class Settings:
         group="Shape")
     grid_fit: Literal["none", "shifts", "sizes"] = setting(
         "none", "Fit of the grid", "Where the grid of studs lies over the model.", group="Shape", words={
-            "none": "in its middle, or as in the paper", "shifts": "where it fits best, by quarters of a stud; a "
-            "symmetric model stays so", "sizes": "the same, also of a size up to 3 % smaller or larger if it is set in "
-            "studs, bricks or cm"})
+            "none": "in its middle, or as in the paper", "shifts": "where it fits best, by quarters of a stud and of a "
+            "plate; a symmetric model stays so", "sizes": "the same, also of a size up to 3 % smaller or larger if it "
+            "is set in studs, bricks or cm"})
     half_studs: bool = setting(
         False, "Half studs", "Shift parts such as a head or a tail by half a stud, on jumper plates, where that comes "
         "closer to the shape: it must save as much for each part as slopes.", group="Shape")

@@ -1,14 +1,14 @@
-"""Where a grid fits a mesh best: shifts by quarters of a stud, and sizes a few per cent apart.
+"""Where a grid fits a mesh best: shifts by quarters of a stud and of a plate, and sizes a few per cent apart.
 
 A leg of one stud's width is two half-filled rows on one grid and one full row on
 another. A cell errs by the share of it that it fills or leaves empty in spite of
 the mesh; the sum of this over all cells, as plates, is what a grid is chosen by.
-One cut of the mesh into quarters of a stud gives it for all shifts.
+One cut of the mesh into quarters of a stud gives it for all shifts. Level surface
+errs by its distance to the planes between plates, whatever the shift.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -20,23 +20,30 @@ from ..mesh import TriangleMesh, cell_factors, scale_mesh
 from ..units import CELL_AREA, PLATE, PLATES_PER_BRICK, STUD
 from .coverage import covered_area
 from .lattice import Grid, begun_earlier, fit_grid
+from .level_faces import PHASES, LevelFaces
 from .slices import slice_mesh
 from .trajectories import linked
 
 PARTS: Final = 4
 """Steps of a shift in a stud."""
 
-LEEWAY: Final = 0.03
-"""Share by which a size may differ: less than a stud of 32."""
+LEEWAY: Final = 1 / 32
+"""Share by which a size may differ: a stud of 32."""
 
 _STEP: Final = 0.01
-"""Between two sizes that are tried."""
+"""Between two sizes that are tried, beside those that are a whole number of studs long."""
 
 _CELLS: Final = 4_000_000
 """Fine cells at a time: 32 MB."""
 
 _GAIN: Final = 0.005
 """Share of the error that another shift has to save: less is not worth a model that lies askew to its middle."""
+
+_RAISED: Final = 0.02
+"""Share of the error that other planes have to save: less is not worth feet that are cut or lengthened."""
+
+_RESIZED: Final = 0.04
+"""Share of the error that another size has to save: less is not worth a size that nobody asked for."""
 
 
 def best_grid(mesh: TriangleMesh, *, symmetric: bool, plates: bool, leeway: float = 0.0) -> tuple[Grid, float]:
@@ -58,17 +65,23 @@ def best_grid(mesh: TriangleMesh, *, symmetric: bool, plates: bool, leeway: floa
     factor : float
         The size, as a multiple of that given; the grid is that of the scaled mesh.
     """
-    steps = round(leeway / _STEP)
-    # the given size first: another one has to be better
-    found = [_shifted(mesh, factor, symmetric=symmetric, plates=plates) for factor in _factors(steps)]
+    level = LevelFaces.of(mesh, fit_grid(mesh, symmetric=symmetric, plates=plates)) if plates else None
+    # the given size first: another one has to be clearly better
+    found = [
+        _shifted(mesh, factor, level, symmetric=symmetric, plates=plates) for factor in (1.0, *_factors(mesh, leeway))
+    ]
     best = min(found, key=lambda each: each.error)
+    best = best if best.error < (1 - _RESIZED) * found[0].error else found[0]
     return best.grid, best.factor
 
 
-def _factors(steps: int) -> Iterator[float]:
-    yield 1.0
-    for step in range(1, steps + 1):
-        yield from (1 - step * _STEP, 1 + step * _STEP)
+def _factors(mesh: TriangleMesh, leeway: float) -> list[float]:
+    """Return the other sizes within a leeway that are tried: the nearest to the given one first."""
+    long = float(np.ptp(mesh.vertices[:, :2], axis=0).max()) / STUD
+    whole = [(round(long) + more) / long for more in (-1, 0, 1)] if long > 0 else []
+    steps = np.arange(1, int(leeway / _STEP) + 1) * _STEP
+    tried = [*whole, *(1 - steps).tolist(), *(1 + steps).tolist()]
+    return sorted({each for each in tried if 1e-6 < abs(each - 1) <= leeway + 1e-9}, key=lambda each: abs(each - 1))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,7 +93,7 @@ class _Found:
     error: float
 
 
-def _shifted(mesh: TriangleMesh, factor: float, *, symmetric: bool, plates: bool) -> _Found:
+def _shifted(mesh: TriangleMesh, factor: float, level: LevelFaces | None, *, symmetric: bool, plates: bool) -> _Found:
     """Find the best shift of the usual grid of a size."""
     mesh = mesh if factor == 1 else scale_mesh(mesh, factor)
     grid = fit_grid(mesh, symmetric=symmetric, plates=plates)
@@ -94,8 +107,17 @@ def _shifted(mesh: TriangleMesh, factor: float, *, symmetric: bool, plates: bool
         best = (np.intp(0), np.intp(0))
     y, x = (int(each) for each in best)
     shift = np.array([x, y]) * STUD / PARTS
-    moved = begun_earlier(grid, mesh, (STUD - shift) * (shift > 0), plates=plates) if shift.any() else grid
-    return _Found(moved, factor, float(errors[best]) / factor**2)
+    error, phase = float(errors[best]) / factor**2, 0
+    if level is not None:
+        by_phase = error + level.errors(factor)
+        lowest = int(by_phase.argmin())
+        lowest = lowest if by_phase[lowest] < (1 - _RAISED) * by_phase[0] else 0
+        error, phase = float(by_phase[lowest]), PHASES[lowest]
+    moved = grid
+    if shift.any() or phase:
+        by = (STUD - shift) * (shift > 0)
+        moved = begun_earlier(grid, mesh, by, plates=plates, raised=phase * PLATE / PARTS)
+    return _Found(moved, factor, error)
 
 
 def _errors(mesh: TriangleMesh, grid: Grid) -> tuple[Floats, tuple[bool, bool]]:

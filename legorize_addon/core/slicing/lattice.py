@@ -97,26 +97,29 @@ def fit_grid(mesh: TriangleMesh, *, symmetric: bool, plates: bool = False) -> Gr
     return _on_ground(mesh, start, cells, plates=plates)
 
 
-def begun_earlier(grid: Grid, mesh: TriangleMesh, by: Floats, *, plates: bool) -> Grid:
-    """Return the grid that begins some mm earlier along x and y, at most a cell, and ends no earlier."""
+def begun_earlier(grid: Grid, mesh: TriangleMesh, by: Floats, *, plates: bool, raised: float = 0.0) -> Grid:
+    """Return the grid that begins some mm earlier along x and y, at most a cell, and ends no earlier.
+
+    Its planes may be raised by some mm, less than a plate, against those that begin at the lowest point.
+    """
     cells = np.array([grid.n_x, grid.n_y]) + (by > 0)
-    return _on_ground(mesh, grid.origin[:2] - by, cells, plates=plates)
+    return _on_ground(mesh, grid.origin[:2] - by, cells, plates=plates, raised=raised)
 
 
-def _on_ground(mesh: TriangleMesh, start: Floats, cells: Ints, *, plates: bool) -> Grid:
+def _on_ground(mesh: TriangleMesh, start: Floats, cells: Ints, *, plates: bool, raised: float = 0.0) -> Grid:
     """Return the grid with a corner at x and y and so many cells, at the height where the model stands best."""
-    ground, n_layers = _ground(mesh, start, cells, 1 if plates else PLATES_PER_BRICK)
+    ground, n_layers = _ground(mesh, start, cells, 1 if plates else PLATES_PER_BRICK, raised)
     return Grid(np.array([*start, ground]), n_layers, int(cells[1]), int(cells[0]))
 
 
-def _ground(mesh: TriangleMesh, start: Floats, cells: np.ndarray, base: int) -> tuple[float, int]:
+def _ground(mesh: TriangleMesh, start: Floats, cells: np.ndarray, base: int, raised: float) -> tuple[float, int]:
     """Choose the height of the first layer so that it carries the model.
 
     A rounded or pointed underside would stand on a few cells; the model is sunk
     by up to one brick, a plate at a time, until its centre of mass lies well
     inside the hull of its lowest plates, as many as `base`, or as well as it can.
     """
-    low, high = mesh.vertices[:, 2].min(), mesh.vertices[:, 2].max()
+    low, high = mesh.vertices[:, 2].min() + raised, mesh.vertices[:, 2].max()
     n_layers = max(1, int(np.ceil((high - low) / BRICK - 1e-9)))
     if n_layers < 3:
         return float(low), n_layers

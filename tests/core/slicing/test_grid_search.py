@@ -15,7 +15,7 @@ from legorize_addon.core.slicing.coverage import covered_area
 from legorize_addon.core.slicing.grid_search import PARTS
 from legorize_addon.core.slicing.trajectories import linked
 from legorize_addon.core.units import BRICK, PLATE, STUD
-from tests.core.solids import box, joined
+from tests.core.solids import box, joined, sphere
 
 QUARTER = STUD / PARTS
 
@@ -63,7 +63,7 @@ def test_a_grid_that_is_as_good_stays():
     assert factor == 1
 
 
-@pytest.mark.parametrize(("width", "factor"), [(10.2, 0.98), (9.8, 1.02), (9.6, 1.03), (10, 1)])
+@pytest.mark.parametrize(("width", "factor"), [(10.2, 10 / 10.2), (9.8, 10 / 9.8), (9.6, 1.03), (10, 1)])
 def test_size_changes_to_whole_studs_and_no_further_than_allowed(width, factor):
     """A cube whose sides are near whole studs is made a little smaller or larger."""
     mesh = box((0, 0, 0), (width * 8, width * 8, width * 9.6))
@@ -71,6 +71,26 @@ def test_size_changes_to_whole_studs_and_no_further_than_allowed(width, factor):
     assert found == pytest.approx(factor)
     assert covers(scale_mesh(mesh, found), grid)
     assert best_grid(mesh, symmetric=True, plates=True)[1] == 1
+
+
+def test_a_ball_keeps_its_size_and_its_planes():
+    """Other ones save a little of the error of round surface by chance."""
+    mesh = sphere(16, 9.3 * STUD)
+    best, factor = best_grid(mesh, symmetric=True, plates=True, leeway=LEEWAY)
+    assert factor == 1
+    assert best.origin[2] == pytest.approx(fit_grid(mesh, symmetric=True, plates=True).origin[2])
+
+
+@pytest.mark.parametrize(("low", "raised"), [(15.0, 0), (14.75, -1), (15.25, 1), (15.5, 2), (15.1, 0)])
+def test_planes_lie_where_level_surface_is(low, raised):
+    """The top of a table lies between two planes, whatever the height of its legs."""
+    legs = [box((x, y, 0), (x + 8, y + 8, low * PLATE)) for x in (0.0, 88.0) for y in (0.0, 88.0)]
+    mesh = joined(*legs, box((0, 0, low * PLATE), (96, 96, (low + 3) * PLATE)))
+    usual, (best, _) = fit_grid(mesh, symmetric=True, plates=True), best_grid(mesh, symmetric=True, plates=True)
+    assert best.origin[2] - usual.origin[2] == pytest.approx(raised * PLATE / PARTS)
+    assert best.origin[2] + best.n_layers * BRICK >= (low + 3) * PLATE - 1e-9
+    bricks = best_grid(mesh, symmetric=True, plates=False)[0]
+    assert bricks.origin[2] == pytest.approx(fit_grid(mesh, symmetric=True).origin[2])
 
 
 sides = st.floats(10, 60)
