@@ -26,7 +26,7 @@ from typing import Final
 ROOT: Final = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from scripts.build_extension import TAGS, build  # noqa: E402 - found through the line above
+from scripts.build_extension import PYTHONS, TAGS, build  # noqa: E402 - found through the line above
 
 SECTION: Final = re.compile(r"^## \[(.+?)\](?: - (\S+))?\s*$", re.MULTILINE)
 DATE: Final = re.compile(r"\d{4}-\d\d-\d\d")
@@ -44,7 +44,9 @@ def main(arguments: list[str] | None = None) -> int:
         print(fault, file=sys.stderr)
     if faults:
         return 1
-    zips = build(chosen.platform or list(TAGS), chosen.out)
+    platforms = chosen.platform or list(TAGS)
+    # for every Python of Blender, and half as large for each
+    zips = [path for python in (None, *PYTHONS) for path in build(platforms, chosen.out, python=python)]
     print(next_steps(chosen.tag, zips))
     return 0
 

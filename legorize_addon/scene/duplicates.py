@@ -15,7 +15,7 @@ from uuid import uuid4
 import bpy
 
 from .brick_tree import SECTION
-from .builds import LAYER_KEY, ROLE_KEY, builds, damage, is_own, layers_of, line_objects, point_objects
+from .builds import LAYER_KEY, ROLE_KEY, all_builds, builds, damage, is_own, layers_of, line_objects, point_objects
 from .instancing import bricks_modifier, set_input
 from .placing import collection_around, layer_collections
 from .root import MODEL_KEY, is_root
@@ -37,11 +37,11 @@ def is_bare_root(scene: bpy.types.Scene, thing: bpy.types.Object) -> bool:
 
 
 def copied_roots(build: bpy.types.Collection) -> list[bpy.types.Object]:
-    """Return the copies of the root of a build that are no builds yet, by name: those in it, and those pasted."""
+    """Return the copies of the root of a build that are no builds yet, by name: in it, or pasted into any scene."""
     root = state_of(build).root
     copies = {thing for thing in build.all_objects if thing != root and is_copied_root(thing)}
     word = root.get(MODEL_KEY) if root else None
-    for scene in root.users_scene if word else ():
+    for scene in bpy.data.scenes if word else ():
         alike = [thing for thing in scene.objects if thing.get(MODEL_KEY) == word and thing != root]
         copies |= {thing for thing in alike if is_bare_root(scene, thing)}
     return sorted(copies, key=lambda thing: thing.name)
@@ -64,8 +64,10 @@ def adopt_copies(
         Each new build, after the one that it is a copy of.
     """
     found = []
-    for build in builds(scene):
-        copies = [root for root in copied_roots(build) if root.session_uid not in left]
+    here = builds(scene)
+    # the models of a copied scene have the words of the others
+    for build in (*here, *(each for each in all_builds() if each not in here)):
+        copies = [root for root in copied_roots(build) if scene in root.users_scene and root.session_uid not in left]
         if copies and damage(build) is None:
             found += [(build, _adopted(scene, build, copy)) for copy in copies]
     return found
@@ -77,7 +79,8 @@ def _adopted(scene: bpy.types.Scene, build: bpy.types.Collection, root: bpy.type
     layers = layers_of(build)
     new = bpy.data.collections.new(build.name)
     copies = {layer: _empty_copy(layer) for layer in layers}
-    collection_around(scene, build).children.link(new)
+    around = collection_around(scene, build) if build in builds(scene) else scene.collection
+    around.children.link(new)
     for layer in layers:
         new.children.link(copies[layer])
     hanging = (thing for thing in build.all_objects if is_own(thing) and thing.parent == root)

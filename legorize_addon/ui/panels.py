@@ -251,6 +251,9 @@ class LEGORIZE_PT_export(BuildTab, bpy.types.Panel):
             return
         self.layout.operator(LEGORIZE_OT_export_mpd.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_export_list.bl_idname, icon="EXPORT")
+        # what most people buy by: as a format of the list alone, nobody finds it
+        wanted = self.layout.operator(LEGORIZE_OT_export_list.bl_idname, text="BrickLink Wanted List", icon="EXPORT")
+        wanted.kind = "bricklink"
         self.layout.operator(LEGORIZE_OT_export_folder.bl_idname, icon="EXPORT")
         self.layout.operator(LEGORIZE_OT_render_still.bl_idname, icon="RENDER_STILL")
         self.layout.operator(LEGORIZE_OT_mark_asset.bl_idname, icon="ASSET_MANAGER")

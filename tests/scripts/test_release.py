@@ -88,13 +88,21 @@ def test_tag_is_on_this_commit(tree: Path) -> None:
 def test_nothing_is_built_where_something_is_wrong(
     tree: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The reasons are printed and the status is 1; in a tree that fits all platforms are built."""
-    built: list[list[str]] = []
+    """The reasons are printed and the status is 1; in a tree that fits, zips for all platforms and Pythons are built."""
+    built: list[tuple[list[str], str | None]] = []
     monkeypatch.setattr(release, "ROOT", tree)
-    monkeypatch.setattr(release, "build", lambda platforms, out: built.append(platforms) or [Path("a.zip")])
+
+    def build(platforms: list[str], out: Path, *, python: str | None) -> list[Path]:
+        """Note what is built."""
+        built.append((platforms, python))
+        return [Path(f"{python}.zip")]
+
+    monkeypatch.setattr(release, "build", build)
     assert release.main(["v9"]) == 1
     assert not built
     assert "The tag v9 is not v1.2.0" in capsys.readouterr().err
     assert release.main(["v1.2.0"]) == 0
-    assert built == [list(release.TAGS)]
-    assert "git push origin v1.2.0" in capsys.readouterr().out
+    assert built == [(list(release.TAGS), python) for python in (None, *release.PYTHONS)]
+    said = capsys.readouterr().out
+    assert "git push origin v1.2.0" in said
+    assert all(f"{python}.zip" in said for _, python in built)

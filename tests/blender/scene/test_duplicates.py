@@ -114,6 +114,27 @@ def test_a_pasted_root_is_a_whole_model(build, tmp_path: Path) -> None:
     assert not is_bare_root(scene, root)
 
 
+def test_a_root_pasted_into_another_scene_is_a_model_there(build, tmp_path: Path) -> None:
+    """It has all bricks, beside those of the first one, which goes its own way; nothing is left of either."""
+    here, there = bpy.context.scene, bpy.data.scenes.new("there")
+    before = read_bricks(build)
+    pasted = paste(state_of(build).root, tmp_path / "buffer.blend", there)
+    assert not adopt_copies(here)
+    [(original, copy)] = adopt_copies(there)
+    assert original == build
+    assert builds(here) == [build]
+    assert builds(there) == [copy]
+    assert state_of(copy).root == pasted
+    assert damage(copy) is None
+    assert list(there.collection.children) == [copy]
+    assert_same(read_bricks(copy), before)
+    clear_build(here, build)
+    assert damage(copy) is None
+    assert_same(read_bricks(copy), before)
+    clear_build(there, copy)
+    assert not bpy.data.collections
+
+
 def test_the_root_of_a_model_that_is_not_there_stays_bare(build, tmp_path: Path) -> None:
     """What was copied in another file has nothing to be made of; it is told by the panel, and left alone."""
     scene = bpy.context.scene
