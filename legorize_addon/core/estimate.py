@@ -33,6 +33,9 @@ _FACE: Final = np.array([STUD * BRICK, STUD * BRICK, STUD * STUD])
 _FLAT: Final = 0.999
 """Cosine from which a triangle counts as perpendicular to an axis: large bricks cover it."""
 
+_AT_ONCE: Final = 8192
+"""Triangles that are measured at a time: a million take a third of the time that they take all at once."""
+
 COUNTED: Final = ("parts", "budget")
 """Ways to set the size by what a model comes to."""
 
@@ -170,7 +173,7 @@ def estimate(mesh: TriangleMesh, settings: Settings) -> Estimate:
 def estimate_of(measured: Measured, settings: Settings) -> Estimate:
     """Estimate a build of a mesh that was measured, see :func:`estimate`; its triangles take no time here."""
     if settings.size_by in COUNTED:
-        settings = _counted_size(measured, settings)
+        settings = counted_size_of(measured, settings)
     extent = measured.extent
     scale = scale_of_extent(
         extent,
@@ -221,10 +224,11 @@ def counted_size(mesh: TriangleMesh, settings: Settings) -> Settings:
     Settings
         Its size is set by the scale. Without knowing prices, a part is taken to cost a tenth.
     """
-    return _counted_size(Measured.of(mesh, settings.up), settings)
+    return counted_size_of(Measured.of(mesh, settings.up), settings)
 
 
-def _counted_size(measured: Measured, settings: Settings) -> Settings:
+def counted_size_of(measured: Measured, settings: Settings) -> Settings:
+    """Return the same settings as :func:`counted_size`, for a mesh that was measured."""
     wanted = settings.parts if settings.size_by == "parts" else max(settings.budget / _USUAL_PRICE, 1.0)
     low, high = 1e-4, 1e6
     # the estimate never falls as the scale grows
@@ -311,16 +315,21 @@ PROOF: Final = 3.0
 
 def _faces_and_volume(mesh: TriangleMesh) -> tuple[float, float, float]:
     """Return how many faces of unit bricks lie in flat and in other surfaces, and the unit bricks of the volume."""
-    a, b, c = (mesh.vertices[corner] - mesh.vertices[mesh.faces[0, 0]] for corner in mesh.faces.T)
-    b -= a
-    c -= a
-    # a third of the time of numpy.cross
-    normal = np.stack([b[:, i] * c[:, j] - b[:, j] * c[:, i] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
-    across = np.abs(normal)
-    flat = across.max(axis=1) ** 2 >= _FLAT**2 * np.einsum("ij,ij->i", normal, normal)
-    sums = across @ (0.5 / _FACE)
-    volume = abs(float(np.einsum("ij,ij->", a, normal))) / 6
-    return float(sums[flat].sum()), float(sums[~flat].sum()), volume / (STUD * STUD * BRICK)
+    place = np.ascontiguousarray((mesh.vertices - mesh.vertices[mesh.faces[0, 0]]).T)
+    corners = np.ascontiguousarray(mesh.faces.T)
+    flat, whole, volume = 0.0, 0.0, 0.0
+    for start in range(0, corners.shape[1], _AT_ONCE):
+        a, b, c = (place[:, corner] for corner in corners[:, start : start + _AT_ONCE])
+        b -= a
+        c -= a
+        # a third of the time of numpy.cross
+        normal = np.stack([b[i] * c[j] - b[j] * c[i] for i, j in ((1, 2), (2, 0), (0, 1))])
+        across = np.abs(normal)
+        level = across.max(axis=0) ** 2 >= _FLAT**2 * np.einsum("ij,ij->j", normal, normal)
+        faces = (0.5 / _FACE) @ across
+        flat, whole = flat + float(faces[level].sum()), whole + float(faces.sum())
+        volume += float(np.einsum("ij,ij->", a, normal)) / 6
+    return flat, max(whole - flat, 0.0), abs(volume) / (STUD * STUD * BRICK)
 
 
 def _stages(build: _Features, settings: Settings) -> dict[str, float]:

@@ -15,7 +15,7 @@ from .arrays import Floats
 from .colours import SurfaceColours
 from .drafting import gridded, hollowed
 from .errors import LimitError
-from .estimate import COUNTED, Measured, counted_size, estimate_of
+from .estimate import COUNTED, Measured, counted_size_of, estimate_of
 from .layout import lay_unjoined
 from .layout.learning import shipped
 from .memo import Memo, Trial
@@ -131,7 +131,10 @@ def preview(mesh: TriangleMesh, settings: Settings, memo: Memo) -> Generator[Non
     memo.keep(trial)
     yield
     measured = trial.call("measured", (ready,), lambda: Measured.of(ready, "z"))
-    factor, studs, shown = _factor(mesh, ready, measured, first, quick)
+    if quick.size_by in COUNTED:
+        as_read = trial.call("measured as read", (mesh, quick.up), lambda: Measured.of(mesh, quick.up))
+        quick = counted_size_of(as_read, quick)
+    factor, studs, shown = _factor(ready, measured, first, quick)
     run = Run.of(quick, Overall({}, silent), trial)
     sized, scale, frame, _ = run.once(place_grid, scale_mesh(ready, factor), first * factor)
     *_, grid, _ = gridded(run, sized, repairs, surface, frame)
@@ -172,12 +175,8 @@ def _lay(run: Run, shell: UnitGrid) -> Bricks:
     return lay_unjoined(shell, run.parts.catalogue, rng=run.rng, tier="fast", filler=run.filler)
 
 
-def _factor(
-    mesh: TriangleMesh, ready: TriangleMesh, measured: Measured, first: float, quick: Settings
-) -> tuple[float, int, int]:
+def _factor(ready: TriangleMesh, measured: Measured, first: float, quick: Settings) -> tuple[float, int, int]:
     """Return the factor from the first size to that of the preview, the studs asked for, and those of the preview."""
-    if quick.size_by in COUNTED:
-        quick = counted_size(mesh, quick)
     if quick.size_by == "scale":
         wanted = quick.scale / _ORIGINAL / first
     else:

@@ -82,7 +82,7 @@ def inner(thing: Any) -> Iterator[Any]:
             waiting += each
         elif isinstance(each, np.ndarray):
             waiting += [] if each.base is None else [each.base]
-        elif names := _fields(type(each)):
+        elif names := _fields(type(each)):  # type: ignore[arg-type]  # a class is hashable
             kept = getattr(each, "__dict__", {})
             waiting += [*(getattr(each, name) for name in names), *kept.values()]
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import legorize_addon.core.estimate as module
 from legorize_addon.core.errors import MeshError, SettingsError
 from legorize_addon.core.estimate import AGAIN, Measured, estimate, estimate_of
 from legorize_addon.core.mosaic_estimate import estimate_mosaic
@@ -66,6 +67,15 @@ def test_a_mesh_is_measured_once_for_all_settings(monkeypatch):
     expected = [estimate(MESHES["blob"], each) for each in chosen]
     monkeypatch.setattr(Measured, "of", None)
     assert [estimate_of(measured, each) for each in chosen] == expected
+
+
+def test_triangles_are_measured_in_any_portions(monkeypatch):
+    """Area and volume are sums over all triangles, however many are taken at a time."""
+    whole = Measured.of(MESHES["blob"], "auto")
+    monkeypatch.setattr(module, "_AT_ONCE", 7)
+    parts = Measured.of(MESHES["blob"], "auto")
+    found, expected = ((each.flat, each.curved, each.volume) for each in (parts, whole))
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
 
 
 def test_size_is_that_of_the_settings():

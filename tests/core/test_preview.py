@@ -77,6 +77,17 @@ def test_what_is_prepared_stays_for_the_next_one(monkeypatch, *, refused: bool) 
     assert {entry for entry in memo.entries if entry.name in names} == set(prepared)
 
 
+def test_a_mesh_is_measured_once_for_all_numbers_of_parts(monkeypatch) -> None:
+    """A slider of parts asks only what was measured before, and gives what a first preview gives."""
+    mesh, memo = sphere(3, radius=30), Memo()
+    made(mesh, memo, size_by="parts", parts=60)
+    first, _ = made(mesh, size_by="parts", parts=90)
+    monkeypatch.setattr(module.Measured, "of", None)
+    again, _ = made(mesh, memo, size_by="parts", parts=90)
+    np.testing.assert_array_equal(again.bricks.corner, first.bricks.corner)
+    assert again.scale == first.scale
+
+
 def test_what_takes_too_long_is_shown_smaller() -> None:
     """Twice the size takes no longer than what is shown; the height stays in proportion."""
     mesh = sphere(4, radius=30)

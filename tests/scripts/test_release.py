@@ -88,7 +88,7 @@ def test_tag_is_on_this_commit(tree: Path) -> None:
 def test_nothing_is_built_where_something_is_wrong(
     tree: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The reasons are printed and the status is 1; in a tree that fits, zips for all platforms and Pythons are built."""
+    """The reasons are printed and the status is 1; in a tree that fits, zips for all platforms and Pythons are."""
     built: list[tuple[list[str], str | None]] = []
     monkeypatch.setattr(release, "ROOT", tree)
 

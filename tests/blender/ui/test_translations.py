@@ -41,7 +41,7 @@ WORDS_OF_BLENDER = {
     "ja_JP": {"Image": "画像", "Play": "再生", "Samples": "サンプル数", "Weight": "ウェイト"},
     "zh_HANS": {"Image": "图像", "Off": "关闭", "Play": "播放", "Seed": "随机种", "Weight": "权重"},
 }
-"""What Blender 4.3 calls the same things, from its own catalogues; words that mean something else there are left out."""
+"""What Blender 4.3 calls the same things, by its own catalogues; words that mean something else there are left out."""
 
 Text = tuple[str, str]
 """Context and English text."""
