@@ -72,8 +72,8 @@ def given_bricks(run: Run, made: Draft) -> tuple[Draft, Slopes | None]:
             check_apart(made.hollow.solid, made.halves)
             jumpers, cells = run.once(_find_jumpers, made, made.halves)
             # a jumper has to stay
-            rows = np.arange(len(jumpers))
-            given = Slopes(jumpers, np.full(len(jumpers), np.inf), -1 - rows, made.grid.solid)
+            rows, stays = np.arange(len(jumpers)), np.ones(len(jumpers), bool)
+            given = Slopes(jumpers, np.full(len(jumpers), np.inf), -1 - rows, stays, made.grid.solid)
             made = replace(made, hollow=cells)
     if run.settings.surface == "slopes":
         with run.stage("surface"):
@@ -100,6 +100,7 @@ def _join_slopes(run: Run, jumpers: Slopes | None, slopes: Slopes, halves: Halve
         concatenate([jumpers.bricks, slopes.bricks.take(whole)]),
         np.concatenate([jumpers.worth, slopes.worth[whole]]),
         np.concatenate([jumpers.pair, slopes.pair[whole]]),
+        np.concatenate([jumpers.dear, slopes.dear[whole]]),
         slopes.solid,
     )
 

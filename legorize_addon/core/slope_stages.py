@@ -89,7 +89,8 @@ def lay_with_slopes(run: Run, shell: UnitGrid, given: Slopes | None) -> tuple[Br
         return concatenate([fixed, bricks])
 
     pays = paying(given.bricks, given.worth, given.pair, run.catalogue, lay_roughly, price=run.settings.slope_price)
-    laid = lay_around_slopes(given.bricks.take(pays), run.catalogue, lay)
+    worth, pair, dear = given.worth[pays], given.pair[pays], given.dear[pays]
+    laid = lay_around_slopes(given.bricks.take(pays), worth, pair, dear, run.catalogue, lay)
     if given.filled or contact_graph(laid[0], run.catalogue).n_components <= 1:
         return laid
     return lay_with_slopes(run, shell, given.settled(lie_among(given.bricks, laid[0]), filled=True))

@@ -118,7 +118,7 @@ def test_slopes_where_a_model_comes_apart(monkeypatch, ball, standing, tips, tor
     monkeypatch.setattr(slope_stages, "torn_by", lambda *_: np.array([[-1, row] for row in which[:torn]]))
     beside = np.isin(np.arange(len(ball.bricks)), which[:1])
     monkeypatch.setattr(slope_stages, "slopes_beside", lambda bricks, weak, catalogue: beside if ties else weak)
-    given = Slopes(ball.bricks.take(which), np.ones(3), np.arange(3), ball.grid.solid)
+    given = Slopes(ball.bricks.take(which), np.ones(3), np.arange(3), np.zeros(3, bool), ball.grid.solid)
     run = Run.of(SETTINGS, Overall({}, silent))
     first = (ball.bricks, ball.hollow, found(ball.bricks))
     made = slope_stages.without_weak_slopes(run, ball.hollow, given, ball.bricks.take(more), first)
@@ -130,7 +130,7 @@ def test_what_relaxing_sets_loose(monkeypatch, ball):
     """If a model falls apart with less behind its slopes, it is laid once more with all of it."""
     filled = []
 
-    def around(slopes, catalogue, lay):
+    def around(slopes, _worth, _pair, _dear, _catalogue, lay):
         bricks, cells = lay(slopes)
         filled.append((cells.cover == Fill.REQUIRED).sum())
         return (bricks.take(np.arange(0, len(bricks), 2)) if len(filled) == 1 else bricks), cells

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from .candidates import Candidates, candidates, rows
 from .forms import Form, slopes_of
 from .mirrored import in_pairs
 from .site import Site
+
+_DEAR: Final = 2.0
+"""Times as much as usual from which likeness counts more, as for colours."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,6 +33,8 @@ class Slopes:
         Volume that each gains, less that of wrong colours, in cells a plate high.
     pair : (n,) int64 array
         The same number for a slope and its mirror image.
+    dear : (n,) bool array
+        Those where likeness counts at least twice as much as usual.
     solid : (n_layers, 3, n_y, n_x) bool array
         What the model fills before it is hollowed.
     filled : bool
@@ -38,13 +44,14 @@ class Slopes:
     bricks: Bricks
     worth: Floats
     pair: Ints
+    dear: Mask
     solid: Mask
     filled: bool = False
 
     def settled(self, rows: Mask, *, filled: bool) -> Slopes:
         """Return those of them that stay, and are not asked again whether they pay."""
         worth = np.full(np.count_nonzero(rows), np.inf)
-        return Slopes(self.bricks.take(rows), worth, self.pair[rows], self.solid, filled)
+        return Slopes(self.bricks.take(rows), worth, self.pair[rows], self.dear[rows], self.solid, filled)
 
 
 def choose_slopes(
@@ -139,6 +146,9 @@ def _table(site: Site, among: tuple[Form, ...], found: Candidates, pair: Ints, s
     """Return candidates as bricks."""
     part, turn = (np.array([getattr(form, name) for form in among])[found.form] for name in ("part", "turn"))
     corner = site.corners(found.place).astype(np.int32)
+    dear = np.zeros(len(part), bool)
+    for which, claimed, _ in rows(site, among, found):
+        dear[which] = site.factor[claimed].mean(axis=1) >= _DEAR
     order = np.lexsort(tuple(corner.T))
     bricks = Bricks(
         part=part.astype(np.int16),
@@ -149,4 +159,4 @@ def _table(site: Site, among: tuple[Form, ...], found: Candidates, pair: Ints, s
         piece=np.zeros(len(part), np.int16),
         step=corner[:, 2] // np.int32(PLATES_PER_BRICK),
     )
-    return Slopes(bricks.take(order), found.worth[order], pair[order], solid)
+    return Slopes(bricks.take(order), found.worth[order], pair[order], dear[order], solid)
