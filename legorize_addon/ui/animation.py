@@ -12,8 +12,8 @@ from ..core.errors import BuildError
 from ..render import Cut, make_film
 from ..view import animate, animation_of, n_steps, stop_animation
 from . import counts
-from .build import OnBuild
 from .properties import current_build
+from .working import OnBuild
 
 HOLD: Final = 48
 """Frames for which the scene goes on after the last step: two seconds at Blender's usual rate."""

@@ -9,9 +9,9 @@ from bpy.app.translations import pgettext_rpt as rpt
 
 from ..scene import state_of
 from . import counts
-from .build import OnBuild
 from .export import title_of
 from .properties import current_build
+from .working import OnBuild
 
 TAGS: Final = ("bricks", "legorize")
 """Words by which every model is found."""

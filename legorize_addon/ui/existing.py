@@ -20,7 +20,6 @@ from ..core.units import MM_PER_METRE
 from ..scene import Source, read_bricks, sources_of, state_of
 from ..view import show_result
 from . import counts, job
-from .build import BUSY, Browsing, OnBuild, Working, select_only
 from .edits import list_edits
 from .export import chosen_path, title_of
 from .kept_texts import with_texts
@@ -29,6 +28,7 @@ from .parts import list_parts_of
 from .properties import current_build
 from .requests import absolute_files, by_uid
 from .settings_properties import settings_of
+from .working import BUSY, Browsing, OnBuild, Working, select_only
 
 if TYPE_CHECKING:
     from ..core.build import Judged

@@ -15,9 +15,9 @@ from ..core.errors import BuildError
 from ..core.model import Assembly, Role, load_catalogue
 from ..render import AZIMUTH, render_still
 from ..scene import hand_remark, n_deleted, read_bricks
-from .build import OnBuild
 from .properties import current_build
 from .settings_properties import label
+from .working import OnBuild
 
 _NO_NAME: Final = re.compile(r'[\x00-\x1f<>:"/\\|?*]')
 """Characters that names of files cannot have in Windows, with those that they cannot have elsewhere."""

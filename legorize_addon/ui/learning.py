@@ -15,11 +15,11 @@ from ..core.model import Bricks, UnitGrid, load_catalogue
 from ..core.progress import Progress, part
 from ..core.settings import Settings
 from ..scene import builds_of, is_own, sources_of, state_of
-from .build import Working
 from .learned_files import new_file, own_versions, resolved
 from .reporting import Reporting
 from .requests import build_request, chosen_sources
 from .settings_properties import settings_of
+from .working import Working
 
 if TYPE_CHECKING:
     from ..core.mesh import TriangleMesh

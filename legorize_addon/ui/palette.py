@@ -17,9 +17,9 @@ from bpy.props import IntProperty
 from ..core.errors import SettingsError
 from ..core.model import Catalogue, Colour, load_catalogue
 from . import job
-from .build import OnBuild
 from .properties import current_build
 from .tab import Tab
+from .working import OnBuild
 
 PIXELS: Final = 32
 """Height and width of a swatch."""

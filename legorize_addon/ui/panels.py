@@ -29,7 +29,7 @@ from ..view import (
 from . import counts, job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
 from .assets import LEGORIZE_OT_mark_asset
-from .build import A_STEP, LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
+from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
 from .edit_tool import LEGORIZE_PT_edits, draw_plan
 from .everything import LEGORIZE_OT_export_folder
 from .existing import LEGORIZE_OT_again, LEGORIZE_OT_open_ldraw
@@ -49,6 +49,7 @@ from .settings_panels import GROUPS, SETTINGS_PANELS, SIZE, draw_settings
 from .tab import BuildTab, Tab, draw_wrapped
 from .updating import LEGORIZE_OT_build_beside, LEGORIZE_OT_update
 from .weakest import LEGORIZE_OT_show_weakest, LEGORIZE_OT_show_worst_colour
+from .working import A_STEP
 
 MM_PER_CM: Final = 10.0
 

@@ -12,8 +12,8 @@ from mathutils import Vector
 from ..core.units import STUD
 from ..scene import damage, is_build, state_of
 from ..view import colour_errors_shown, has_colour_errors, show_colour_errors, show_weakest, show_worst_colour
-from .build import OnBuild
 from .properties import current_build
+from .working import OnBuild
 
 STUDS_AWAY: Final = 16
 """How far the view stands from the brick: near enough to tell bricks apart, far enough to see where it is."""
