@@ -205,15 +205,18 @@ class Layout:
 
     def __init__(self) -> None:
         self.drawn: list[str] = []
+        self.buttons: list[tuple[str, SimpleNamespace]] = []
 
     def prop(self, group: bpy.types.PropertyGroup, name: str, **_: object) -> None:
         """Note a property, which has to be there."""
         getattr(group, name)
         self.drawn.append(name)
 
-    def operator(self, name: str, **_: object) -> None:
-        """Note a button."""
+    def operator(self, name: str, **_: object) -> SimpleNamespace:
+        """Note a button; return what it is pressed with."""
         self.drawn.append(name)
+        self.buttons.append((name, SimpleNamespace()))
+        return self.buttons[-1][1]
 
     def label(self, **_: object) -> None:
         """Draw a text."""
@@ -243,6 +246,15 @@ def test_layers_panel_offers_what_the_build_knows(known: bool, pieces: int) -> N
     assert ("legorize.animate" in drawing.layout.drawn) == ("legorize.film" in drawing.layout.drawn) == known
     assert ("exploded" in drawing.layout.drawn) == (pieces > 1)
     assert {"top_layer", "section_axis", "shell", "detail"} <= set(drawing.layout.drawn)
+
+
+def test_export_panel_has_the_wanted_list() -> None:
+    """One of the buttons writes the list that most people buy by, without a choice in the file browser."""
+    show(table([(0, 0, 0, 0, 0, 4)]))
+    layout = Layout()
+    panels.LEGORIZE_PT_export.draw(SimpleNamespace(layout=layout), SimpleNamespace(scene=bpy.context.scene))
+    kinds = [vars(pressed) for name, pressed in layout.buttons if name == "legorize.export_list"]
+    assert kinds == [{}, {"kind": "bricklink"}]
 
 
 def test_figures_are_sentences_of_numbers() -> None:
