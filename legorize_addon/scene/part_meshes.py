@@ -6,7 +6,7 @@ box's lower face, so that a quarter turn about z keeps the box on the grid.
 
 Every shape here is a loft: rings of points above one another, joined by
 quadrilaterals, with an n-gon as the lid. Bodies that fall along their length
-are in :mod:`.slope_bodies`.
+are in :mod:`.slope_bodies`, those with aslant sides in :mod:`.wedge_bodies`.
 """
 
 from __future__ import annotations
@@ -20,11 +20,12 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.model import Catalogue, Part, columns
+from ..core.model import Catalogue, Part, columns, outline
 from ..core.units import PLATE, STUD
 from .lofts import BEVEL, GAP, ROOF, WALL, Detail, Floats, Loft
 from .rounding import corner_normals
 from .slope_bodies import level, slope_body
+from .wedge_bodies import wedge_body
 
 Ring = tuple[float, float]
 """An inset (bodies) or radius (studs, tubes) and a height, in mm."""
@@ -198,10 +199,12 @@ def _to_mesh(loft: Loft, name: str) -> bpy.types.Mesh:
 def _body(part: Part, height: float, detail: Detail) -> Loft:
     if part.sloped:
         return slope_body(part, detail)
-    outline = _outline(part)
+    if part.wedge:
+        return wedge_body(part, detail)
+    corners = outline(part) * STUD
     if detail == "low" or not part.sockets:
         low = 0.0 if part.sockets else height / 2
-        return _loft([_inset(outline, GAP, 0.0, z) for z in (low, height - GAP)], floor=True, lid=True)
+        return _loft([_inset(corners, GAP, 0.0, z) for z in (low, height - GAP)], floor=True, lid=True)
     # tiles have a groove around their lower edge, to lift them off by
     edge = [(GAP + BEVEL, 0.0), (GAP, BEVEL)] if part.studs else [(GROOVE, 0.0), (GROOVE, GROOVE), (GAP, GROOVE)]
     rings: list[Ring] = [
@@ -211,7 +214,7 @@ def _body(part: Part, height: float, detail: Detail) -> Loft:
         (GAP, height - GAP - BEVEL),
         (GAP + BEVEL, height - GAP),
     ]
-    return _loft([_inset(outline, inset, BEVEL, z) for inset, z in rings], floor=True, lid=True)
+    return _loft([_inset(corners, inset, BEVEL, z) for inset, z in rings], floor=True, lid=True)
 
 
 def _round(rings: Sequence[Ring], centre: Floats, detail: Detail, *, floor: bool = False, lid: bool = False) -> Loft:
@@ -258,7 +261,7 @@ def _tube_centres(part: Part) -> Floats:
     across = np.arange(1, part.width) if part.width > 1 else np.array([0.5])
     y, x = (each.ravel() for each in np.meshgrid(across, np.arange(1, part.length), indexing="ij"))
     centres = np.stack([x, y], axis=1)
-    if part.sloped:
+    if part.shaped:
         # only between squares that stand on the same level, and clutch
         found = columns(part, 0)
         level_of = np.full((part.length, part.width), -1)
@@ -267,13 +270,6 @@ def _tube_centres(part: Part) -> Floats:
         centres = centres[(level_of[row] == 0) & (level_of[row[0] + 1, row[1]] == 0)]
     # the tube of a corner part would stand in its missing cell
     return centres[: 0 if part.corner else None] * STUD
-
-
-def _outline(part: Part) -> Floats:
-    """Return the outline of the body in mm from the box's corner, counter-clockwise, shape (n, 2)."""
-    if part.corner:
-        return np.array([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]) * STUD
-    return np.array([[0, 0], [part.length, 0], [part.length, part.width], [0, part.width]]) * STUD
 
 
 def _inset(outline: Floats, inset: float, chamfer: float, z: float) -> Floats:

@@ -62,7 +62,7 @@ def cells_of(build: Build, catalogue: Catalogue) -> list[set[Cell]]:
 
 def _columns(part: Part, turn: int) -> Iterator[tuple[int, int, int, int]]:
     """Return the stud squares of a part, and from which plate to which its cells are."""
-    if not part.sloped:
+    if not part.shaped:
         yield from ((x, y, 0, part.height) for x, y in _squares(part, turn))
         return
     facts = columns(part, turn)

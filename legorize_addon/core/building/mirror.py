@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ..arrays import Ints
-from ..model import NOBODY, Bricks, Catalogue, footprint
+from ..model import NOBODY, Bricks, Catalogue, footprint, part_images
 
 SYMMETRIC: Final = 0.5
 """Share of the bricks that have an image from which on a model counts as symmetric."""
@@ -60,7 +60,7 @@ def mirror_images(bricks: Bricks, catalogue: Catalogue) -> Ints:
     Returns
     -------
     (n,) int64 array
-        Row of the brick of the same part at the mirrored place, the brick itself
+        Row of the brick of the same part, or its mirror image, at the mirrored place, the brick itself
         if it lies across the plane, ``NOBODY`` if there is none or the model is
         not symmetric.
     """
@@ -83,7 +83,8 @@ def _symmetry(bricks: Bricks, catalogue: Catalogue) -> tuple[MirrorPlane, Ints] 
     most = int(SYMMETRIC * len(bricks))
     for axis, (first, last, others) in enumerate(((0, 1, (2, 3)), (2, 3, (0, 1)))):
         low, high = outline[:, first], outline[:, last]
-        kind = _kinds(np.column_stack([bricks.part, bricks.corner[:, 2], high - low, outline[:, others]]))
+        part = np.minimum(bricks.part, part_images(catalogue.parts, axis)[bricks.part, 0, 0])
+        kind = _kinds(np.column_stack([part, bricks.corner[:, 2], high - low, outline[:, others]]))
         # first and last square of each image add up to twice the middle
         for shift in sorted(range(-OFF, OFF + 1), key=abs):
             total = int(low.min() + high.max()) + shift

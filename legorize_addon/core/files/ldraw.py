@@ -156,8 +156,8 @@ def _places(bricks: Bricks, catalogue: Catalogue) -> tuple[NDArray[np.uint8], ND
 
 
 def matrix_of(part: Part, turn: int) -> int:
-    """Return the number of the matrix of a turned part: LDraw's slopes fall along -z, ours along x."""
-    return (turn + part.sloped) % len(MATRICES)
+    """Return the number of the matrix of a turned part: LDraw's slopes and wedges fall along -z, ours along x."""
+    return (turn + part.shaped) % len(MATRICES)
 
 
 def part_origin(part: Part, turn: int) -> tuple[int, int, int]:

@@ -119,7 +119,7 @@ def shown_rgb(bricks: Bricks, catalogue: Catalogue, temporary: Mask, tint: Rgb) 
 
 def size_of(part: Part) -> str:
     """Return the size of a part in studs, and its height if that is not usual, as "2 x 4"; slopes along their fall."""
-    text = f"{part.length} x {part.width}" if part.sloped else f"{part.width} x {part.length}"
+    text = f"{part.length} x {part.width}" if part.shaped else f"{part.width} x {part.length}"
     if part.height == 2:
         return f"{text} x 2/3"
     return f"{text} x {part.height // 3}" if part.height > 3 else text

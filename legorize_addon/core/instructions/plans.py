@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 from typing import Final
 
 import numpy as np
 
 from ..arrays import Floats, Ints
-from ..model import Bricks, Catalogue, column_facts, stud_middles
+from ..model import Bricks, Catalogue, Part, column_facts, outline, stud_middles, turned
 from .canvas import Group, Item, Paint, Path, Rgb, lines
 
 STUD: Final = 0.6
@@ -16,14 +17,6 @@ STUD: Final = 0.6
 
 HATCH: Final = 0.35
 """Distance of the lines of a hatching."""
-
-_CORNERS: Final = (
-    ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)),
-    ((0, 0), (2, 0), (2, 2), (1, 2), (1, 1), (0, 1)),
-    ((1, 0), (2, 0), (2, 2), (0, 2), (0, 1), (1, 1)),
-    ((0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (0, 2)),
-)
-"""Outlines of corner parts, by quarter turn."""
 
 
 def plan_outlines(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
@@ -43,13 +36,17 @@ def plan_outlines(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
         Corners of each.
     """
     parts = [catalogue.parts[row] for row in bricks.part.tolist()]
-    found = []
-    for part, turn in zip(parts, (bricks.turn % 4).tolist(), strict=True):
-        x, y = (part.width, part.length) if turn % 2 else (part.length, part.width)
-        found.append(_CORNERS[turn] if part.corner else ((0, 0), (x, 0), (x, y), (0, y)))
+    found = [_outline(part, turn) for part, turn in zip(parts, (bricks.turn % 4).tolist(), strict=True)]
     count = np.array([len(corners) for corners in found], dtype=np.int64)
-    shape = np.array([corner for corners in found for corner in corners], dtype=np.float64).reshape(-1, 2)
+    shape = np.concatenate([np.zeros((0, 2)), *found])
     return shape + np.repeat((bricks.corner + bricks.shift)[:, :2], count, axis=0), count
+
+
+@cache
+def _outline(part: Part, turn: int) -> Floats:
+    """Return the corners of a turned part from the lowest corner of its box, (n, 2) studs, the lowest one first."""
+    corners = turned(part, turn, outline(part))
+    return np.roll(corners, -int(np.lexsort(corners.T)[0]), axis=0)
 
 
 def plan_studs(bricks: Bricks, catalogue: Catalogue, *paints: Paint) -> Path:

@@ -1,7 +1,8 @@
-"""Slopes and jumpers in pictures: their true faces and studs, drawn over all that has right angles and studs all over.
+"""Slopes, wedge plates and jumpers in pictures: their true faces and studs, drawn over all else.
 
-What falls has no place on the lattice of :mod:`.lattice`. So everything else is drawn first, as if no slope were there,
-and then the slopes, from the farthest to the nearest, each within the pieces of its cells that nothing else hides.
+What falls or runs aslant has no place on the lattice of :mod:`.lattice`. So everything else is drawn first, as if no
+slope were there, and then the slopes, from the farthest to the nearest, each within the pieces of its cells that
+nothing else hides.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import Final
 import numpy as np
 
 from ..arrays import Floats, Ints, Mask
-from ..model import NOBODY, Part, columns, lines, turned
+from ..model import NOBODY, Part, columns, lines, outline, turned
 from .canvas import Group, Item, Paint, Path, Rgb, moved
 from .canvas import lines as segments
 from .half_slabs import slabs_of
@@ -34,7 +35,7 @@ _SMOOTH: Final = 0.94
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Shape:
-    """A part that falls, as it is seen from a place, from the corner of its box of cells.
+    """A part that falls or has aslant sides, as it is seen from a place, from the corner of its box of cells.
 
     Attributes
     ----------
@@ -88,7 +89,7 @@ def _draw_slab(sight: Sight, looks: Look) -> Picture:
     if cells is None or cells.model is None or not len(sight.faces):
         return draw(sight, looks)
     parts = cells.model.catalogue.parts
-    sloped = np.array([part.sloped or part.jumper for part in parts])[cells.model.bricks.part]
+    sloped = np.array([part.shaped or part.jumper for part in parts])[cells.model.bricks.part]
     seen = np.flatnonzero(sloped & (sight.shares > 0))
     if not len(seen):
         return draw(sight, looks)
@@ -202,6 +203,9 @@ def _shape(part: Part, turn: int, view: View) -> _Shape:
 
 def _faces(part: Part) -> Iterator[Floats]:
     """Yield the faces of a part at turn 0, counter-clockwise as seen from outside, in studs and plates."""
+    if part.wedge:
+        yield from _upright(outline(part), float(part.height))
+        return
     top, bottom = (np.array(line) for line in lines(part))
     side = np.concatenate([bottom, top[::-1]])
     side = side[(side != np.roll(side, 1, axis=0)).any(axis=1)]
@@ -214,9 +218,19 @@ def _faces(part: Part) -> Iterator[Floats]:
         )
 
 
+def _upright(corners: Floats, height: float) -> Iterator[Floats]:
+    """Yield the faces of a part that is its outline drawn up."""
+    low, high = (np.insert(corners, 2, z, axis=1) for z in (0.0, height))
+    yield low[::-1]
+    yield high
+    for row in range(len(corners)):
+        after = (row + 1) % len(corners)
+        yield np.array([low[row], low[after], high[after], high[row]])
+
+
 def _steps(part: Part) -> Mask:
     """Return which faces are steps of the underside, which the part itself hides from above."""
-    inner = [np.ptp(points[:, 0]) == 0 and 0 < points[0, 0] < part.length for points in _faces(part)]
+    inner = [not part.wedge and np.ptp(points[:, 0]) == 0 and 0 < points[0, 0] < part.length for points in _faces(part)]
     return np.array(inner)
 
 

@@ -52,17 +52,20 @@
     uniform mat4 camera;
     out vec3 local; out vec3 extent; out vec3 way; out vec4 paint; out vec3 bare;
     void main() {
-      float t = axis > 0.5 ? corner.y : corner.x, run = axis > 0.5 ? size.y : size.x;
-      float low = mix(lean.x, lean.y, t) * size.z, high = mix(lean.z, lean.w, t) * size.z;
-      float rise = (normal.z > 0.5 ? lean.w - lean.z : lean.y - lean.x) * size.z / run;
-      vec3 tipped = normal.z * vec3(axis > 0.5 ? 0.0 : -rise, axis > 0.5 ? -rise : 0.0, 1.0);
-      way = abs(normal.z) > 0.5 && abs(rise) > 0.0 ? tipped : normal;
+      // falls along x or along y, or has sides that run aslant along x
+      bool aside = axis > 1.5, deep = axis > 0.5 && !aside;
+      float t = deep ? corner.y : corner.x, run = deep ? size.y : size.x, whole = aside ? size.y : size.z;
+      float low = mix(lean.x, lean.y, t) * whole, high = mix(lean.z, lean.w, t) * whole;
+      float across = aside ? normal.y : normal.z;
+      float rise = (across > 0.5 ? lean.w - lean.z : lean.y - lean.x) * whole / run;
+      vec3 tipped = across * (aside ? vec3(-rise, 1.0, 0.0) : vec3(deep ? 0.0 : -rise, deep ? -rise : 0.0, 1.0));
+      way = abs(across) > 0.5 && abs(rise) > 0.0 ? tipped : normal;
       paint = tone;
       // no lines across what leans: a curve has many pieces
-      bare = lean.z == lean.w ? vec3(0.0) : axis > 0.5 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
-      extent = vec3(size.xy, high - low);
-      local = vec3(corner.xy * size.xy, corner.z * (high - low));
-      gl_Position = camera * vec4(place + local + vec3(0.0, 0.0, low), 1.0);
+      bare = !aside && lean.z == lean.w ? vec3(0.0) : deep ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+      extent = aside ? vec3(size.x, high - low, size.z) : vec3(size.xy, high - low);
+      local = corner * extent;
+      gl_Position = camera * vec4(place + local + (aside ? vec3(0.0, low, 0.0) : vec3(0.0, 0.0, low)), 1.0);
     }`;
   const fragment = `#version 300 es
     precision highp float;
@@ -178,8 +181,8 @@
     for (let row = 0; row < nRamps; row++) {
       const brick = brickOf[nBoxes + nStuds + row];
       if (!state[brick]) continue;
-      const r = ramps.subarray(RAMP * row, RAMP * row + RAMP), at = 15 * k++, y = r[10] > 0.5;
-      // gaps at the sides alone: the pieces of a slope touch each other
+      const r = ramps.subarray(RAMP * row, RAMP * row + RAMP), at = 15 * k++, y = r[10] === 1;
+      // gaps at the sides alone: the pieces of a part touch each other
       const gx = y ? GAP : 0, gy = y ? 0 : GAP;
       third.set([8 * r[0] + gx, 8 * r[1] + gy, 3.2 * r[2], 8 * r[3] - 2 * gx, 8 * r[4] - 2 * gy, 3.2 * r[5] - 0.02], at);
       tone(brick, state[brick], third, at + 6);

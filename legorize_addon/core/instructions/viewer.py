@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from base64 import b64encode
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from itertools import pairwise
 from typing import Any, Final
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Floats, Ints, Mask
 from ..building import Action, Steps
-from ..model import NOBODY, Bricks, Catalogue, Part, column_facts, lines, stud_columns, stud_middles, turned
+from ..model import NOBODY, Bricks, Catalogue, Part, column_facts, lines, outline, stud_columns, stud_middles, turned
 from .lots import shown_rgb
 from .panels import built_at_once
 
@@ -113,7 +113,7 @@ def _boxes(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
     rows = zip(bricks.part.tolist(), (bricks.turn % 4).tolist(), _corners(bricks).tolist(), strict=True)
     for row, (number, turn, (x, y, z)) in enumerate(rows):
         part = catalogue.parts[number]
-        if part.sloped:
+        if part.shaped:
             continue
         across, deep = (part.width, part.length) if turn % 2 else (part.length, part.width)
         for u, v, wide, long in _CORNER_BOXES[turn] if part.corner else ((0, 0, across, deep),):
@@ -129,13 +129,14 @@ def _corners(bricks: Bricks) -> Floats:
 
 
 def _ramps(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
-    """Return the straight pieces of bricks that fall along their length, (n, 11), and the brick of each.
+    """Return the straight pieces of bricks that fall or have aslant sides, (n, 11), and the brick of each.
 
     Of each piece its lowest corner and size in cells, how high of its size the bottom is at the start and at the end
-    of an axis, how high the top, and the axis: 0 for x, 1 for y.
+    of an axis, how high the top, and the axis: 0 for x, 1 for y. With aslant sides the same along x of the sides at
+    low and at high y, and 2.
     """
     found, owner = [], []
-    sloped = np.flatnonzero(np.array([part.sloped for part in catalogue.parts])[bricks.part])
+    sloped = np.flatnonzero(np.array([part.shaped for part in catalogue.parts])[bricks.part])
     corners = _corners(bricks)
     for row in sloped.tolist():
         pieces = _pieces(catalogue.parts[bricks.part[row]], int(bricks.turn[row]) % 4)
@@ -146,7 +147,9 @@ def _ramps(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
 
 @cache
 def _pieces(part: Part, turn: int) -> tuple[Floats, ...]:
-    """Return the straight pieces of a part that falls along its length, from its corner."""
+    """Return the straight pieces of a part that is no box, from its corner."""
+    if part.wedge:
+        return tuple(_strips(turned(part, turn, outline(part)), part.height))
     top, bottom = (np.array(line) for line in lines(part))
     places = np.unique(np.concatenate([top[:, 0], bottom[:, 0]]))
     found = []
@@ -161,3 +164,17 @@ def _pieces(part: Part, turn: int) -> tuple[Floats, ...]:
             level = level[[1, 0, 3, 2]]
         found.append(np.array([*corners.min(axis=0), low.min(), *size, *level, turn % 2]))
     return tuple(found)
+
+
+def _strips(corners: Floats, height: int) -> Iterator[Floats]:
+    """Yield the pieces into which lines along y through its corners cut a convex outline."""
+    sides = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
+    along = sides[:, 1, 0] - sides[:, 0, 0]
+    for start, end in pairwise(np.unique(corners[:, 0]).tolist()):
+        within = (sides[:, :, 0].min(axis=1) <= start) & (sides[:, :, 0].max(axis=1) >= end)
+        # counter-clockwise, the side at low y runs along x and the other one back
+        low = np.interp([start, end], *sides[within & (along > 0)][0].T)
+        high = np.interp([start, end], *sides[within & (along < 0)][0, ::-1].T)
+        size = np.array([end - start, high.max() - low.min(), height])
+        level = (np.concatenate([low, high]) - low.min()) / size[1]
+        yield np.array([start, low.min(), 0, *size, *level, 2])

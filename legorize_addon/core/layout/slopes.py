@@ -131,7 +131,7 @@ def slopes_between(bricks: Bricks, component: NDArray[np.integer], catalogue: Ca
 
 
 def _sloped(bricks: Bricks, catalogue: Catalogue) -> Mask:
-    return np.array([part.sloped for part in catalogue.parts])[bricks.part]
+    return np.array([part.shaped for part in catalogue.parts])[bricks.part]
 
 
 def lie_among(bricks: Bricks, others: Bricks) -> Mask:

@@ -43,8 +43,8 @@ def quarter_turns(matrix: Floats, corner: Mask) -> tuple[Ints, Mask]:
         0 to 3, counter-clockwise as seen from above; -1 where a part does not
         stand upright, or is stretched.
     mirrored : (n,) bool array
-        Whether the matrix mirrors. Our parts look the same in a mirror, so they
-        have a turn all the same.
+        Whether the matrix mirrors. Boxes, corners and slopes look the same in a mirror, so they have a turn all the
+        same; a wedge plate has that of its image, mirrored across its width.
     """
     # a turn has entries from -1 to 1; numbers without end, or none, would spoil the arithmetic
     turning = (np.abs(matrix) < 2).all(axis=(1, 2), keepdims=True)

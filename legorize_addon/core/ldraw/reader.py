@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays import Ints, Mask
 from ..errors import BuildError
 from ..files import MAIN_COLOUR
-from ..model import Bricks, Catalogue, jumper_turn
+from ..model import Bricks, Catalogue, jumper_turn, part_images
 from .colours import Replaced, brick_colours
 from .flatten import EDGE_COLOUR, Parts, flatten
 from .lattice import cells, quarter_turns
@@ -114,8 +114,9 @@ def read_ldraw(text: str, catalogue: Catalogue, *, beside: Callable[[str], str |
     left_out = Counter(_number(names[row]) for row in parts.name[~known].tolist())
     corner_part = np.array([each.corner for each in catalogue.parts])[part] & known
     matrix, mirrored = quarter_turns(parts.matrix, corner_part)
-    sloped = np.array([each.sloped for each in catalogue.parts])[part] & known
-    turn = np.where(matrix < 0, matrix, (matrix - sloped) % 4)
+    shaped = np.array([each.shaped for each in catalogue.parts])[part] & known
+    turn = np.where(matrix < 0, matrix, (matrix - shaped) % 4)
+    part, turn, mirrored = _images(part, turn, mirrored & known, catalogue)
     # far away by calls within calls, or nowhere
     near: Mask = (np.abs(parts.place) < FARTHEST).all(axis=1)
     upright = known & near & (turn >= 0)
@@ -164,6 +165,14 @@ def _with_halves(bricks: Bricks, half: Ints, catalogue: Catalogue) -> Bricks:
     for row in np.flatnonzero(jumpers).tolist():
         turn[row] = jumper_turn(catalogue.parts[bricks.part[row]], int(turn[row]), *half[row].tolist())
     return replace(bricks, turn=turn, half=half.astype(np.uint8))
+
+
+def _images(part: Ints, turn: Ints, mirrored: Mask, catalogue: Catalogue) -> tuple[Ints, Ints, Mask]:
+    """Return parts and their turns with mirrored wedge plates as what they look like, and which others are mirrored."""
+    wedge = np.array([each.wedge for each in catalogue.parts])[part] & mirrored
+    row, more = part_images(catalogue.parts, 1)[part, 0].T
+    part, turn = np.where(wedge, row, part), np.where(wedge & (turn >= 0), (turn + more) % 4, turn)
+    return part, turn, mirrored & ~wedge
 
 
 def _number(name: str) -> str:

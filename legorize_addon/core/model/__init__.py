@@ -8,8 +8,9 @@ from ..on_demand import on_demand
 from .brick_columns import Touching, agree, brick_columns, every_plate
 from .bricks import NOBODY, SUPPORTS, Bricks, Role, concatenate
 from .catalogue import ASSETS, Catalogue, Colour, load_catalogue
-from .parts import MISSING_CELL, Part, Use, footprint
-from .profiles import columns, jumper_turn, lines, solid, turned
+from .images import part_images
+from .parts import MISSING_CELL, Part, Use, footprint, outline
+from .profiles import columns, filled, jumper_turn, lines, solid, turned
 from .squares import Rows
 from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
 from .verdict import UNSUPPORTED, Verdict
@@ -82,12 +83,15 @@ __all__ = [
     "concatenate",
     "contact_graph",
     "every_plate",
+    "filled",
     "footprint",
     "ground_of",
     "jumper_turn",
     "lines",
     "load_catalogue",
     "middles",
+    "outline",
+    "part_images",
     "solid",
     "stacked",
     "stud_columns",

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import Floats, Ints, Mask
 from ..errors import BuildError
+from ..units import STUD_LDU
 from .parts import MISSING_CELL as MISSING_CELL
 from .parts import SLOPED, Part, Profile, Use
 from .parts import footprint as footprint
@@ -61,7 +62,7 @@ class Catalogue:
     Attributes
     ----------
     parts : tuple of Part
-        In the order of the table: bricks, plates, tall bricks, what only mosaics use, slopes, and jumpers.
+        In the order of the table: bricks, plates, tall bricks, what only mosaics use, slopes, jumpers, wedge plates.
     colours : tuple of Colour
         By ascending LDraw code.
     exists : (n_parts, n_colours) bool array
@@ -246,7 +247,8 @@ def _part(cells: dict[str, str]) -> Part:
     profile = _word(cells["profile"], Profile)
     if min(length, width) < 1:
         raise ValueError(f"{length} x {width} is no size")
-    if length < width and profile not in SLOPED:
+    corners = np.array((cells["outline"] or "").split(), np.float64).reshape(-1, 2) / STUD_LDU
+    if length < width and profile not in (*SLOPED, "wedge"):
         raise ValueError(f"{length} x {width} does not name the longer side first")
     return Part(
         number=cells["number"],
@@ -259,6 +261,7 @@ def _part(cells: dict[str, str]) -> Part:
         mass=float(cells["mass_g"]),
         mass_source=cells["mass_source"],
         aliases=tuple(cells["aliases"].split()),
+        outline=tuple((x, y) for x, y in corners.tolist()),
     )
 
 

@@ -1,8 +1,9 @@
 """The shapes of the parts: what each of their columns claims and holds, and their exact solids.
 
 A part that falls along its length is given by two lines along it, of its top and its bottom, drawn out over its
-width. Columns, solids and centres of mass all follow from these lines. Measured in LDraw's library: slopes end in a
-lip of half a plate, cheese slopes are a twentieth of a plate lower than two plates and flat for 0.67 LDU at their edge.
+width; one with aslant sides by its outline as seen from above. Columns, solids and centres of mass follow from these.
+Measured in LDraw's library: slopes end in a lip of half a plate, cheese slopes are a twentieth of a plate lower than
+two plates and flat for 0.67 LDU at their edge.
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ from numpy.typing import NDArray
 
 from ..arrays import Floats, Mask
 from ..units import PLATE_LDU, STUD_LDU
-from .parts import Part, footprint
+from .parts import Part, footprint, outline
+from .polygons import centroid, depths, shares
 
 Line = tuple[tuple[float, float], ...]
 
@@ -31,6 +33,13 @@ FACETS: Final = 7
 
 CHEESE_TOP: Final = 15.6 / PLATE_LDU
 CHEESE_EDGE: Final = 0.67 / STUD_LDU
+
+STUD_ROOM: Final = 7.8 / STUD_LDU
+SOCKET_ROOM: Final = 5.5 / STUD_LDU
+"""How far from the sides of a wedge plate the middle of a square with a stud is, and of one that clutches a stud.
+
+Where it is nearer there is a notch below, in which a stud may stand. Measured in LDraw's library: studs are 10 LDU from
+aslant sides or more, squares without one 7.3 or less; of these, those from 6.3 on clutch, those to 4.5 are notches."""
 
 _FINE: Final = 32
 """Samples of a cell along each axis for the volume of a part: its centre is off by less than a thousandth of a stud."""
@@ -118,6 +127,8 @@ def columns(part: Part, turn: int) -> Columns:
         In the order of :func:`footprint`.
     """
     xy = footprint(part, turn)
+    if part.wedge:
+        return _flat_columns(part, turn, xy)
     place = np.floor(_unturned(part, turn, _middles(xy)))
     start = place[:, 0]
     top, bottom = (_extremes(line, start) for line in lines(part))
@@ -130,6 +141,14 @@ def columns(part: Part, turn: int) -> Columns:
         # what lies half a stud beyond its corner has the stud over its lowest square
         stud &= (place == 0).all(axis=1)
     return Columns(xy, low, high, stud, foot & part.sockets, foot)
+
+
+def _flat_columns(part: Part, turn: int, xy: NDArray[np.int32]) -> Columns:
+    """Return the stud squares of a wedge plate: it stands on those that clutch."""
+    deep = depths(outline(part), _unturned(part, turn, _middles(xy)))
+    low = np.zeros(len(xy), np.int32)
+    socket = deep >= SOCKET_ROOM
+    return Columns(xy, low, low + np.int32(part.height), deep >= STUD_ROOM, socket, socket)
 
 
 def _extremes(line: Line, start: Floats) -> tuple[Floats, Floats]:
@@ -167,11 +186,38 @@ def solid(part: Part, turn: int, across: int, up: int) -> Mask:
     middle = (np.arange(across) + 0.5) / across
     y, x = np.meshgrid(middle, middle, indexing="ij")
     places = xy[:, None, None].astype(np.float64) + np.stack([x, y], axis=-1)
-    along = _unturned(part, turn, places)[..., 0]
+    own = _unturned(part, turn, places)
+    if part.wedge:
+        within = depths(outline(part), own.reshape(-1, 2)).reshape(own.shape[:-1]) > 0
+        return np.repeat(within[:, None], part.height * up, axis=1)
+    along = own[..., 0]
     top, bottom = (_level(line, along)[:, None] for line in lines(part))
     z = ((np.arange(part.height * up) + 0.5) / up)[:, None, None]
     inside: Mask = (z > bottom) & (z < top)
     return inside
+
+
+def filled(part: Part, turn: int, across: int) -> Floats:
+    """Return the exact shares of small parts of squares within the outline of a wedge plate.
+
+    Parameters
+    ----------
+    part : Part
+        A wedge plate.
+    turn : int
+        Quarter turns, counter-clockwise as seen from above.
+    across : int
+        Small parts of a stud along x and along y.
+
+    Returns
+    -------
+    (k, across, across) float64 array
+        By footprint cell, y and x.
+    """
+    whole = np.rot90(shares(outline(part), part.length, part.width, across), turn)
+    x, y = footprint(part, turn).T
+    squares = whole.reshape(whole.shape[0] // across, across, whole.shape[1] // across, across)
+    return squares[x, :, y].transpose(0, 2, 1)
 
 
 @cache
@@ -180,6 +226,9 @@ def centre(part: Part, turn: int) -> tuple[float, float, float]:
 
     Boxes have it in the middle of their squares, half way up.
     """
+    if part.wedge:
+        x, y = turned(part, turn, centroid(outline(part))).tolist()
+        return x, y, part.height / 2
     cells = _middles(footprint(part, turn))
     if not part.sloped:
         x, y = cells.mean(axis=0).tolist()

@@ -9,8 +9,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Floats, Ints, Mask
-from ..model import Catalogue, Part, columns, solid
+from ..arrays import Floats, Ints
+from ..model import Catalogue, Part, columns, filled, part_images, solid
 from ..slicing import ACROSS, UP
 from ..units import PLATE, PLATES_PER_BRICK, STUD
 
@@ -39,9 +39,10 @@ class Form:
     cells : (n, 3) int64 array
         What it claims.
     fill : (n, PARTS) float32 array
-        1 in the parts of these cells that it fills, 0 in the others.
+        How much it fills of the parts of these cells, 0 to 1.
     above, below : (k, 3) int64 arrays
-        Cells that must stay empty: over columns without a stud, under columns without a socket.
+        Cells that must stay empty: over columns of a slope without a stud, under those without a socket. What lies
+        flat, as a wedge plate, may have something over it and under it.
     held, holding : (k, 3) int64 arrays
         Cells over its studs, and under its sockets.
     beside : (k, 3) int64 arrays
@@ -50,6 +51,8 @@ class Form:
         First cell of each column (z, y, x), and how many it claims.
     facing : (3,) float64 array
         Which way its slope faces: the area as seen along x, y and z, outwards, in mm².
+    images : tuple of two (int, int)
+        Row and turn of what it is in a mirror along x, and in one along y.
     """
 
     part: int
@@ -64,15 +67,16 @@ class Form:
     beside: Ints
     columns: Ints
     facing: Floats
+    images: tuple[tuple[int, int], ...]
 
 
 @lru_cache
 def forms(parts: tuple[Part, ...], *, plates: bool) -> tuple[Form, ...]:
     """List the slopes of a catalogue in all their turns; without plates those alone that leave room for bricks."""
     return tuple(
-        _form(part, row, turn)
+        _form(parts, row, turn)
         for row, part in enumerate(parts)
-        if part.sloped and (plates or _as_bricks(part))
+        if part.shaped and (plates or _as_bricks(part))
         for turn in range(part.turns)
     )
 
@@ -89,30 +93,40 @@ def slopes_of(catalogue: Catalogue, *, plates: bool) -> tuple[Form, ...]:
     return tuple(form for form in forms(catalogue.parts, plates=plates) if made[form.part])
 
 
-def _form(part: Part, row: int, turn: int) -> Form:
+def _form(parts: tuple[Part, ...], row: int, turn: int) -> Form:
     """Return a part in a turn."""
+    part = parts[row]
     facts = columns(part, turn)
-    filled = solid(part, turn, ACROSS, UP)
-    filled = filled.reshape(len(filled), part.height, UP, ACROSS, ACROSS)
+    inside = _shares(part, turn)
     low, high = facts.low.astype(np.int64), facts.high.astype(np.int64)
     column = np.repeat(np.arange(len(low)), high - low)
     level = np.arange(len(column)) - np.repeat(np.cumsum(high - low) - high, high - low)
     cells = _at(facts.xy[column], level)
-    fill = filled[column, level]
+    fill = inside[column, level]
     return Form(
         part=row,
         turn=turn,
         height=part.height,
         cells=cells,
         fill=fill.reshape(len(fill), -1).astype(np.float32),
-        above=_at(facts.xy, high)[~facts.stud],
-        below=_at(facts.xy, low - 1)[~facts.socket],
+        above=_at(facts.xy, high)[~facts.stud & part.sloped],
+        below=_at(facts.xy, low - 1)[~facts.socket & part.sloped],
         held=_at(facts.xy, high)[facts.stud],
         holding=_at(facts.xy, low - 1)[facts.socket],
         beside=_beside(cells, fill),
         columns=np.column_stack([_at(facts.xy, low), high - low]),
         facing=_facing(part, turn),
+        images=tuple(tuple(part_images(parts, axis)[row, turn].tolist()) for axis in (0, 1)),
     )
+
+
+def _shares(part: Part, turn: int) -> Floats:
+    """Return how much of each small part of its columns a part fills, (k, height, UP, ACROSS, ACROSS)."""
+    if part.wedge:
+        across = filled(part, turn, ACROSS)[:, None, None]
+        return np.broadcast_to(across, (len(across), part.height, UP, ACROSS, ACROSS))
+    whole = solid(part, turn, ACROSS, UP)
+    return whole.reshape(len(whole), part.height, UP, ACROSS, ACROSS).astype(np.float64)
 
 
 def _facing(part: Part, turn: int) -> Floats:
@@ -133,12 +147,12 @@ def _at(xy: NDArray[np.int32], level: Ints) -> Ints:
     return np.column_stack([level, xy[:, 1], xy[:, 0]]).astype(np.int64)
 
 
-def _beside(cells: Ints, fill: Mask) -> Ints:
+def _beside(cells: Ints, fill: Floats) -> Ints:
     """Return the cells beside those of a slope that are not hidden by it all over."""
     own = set(map(tuple, cells.tolist()))
     faces = (fill[..., 0], fill[..., -1], fill[..., 0, :], fill[..., -1, :])
     found = set()
     for step, face in zip(SIDES, faces, strict=True):
-        closed = face.reshape(len(face), -1).all(axis=1)
+        closed = (face.reshape(len(face), -1) == 1).all(axis=1)
         found |= set(map(tuple, (cells[~closed] + step).tolist())) - own
     return np.array(sorted(found), dtype=np.int64).reshape(-1, 3)

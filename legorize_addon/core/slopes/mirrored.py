@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Final
 
 import numpy as np
 
@@ -11,9 +10,6 @@ from ..arrays import Ints, Mask
 from .candidates import Candidates, rows
 from .forms import Form
 from .site import Site
-
-_IMAGE: Final = {2: (2, 1, 0, 3), 1: (0, 3, 2, 1)}
-"""Turns of the images of slopes, by axis of the cells (z, y, x) and turn: all are symmetric across their width."""
 
 
 def in_pairs(site: Site, among: tuple[Form, ...], found: Candidates, axis: int) -> tuple[Candidates, Ints]:
@@ -47,13 +43,14 @@ def in_pairs(site: Site, among: tuple[Form, ...], found: Candidates, axis: int) 
 def _images(site: Site, among: tuple[Form, ...], found: Candidates, axis: int) -> tuple[Mask, Ints]:
     """Return which candidates have an image among them, and its row."""
     known = {(form.part, form.turn): row for row, form in enumerate(among)}
-    form = np.array([known[each.part, _IMAGE[axis][each.turn]] for each in among])[found.form]
+    # the other one of a pair of wedge plates may be forbidden
+    form = np.array([known.get(each.images[2 - axis], -1) for each in among])[found.form]
     reach = np.array([each.cells[:, axis].max() for each in among])[found.form]
     place = _flipped(site, found.place, axis) - reach * _step(site, axis)
     size = int(np.prod(site.shape))
     keys, wanted = found.form * size + found.place, form * size + place
     row = np.minimum(np.searchsorted(keys, wanted), max(len(keys) - 1, 0))
-    return keys[row] == wanted, row
+    return (keys[row] == wanted) & (form >= 0), row
 
 
 def _apart(site: Site, among: tuple[Form, ...], found: Candidates, axis: int) -> Mask:

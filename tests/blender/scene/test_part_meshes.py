@@ -21,7 +21,7 @@ from legorize_addon.scene.part_meshes import (
     parts_collection,
 )
 
-PARTS = [part for part in load_catalogue().parts if part.length <= 16 and not part.sloped]
+PARTS = [part for part in load_catalogue().parts if part.length <= 16 and not part.shaped]
 """Baseplates differ in their size alone; slopes have tests of their own."""
 
 DETAILS = ("low", "high")

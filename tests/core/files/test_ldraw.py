@@ -67,6 +67,12 @@ def test_part_covers_its_footprint(row, turn):
         local = np.array([[20 * j - 10 * (part.width - 1), 0, -20 * i] for i, j in np.ndindex(part.length, part.width)])
         # that of curves is in their middle
         local[:, 2] += 10 * (part.length - 1) * (part.profile in ("curved", "bow"))
+    elif part.wedge:
+        # all corners of its box but those that are cut off whole, by their distance from that to low x and low y
+        own = np.argwhere(np.ones((part.length, part.width), dtype=bool))
+        own = own[np.isin(own @ [9, 1], footprint(part, 0) @ [9, 1])]
+        local = np.stack([20 * own[:, 1], 0 * own[:, 0], -20 * own[:, 0]], axis=1).astype(np.float64)
+        local += np.array([-10 * (part.width - 1), 0, 10 * (part.length - 1)])
     else:
         sides = np.array([[i, 0, j] for i in range(part.length) for j in range(part.width)])
         local = 20 * sides - 10 * np.array([part.length - 1, 0, part.width - 1])
@@ -83,7 +89,7 @@ def test_part_covers_its_footprint(row, turn):
 def test_catalogue_model_matches_the_golden_file():
     """Every part in each of its orientations: the text is the one on record, line ends apart."""
     bricks = everything()
-    assert len(bricks) == 24 + 24 + 6 + 16 + 9 + 4 + 24 * 4 + 2 * 4
+    assert len(bricks) == 24 + 24 + 6 + 16 + 9 + 4 + 24 * 4 + 2 * 4 + 11 * 4
     text = write_ldr(Assembly(bricks, CATALOGUE), name="catalogue.ldr", title="Every part in each of its orientations")
     assert text.replace("\r\n", "\n") == GOLDEN.read_text(encoding="utf-8")
 

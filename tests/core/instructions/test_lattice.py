@@ -77,7 +77,7 @@ def test_all_parts_show_most_of_themselves_alone():
         for view in [View(turns, below) for turns in range(4) for below in (False, True)]:
             [share] = look(Cells.of(one, CATALOGUE, view), 1).shares
             part = CATALOGUE.parts[one.part[0]]
-            assert share == 1 or ((part.corner or part.sloped) and share > 0.6)
+            assert share == 1 or ((part.corner or part.shaped) and share > 0.6)
 
 
 def test_what_stands_before_hides():

@@ -11,11 +11,11 @@ from legorize_addon.core.instructions.canvas import Group, Path
 from legorize_addon.core.instructions.lattice import FRONT, Cells, View, look
 from legorize_addon.core.instructions.picture import ACROSS, DOWN, Look, draw, extent
 from legorize_addon.core.instructions.slopes import _faces, _normal, _shape, draw_all
-from legorize_addon.core.model import solid
+from legorize_addon.core.model import footprint, solid
 from tests.core.any_bricks import CATALOGUE, table
 
 PART = {part.number: row for row, part in enumerate(CATALOGUE.parts)}
-SLOPES = [part for part in CATALOGUE.parts if part.sloped]
+SLOPES = [part for part in CATALOGUE.parts if part.shaped]
 VIEWS = [View(turns, below) for turns, below in product(range(4), (False, True))]
 
 
@@ -39,7 +39,7 @@ def test_faces_enclose_the_solid(part):
     for points in _faces(part):
         fan = np.cross(points[1:-1], points[2:])
         volume += float((fan @ points[0]).sum()) / 6
-    whole = part.length * part.width * part.height
+    whole = len(footprint(part, 0)) * part.height
     assert volume == pytest.approx(solid(part, 0, 32, 32).mean() * whole, rel=0.02)
 
 

@@ -12,7 +12,7 @@ from legorize_addon.core.building.moves import Action
 from legorize_addon.core.instructions.panels import submodel_names
 from legorize_addon.core.instructions.shots import shots
 from legorize_addon.core.instructions.viewer import NEVER, _boxes, _ramps, _studs, viewer_data
-from legorize_addon.core.model import columns, lines, solid
+from legorize_addon.core.model import columns, lines, outline, solid, turned
 from legorize_addon.core.model.catalogue import footprint
 from tests.core.any_bricks import CATALOGUE, everything
 from tests.core.instructions.built import arm, pair
@@ -62,7 +62,7 @@ def test_parts_become_boxes():
     boxes, owner = _boxes(bricks, CATALOGUE)
     for row in range(len(bricks)):
         part = CATALOGUE.parts[bricks.part[row]]
-        if part.sloped:
+        if part.shaped:
             assert row not in owner
             continue
         cells = {
@@ -89,7 +89,7 @@ def test_slopes_become_ramps_of_their_volume():
     ramps, owner = _ramps(bricks, CATALOGUE)
     for row in range(len(bricks)):
         part, mine = CATALOGUE.parts[bricks.part[row]], ramps[owner == row]
-        assert part.sloped == bool(len(mine))
+        assert part.shaped == bool(len(mine))
         if not part.sloped:
             continue
         turn = int(bricks.turn[row])
@@ -105,6 +105,30 @@ def test_slopes_become_ramps_of_their_volume():
         assert first[2] + first[5] * first[9 if turn > 1 else 8] == pytest.approx(
             bricks.corner[row, 2] + lines(part)[0][0][1]
         )
+
+
+def test_wedge_plates_become_strips_of_their_outline():
+    """The strips of a wedge plate lie within its box, and their area is that of its outline."""
+    bricks = everything()
+    ramps, owner = _ramps(bricks, CATALOGUE)
+    for row in range(len(bricks)):
+        part, mine = CATALOGUE.parts[bricks.part[row]], ramps[owner == row]
+        if not part.wedge:
+            continue
+        turn = int(bricks.turn[row])
+        assert (mine[:, 10] == 2).all()
+        assert (mine[:, 5] == part.height).all()
+        corners = turned(part, turn, outline(part)) + bricks.corner[row, :2]
+        low, high = mine[:, :2].min(axis=0), (mine[:, :2] + mine[:, 3:5]).max(axis=0)
+        assert np.concatenate([low, high]) == pytest.approx([*corners.min(axis=0), *corners.max(axis=0)])
+        area = mine[:, 3] * mine[:, 4] * (mine[:, 8] + mine[:, 9] - mine[:, 6] - mine[:, 7]) / 2
+        x, y = corners.T
+        assert area.sum() == pytest.approx((x * np.roll(y, -1) - np.roll(x, -1) * y).sum() / 2)
+        # every corner of the outline is one of a strip
+        ends = [(x + t * wide, y + level * deep) for x, y, _, wide, deep, _, *levels, _ in mine.tolist()
+                for t, level in zip((0, 1, 0, 1), levels, strict=True)]  # fmt: skip
+        for corner in corners:
+            assert np.abs(np.array(ends) - corner).sum(axis=1).min() < 1e-9
 
 
 def test_tables_fit_together():

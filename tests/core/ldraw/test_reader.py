@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -12,6 +13,7 @@ from legorize_addon.core.errors import BuildError
 from legorize_addon.core.files.ldraw import write_ldr
 from legorize_addon.core.ldraw.lines import decoded
 from legorize_addon.core.ldraw.reader import read_file, read_ldraw
+from legorize_addon.core.model import part_images
 from legorize_addon.core.model.assembly import Assembly
 from tests.core.any_bricks import CATALOGUE, any_bricks, everything, multiset, table
 
@@ -212,3 +214,21 @@ def test_slopes_in_a_mirror_fall_the_same_way(turn):
     bricks, _ = read(" ".join(words))
     assert bricks == read(line)[0] == [("3040b", [3, 2, 0], turn, 4)]
     assert not read(line)[1]
+
+
+def test_mirrored_wedge_plates_read_as_their_images():
+    """A left wedge plate in a mirror is a right one, one with a cut corner another turn of itself; nothing is lost."""
+    left, right, corner = (CATALOGUE.part_row(number) for number in ("41770", "41769", "26601"))
+    for turn in range(4):
+        for part, image in ((left, right), (corner, corner)):
+            bricks = table([(part, 0, 0, 0, turn, 4, 0, 0, 0)])
+            text = write_ldr(Assembly(bricks, CATALOGUE), name="m.ldr", title="m")
+            words = next(line for line in text.split("\r\n") if line.startswith("1 ")).split()
+            matrix = np.array(words[5:14], np.float64).reshape(3, 3) @ np.diag((-1, 1, 1))
+            line = " ".join([*words[:5], *(f"{entry:g}" for entry in matrix.reshape(-1)), words[14]])
+            found = read_ldraw(line, CATALOGUE)
+            assert found.bricks.part.tolist() == [image]
+            assert found.remarks == ()
+            # what is mirrored in the part's own frame is mirrored along x or y in the model
+            expected = part_images(CATALOGUE.parts, 1 - turn % 2)[part, turn]
+            assert [image, found.bricks.turn[0]] == expected.tolist()

@@ -23,6 +23,7 @@ SLOPES = [
 ]  # fmt: skip
 
 JUMPERS = ["15573", "87580"]
+WEDGES = ["26601", "2450", "24307", "24299", "43722", "43723", "41769", "41770", "65426", "65429", "51739"]
 
 TABLES = ("parts.csv", "colours.csv", "availability.csv")
 
@@ -38,7 +39,7 @@ def copied_assets(tmp_path):
 def test_parts_are_the_bricks_the_plates_and_the_tall_ones():
     """The catalogue lists 12 bricks, 12 plates of the same footprints and 4 tall bricks, in this order; then others."""
     assert [part.number for part in CATALOGUE.parts] == (
-        BRICKS + PLATES + TALL + TILES + LARGE_PLATES + BASES + SLOPES + JUMPERS
+        BRICKS + PLATES + TALL + TILES + LARGE_PLATES + BASES + SLOPES + JUMPERS + WEDGES
     )
     assert [part.height for part in CATALOGUE.parts][:47] == [3] * 12 + [1] * 12 + [9] * 4 + [1] * 19
     for brick, plate in zip(CATALOGUE.parts[:12], CATALOGUE.parts[12:24], strict=True):
@@ -52,8 +53,8 @@ def test_what_parts_are_laid_for():
     assert number[CATALOGUE.used_for("tiles")].tolist() == TILES
     assert number[CATALOGUE.used_for("plates")].tolist() == LARGE_PLATES
     assert number[CATALOGUE.used_for("base")].tolist() == BASES
-    assert number[CATALOGUE.used_for("surface")].tolist() == TILES + SLOPES + JUMPERS
-    assert CATALOGUE.exists.any(axis=1).all()
+    assert number[CATALOGUE.used_for("surface")].tolist() == TILES + SLOPES + JUMPERS + WEDGES
+    assert CATALOGUE.exists[~np.isin(number, WEDGES)].any(axis=1).all()
 
 
 def test_tiles_are_smooth_and_baseplates_flat_below():
@@ -71,7 +72,7 @@ def test_tiles_are_made_wherever_one_and_two_studs_are():
 
 def test_footprint_areas_follow_from_the_titles():
     """A part titled "Brick 2 x 4" covers eight cells, a corner part three, and is as high as its title says."""
-    for part in (each for each in CATALOGUE.parts if not each.sloped):
+    for part in (each for each in CATALOGUE.parts if not each.shaped):
         sides = [int(word) for word in part.title.split() if word.isdigit()]
         assert len(footprint(part, 0)) == (3 if part.corner else sides[0] * sides[1])
         assert sorted(sides[:2]) == [part.width, part.length]
@@ -89,6 +90,7 @@ def test_masses_grow_with_the_parts():
         assert part.mass_source
         for other in CATALOGUE.parts:
             same_series = (other.width, other.height, other.profile) == (part.width, part.height, part.profile)
+            same_series &= not part.wedge
             assert not same_series or (part.mass > other.mass) == (part.length > other.length)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from legorize_addon.core.model import columns, footprint, lines, load_catalogue, solid
+from legorize_addon.core.model import columns, filled, footprint, lines, load_catalogue, outline, solid, turned
 from legorize_addon.core.model.profiles import centre
 
 PARTS = load_catalogue().parts
@@ -63,3 +63,47 @@ def test_curves_stand_on_two_studs_and_step_up_to_their_high_end():
         slope = np.diff([z for _, z in lines(NUMBER[number])[0]]) / np.diff([x for x, _ in lines(NUMBER[number])[0]])
         assert (np.diff(slope) < 0).all()
         assert slope[0] > -0.3
+
+
+@pytest.mark.parametrize("part", [part for part in PARTS if part.wedge], ids=lambda part: part.number)
+def test_shares_within_outlines_are_exact(part):
+    """The shares of small parts are those of fine samples, at every turn, and add up to the area of the outline."""
+    x, y = outline(part).T
+    area = (x * np.roll(y, -1) - np.roll(x, -1) * y).sum() / 2
+    for turn in range(4):
+        shares = filled(part, turn, 4)
+        sampled = solid(part, turn, 64, 1)[:, 0].reshape(len(shares), 4, 16, 4, 16).mean(axis=(2, 4))
+        assert shares == pytest.approx(sampled, abs=0.05)
+        assert shares.sum() / 16 == pytest.approx(area)
+
+
+STUDS = {
+    "26601": "-10 -10, -10 10, 10 10", "2450": "-20 -20, -20 0, -20 20, 0 0, 0 20, 20 20", "24299": "-10 -10, -10 10",
+    "43723": "-10 -20, -10 0, -10 20", "41770": "-10 -30, -10 -10, -10 10, -10 30", "65429": "-10 10, -10 30",
+    "51739": "-10 -10, -10 10, 10 -10, 10 10",
+}  # fmt: skip
+"""Where LDraw's files of wedge plates have studs, in LDU along x and z from the middle of the part."""
+
+CLUTCHED = {"26601": 0, "2450": 0, "24299": 0, "43723": 1, "41770": 1, "65429": 0, "51739": 0}
+"""Squares of each that have no stud, but hold one below."""
+
+RIGHT = {"24307": "24299", "43722": "43723", "41769": "41770", "65426": "65429"}
+"""The mirror images of those on the left."""
+
+
+@pytest.mark.parametrize("part", [part for part in PARTS if part.wedge], ids=lambda part: part.number)
+def test_wedge_plates_have_the_studs_of_the_library(part):
+    """Studs stand where a whole one has room, sockets and feet there and where one is held; else there is a notch."""
+    left = RIGHT.get(part.number, part.number)
+    places = np.array([place.split() for place in STUDS[left].split(", ")], np.float64)
+    if left != part.number:
+        places[:, 0] *= -1
+    # LDraw's wedge plates get narrower along -z, ours along x
+    own = np.stack([-places[:, 1], places[:, 0]], axis=1) / 20 + np.array([part.length, part.width]) / 2
+    for turn in range(4):
+        found = columns(part, turn)
+        expected = {tuple(np.floor(place).astype(int)) for place in turned(part, turn, own)}
+        assert set(map(tuple, found.xy[found.stud].tolist())) == expected
+        assert found.socket[found.stud].all()
+        assert np.count_nonzero(found.socket & ~found.stud) == CLUTCHED[left]
+        assert (found.foot == found.socket).all()

@@ -31,7 +31,10 @@ def test_claims_are_those_of_the_contact_graph(form):
     owner = contact_graph(table([(form.part, 0, 0, 0, form.turn, RED, 0, 0, 0)]), CATALOGUE).owner
     assert cells(form.cells) == cells(np.argwhere(owner >= 0))
     part = CATALOGUE.parts[form.part]
-    assert form.fill.sum() == solid(part, form.turn, ACROSS, UP).sum()
+    # samples of what runs aslant are not exact
+    fine = 8 if part.wedge else 1
+    sampled = solid(part, form.turn, fine * ACROSS, UP).sum() / fine**2
+    assert form.fill.sum() == pytest.approx(sampled, rel=0.03 * part.wedge)
     assert form.height == part.height
     assert form.columns[:, 3].sum() == len(form.cells)
 

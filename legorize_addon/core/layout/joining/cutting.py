@@ -133,7 +133,7 @@ class Bench:
             for part, turn, (x, y, z), colour, role in zip(*(each.tolist() for each in columns), strict=True)
         ]
         self._cut: set[int] = set()
-        surface = [part.sloped or part.jumper or part.profile == "tile" for part in catalogue.parts]
+        surface = [part.shaped or part.jumper or part.profile == "tile" for part in catalogue.parts]
         self.fixed = {number for number, brick in enumerate(self.laid) if surface[brick.form.part]}
         self._held = {
             (number, step): _squares_held(brick, catalogue, step)
