@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -11,7 +10,7 @@ from .arrays import Ints, Mask
 from .by_hand import ByHand
 from .edits import Edit, ruled
 from .layout import Smoothed, smooth_tops
-from .model import Assembly, Bricks
+from .model import Assembly, Bricks, Verdict
 from .run import Run
 from .statics import Effort, Stability, stability
 from .strength import like_before, weaker
@@ -41,14 +40,10 @@ def smooth_surface(
         if len(made.bricks) == len(assembly):
             break
         other = Assembly(made.bricks, run.catalogue)
-        tested = like_before(run, other, found, replace(effort, rounds=0))
-        weak = _weak(other, tested, made.origin, len(assembly))
-        if weaker(tested, found) and not weak.any():
-            # nobody knows yet what would have to be laid otherwise
-            tested = like_before(run, other, found, effort)
-            weak = _weak(other, tested, made.origin, len(assembly))
+        tested = like_before(run, other, found, effort)
         if not weaker(tested, found):
             return other, _again(run, other, tested), (_told(made, len(assembly)),)
+        weak = _weak(other, tested, made.origin, len(assembly))
         if not weak.any():
             break
         may &= ~weak
@@ -79,7 +74,10 @@ def _tiled(run: Run, assembly: Assembly, may: Mask, price: float | None = None) 
 
 def _weak(other: Assembly, tested: Stability, origin: Ints, n: int) -> Mask:
     """Return which of `n` bricks became too weak, or lie on or under what did."""
-    weak = (tested.margin < 0) | tested.moves
+    weak = tested.margin < 0
+    if tested.standing is Verdict.COLLAPSES:
+        # of a motion that proves nothing all bricks may be a part
+        weak |= tested.moves
     lower, upper = other.graph.pairs.T
     near = weak.copy()
     near[upper[weak[lower]]] = True

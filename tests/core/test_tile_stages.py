@@ -12,9 +12,10 @@ from legorize_addon.core.errors import SettingsError
 from legorize_addon.core.files import write_ldr
 from legorize_addon.core.ldraw import read_ldraw
 from legorize_addon.core.memo import Memo
-from legorize_addon.core.model import load_catalogue
+from legorize_addon.core.model import Verdict, load_catalogue
 from legorize_addon.core.pipeline import legorize
 from legorize_addon.core.settings import Settings
+from legorize_addon.core.tile_stages import _weak
 from tests.core.any_bricks import multiset
 from tests.core.solids import sphere
 
@@ -68,6 +69,18 @@ def test_same_outline_and_as_strong(plain, ball):
     assert ball.supports.walk.buildable
     (told,) = (note for note in ball.notes if note.startswith("Tiles take"))
     assert f"for {len(ball.bricks) - len(plain.bricks)} parts more." in told
+
+
+def test_only_what_fails_stays_whole(ball):
+    """What bears too little, or moves in a collapse, stays whole, but not what moves in no proof of one."""
+    found, n = ball.stability, len(ball.bricks)
+    every = replace(found, standing=Verdict.UNDECIDED, yielding=np.ones((n, 6)))
+    assert not _weak(ball.assembly, every, np.arange(n), n).any()
+    margin = found.margin.copy()
+    margin[n // 2] = -0.1
+    touching = {n // 2, *ball.graph.pairs[(ball.graph.pairs == n // 2).any(axis=1)].ravel().tolist()}
+    assert set(np.flatnonzero(_weak(ball.assembly, replace(every, margin=margin), np.arange(n), n))) == touching
+    assert _weak(ball.assembly, replace(every, standing=Verdict.COLLAPSES), np.arange(n), n).all()
 
 
 def test_files_are_read_back(ball):

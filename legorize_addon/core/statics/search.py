@@ -142,6 +142,8 @@ def search(
         start = near.forces
     if kind == "all" and start is not None:
         found = _decided(equations, _given(equations, start), None, work.rounds, progress)
+        if not (found.found or found.collapse):
+            found = _projected(equations, work.aims, found.forces, work.rounds, progress)
     elif near is None or stiff is None:
         found = _projected(equations, work.aims, start, work.rounds, progress)
     else:

@@ -111,6 +111,20 @@ def test_leaning_forces_are_looked_for_from_leaning_ones(monkeypatch) -> None:
     assert is_equilibrium(whole, found.forces)
 
 
+def test_a_wide_change_of_leaning_forces_is_searched_by_projections(monkeypatch) -> None:
+    """Where more bodies are out of balance than a small linear programme takes, the lost forces are their start."""
+    bricks = table(*stair(17))
+    aims = (Aim(0.01, 0.0, 300),)
+    whole, known = looked(bricks, aims=aims, ground=Ground.BASEPLATE, kind="all")
+    monkeypatch.setattr(module, "LOOSE", 3)
+    monkeypatch.setattr(module, "REGION", 6)
+    lost = known.forces * (whole.contacts.on % 2)
+    found = search(whole, contact_graph(bricks, CATALOGUE), Work(aims, 0), start=lost, kind="all")
+    assert found.found
+    assert found.turns > 0
+    assert is_equilibrium(whole, found.forces)
+
+
 def test_a_tower_that_tips_over_needs_no_search() -> None:
     """Its motion is written down at once, with the lightest forces in balance."""
     whole, found = looked(table(("3003", 0, 0, 0), ("3007", 0, 0, 3)))
