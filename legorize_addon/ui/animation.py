@@ -12,7 +12,7 @@ from ..core.errors import BuildError
 from ..render import Cut, make_film
 from ..view import animate, animation_of, n_steps, stop_animation
 from . import counts
-from .properties import current_build
+from .current import current_build
 from .working import OnBuild
 
 HOLD: Final = 48

@@ -9,8 +9,8 @@ from bpy.app.translations import pgettext_rpt as rpt
 
 from ..scene import state_of
 from . import counts
+from .current import current_build
 from .export import title_of
-from .properties import current_build
 from .working import OnBuild
 
 TAGS: Final = ("bricks", "legorize")

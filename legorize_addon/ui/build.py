@@ -16,9 +16,9 @@ from ..scene import Source, builds, clear_build, orphans, show_orphans, show_sou
 from ..view import show_result
 from . import counts, job
 from .build_larger import ask
+from .current import current_build
 from .duplicates import adopt
 from .live import leave_preview
-from .properties import current_build
 from .reporting import forget_status
 from .requests import BuildRequest, build_request, by_uid, chosen_sources
 from .session import SESSION

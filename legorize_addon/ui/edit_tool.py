@@ -16,6 +16,7 @@ from ..core.model import load_catalogue
 from ..scene import damage, state_of
 from ..view import edges_of, shows_step
 from . import counts, job
+from .current import current_build
 from .edits import (
     LEGORIZE_OT_edit,
     LEGORIZE_OT_edit_automatic,
@@ -25,7 +26,6 @@ from .edits import (
     LEGORIZE_OT_pick,
 )
 from .palette import ranked_colours, swatch
-from .properties import current_build
 from .tab import BuildTab, draw_wrapped
 
 TOOL: Final = "legorize.edit_bricks"

@@ -18,8 +18,8 @@ from ..core.model import Assembly, load_catalogue
 from ..core.units import STUD
 from ..scene import positions, read_bricks, state_of, world_from_mm
 from ..view import Changed, brick_under, change, edits_of, outcomes_in, show_changed, touching, without
+from .current import current_build
 from .export import title_of
-from .properties import current_build
 from .tab import redraw
 from .weakest import look_at
 from .working import OnBuild

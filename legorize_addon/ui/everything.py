@@ -14,10 +14,10 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from ..core.model import Assembly, Role, load_catalogue
 from ..core.progress import Progress, part
 from ..scene import read_bricks, state_of, steps_of, title_for
+from .current import current_build
 from .export import chosen_path, title_of
 from .instructions import PAPER_ITEMS, OnPaper, unfinished
 from .parts import lists_of
-from .properties import current_build
 
 if TYPE_CHECKING:
     from ..core.building import Steps

@@ -20,12 +20,12 @@ from ..core.units import MM_PER_METRE
 from ..scene import Source, read_bricks, sources_of, state_of
 from ..view import show_result
 from . import counts, job
+from .current import current_build
 from .edits import list_edits
 from .export import chosen_path, title_of
 from .kept_texts import with_texts
 from .learned_files import resolved
 from .parts import list_parts_of
-from .properties import current_build
 from .requests import absolute_files, by_uid
 from .settings_properties import settings_of
 from .working import BUSY, Browsing, OnBuild, Working, select_only

@@ -15,7 +15,7 @@ from ..core.errors import BuildError
 from ..core.model import Assembly, Role, load_catalogue
 from ..render import AZIMUTH, render_still
 from ..scene import hand_remark, n_deleted, read_bricks
-from .properties import current_build
+from .current import current_build
 from .settings_properties import label
 from .working import OnBuild
 

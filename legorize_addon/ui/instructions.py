@@ -14,8 +14,8 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from ..core.model import Role, load_catalogue
 from ..core.progress import Progress
 from ..scene import hand_remark, read_bricks, state_of, steps_of, title_for
+from .current import current_build
 from .export import chosen_path, proposed_path, title_of
-from .properties import current_build
 from .working import Browsing, OnBuild
 
 if TYPE_CHECKING:

@@ -23,7 +23,7 @@ from ..core.units import MM_PER_METRE
 from ..scene import end_preview, preview_in, show_preview
 from ..view import readable
 from . import counts, job
-from .properties import current_build
+from .current import current_build
 from .requests import by_uid, chosen_sources, replaced_by, resolved_settings
 from .setting_names import as_in_panel
 from .settings_properties import settings_of

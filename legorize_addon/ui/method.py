@@ -19,11 +19,12 @@ from ..core.progress import Progress, part
 from ..scene import builds_of, damage, read_bricks, state_of
 from ..view import STEPS, MethodView, has_trajectories, show_method
 from . import counts, job
+from .current import current_build
 from .export import chosen_path, proposed_path
 from .live import leave_preview
-from .properties import LINE_ITEMS, current_build
 from .requests import BuildRequest, build_request, by_uid, chosen_sources
 from .settings_properties import settings_of
+from .view_choices import LINE_ITEMS
 from .working import Browsing, Working
 
 if TYPE_CHECKING:

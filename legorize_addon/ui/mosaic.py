@@ -18,9 +18,9 @@ from ..reading import image_of
 from ..scene import Source, builds, sources_of
 from ..view import show_result
 from . import counts, job
+from .current import current_build
 from .kept_texts import with_texts
 from .parts import list_parts_of
-from .properties import current_build
 from .requests import absolute_files, by_uid
 from .settings_properties import settings_of, take_renamed
 from .working import BUSY, Working

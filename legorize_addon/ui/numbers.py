@@ -15,7 +15,7 @@ from ..core.arrays import Floats
 from ..core.errors import LegorizeError
 from ..scene import damage
 from ..view import brick_numbers
-from .properties import current_build
+from .current import current_build
 
 AT_MOST: Final = 300
 """Numbers in a viewport, of the nearest bricks: more of them cover each other, and drawing them takes too long."""

@@ -17,7 +17,7 @@ from bpy.props import IntProperty
 from ..core.errors import SettingsError
 from ..core.model import Catalogue, Colour, load_catalogue
 from . import job
-from .properties import current_build
+from .current import current_build
 from .tab import Tab
 from .working import OnBuild
 

@@ -30,6 +30,7 @@ from . import counts, job
 from .animation import LEGORIZE_OT_animate, LEGORIZE_OT_film, LEGORIZE_OT_stop_animation
 from .assets import LEGORIZE_OT_mark_asset
 from .build import LEGORIZE_OT_build, LEGORIZE_OT_clear, LEGORIZE_OT_show_originals
+from .current import current_build
 from .edit_tool import LEGORIZE_PT_edits, draw_plan
 from .everything import LEGORIZE_OT_export_folder
 from .existing import LEGORIZE_OT_again, LEGORIZE_OT_open_ldraw
@@ -42,7 +43,6 @@ from .looks import draw_looks
 from .palette import LEGORIZE_PT_palette
 from .parts import LEGORIZE_OT_export_list, LEGORIZE_OT_list_parts, LEGORIZE_OT_show_all
 from .progress_text import progress_text
-from .properties import current_build
 from .requests import chosen_sources
 from .setting_names import as_in_panel
 from .settings_panels import GROUPS, SETTINGS_PANELS, SIZE, draw_settings

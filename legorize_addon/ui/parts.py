@@ -24,8 +24,8 @@ from ..core.model import Assembly, Colour, Part, Role, load_catalogue
 from ..core.shopping import FORMATS, Lot, ShoppingList, priced, shopping_list
 from ..scene import damage, read_bricks, steps_of
 from ..view import can_highlight, hide_tint, highlight_step, show_lot, shown_lot
+from .current import current_build
 from .export import Exporting, chosen_path, title_of, written
-from .properties import current_build
 from .working import OnBuild
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from bpy.props import IntProperty
 from ..core.errors import SettingsError
 from ..core.model import load_catalogue
 from ..scene import found_colours
+from .current import current_build
 from .palette import filled, ranked_colours, swatch
-from .properties import current_build
 from .reporting import Reporting
 
 MOST: Final = 16

@@ -17,9 +17,9 @@ from ..core.units import MM_PER_METRE
 from ..reading import has_surface
 from ..scene import builds_of, end_preview, is_own, orphans, previewed, sources_of, state_of
 from ..view import edits_of, readable
+from .current import current_build
 from .kept_texts import with_texts
 from .learned_files import resolved
-from .properties import current_build
 
 if TYPE_CHECKING:
     from ..core.build import Build

@@ -12,7 +12,7 @@ from bpy.app.translations import pgettext_iface as iface
 
 from ..scene import damage
 from ..view import shows_step
-from .properties import current_build
+from .current import current_build
 
 PIXELS_PER_LETTER: Final = 8.0
 """Width of a letter in the sidebar, with room for the icon: Blender does not wrap texts."""

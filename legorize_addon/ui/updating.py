@@ -13,7 +13,7 @@ from ..core.errors import LegorizeError
 from ..scene import builds, damage, is_own, sources_of, stand_beside
 from ..view import edits_of
 from .build import Building
-from .properties import current_build
+from .current import current_build
 from .requests import BuildRequest, resolved_settings
 from .session import SESSION
 from .setting_names import as_in_panel

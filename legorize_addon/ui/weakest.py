@@ -12,7 +12,7 @@ from mathutils import Vector
 from ..core.units import STUD
 from ..scene import damage, is_build, state_of
 from ..view import colour_errors_shown, has_colour_errors, show_colour_errors, show_weakest, show_worst_colour
-from .properties import current_build
+from .current import current_build
 from .working import OnBuild
 
 STUDS_AWAY: Final = 16

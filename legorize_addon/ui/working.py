@@ -12,8 +12,8 @@ from bpy.app.translations import pgettext_tip as tip
 from ..scene import damage
 from ..view import shows_step
 from . import job
+from .current import current_build
 from .progress_text import progress_text
-from .properties import current_build
 from .reporting import Reporting
 from .requests import chosen_sources, why_nothing
 from .tab import redraw

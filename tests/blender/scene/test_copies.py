@@ -12,7 +12,7 @@ from legorize_addon.scene.collections import clear_build, read_bricks
 from legorize_addon.scene.duplicates import is_copied_root
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import state_of
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.view.heat_map import show_heat_map
 from legorize_addon.view.visibility import cut_away, show_role
 from tests.blender.bricks import assert_same, content, instances, random_table, show

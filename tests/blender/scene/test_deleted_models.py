@@ -12,8 +12,8 @@ from legorize_addon.scene.builds import builds, damage, n_deleted, point_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
 from legorize_addon.scene.hidden_sources import HIDDEN_SOURCES_KEY, orphans
 from legorize_addon.scene.state import state_of
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.export import written
-from legorize_addon.ui.properties import current_build
 from tests.blender.bricks import content, instances, show, table
 
 pytestmark = pytest.mark.usefixtures("registered")

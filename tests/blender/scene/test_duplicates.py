@@ -15,7 +15,7 @@ from legorize_addon.scene.duplicates import adopt_copies, is_bare_root, is_copie
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import state_of
 from legorize_addon.ui import duplicates
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.session import SESSION
 from legorize_addon.view.heat_map import show_heat_map
 from legorize_addon.view.visibility import cut_away, show_layers, show_role

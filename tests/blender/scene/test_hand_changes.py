@@ -8,7 +8,7 @@ import pytest
 
 from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.hand_changes import CLOSE, changed_by_hand, hand_remark
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from tests.blender.builders import add_table_on_one_leg
 
 pytestmark = pytest.mark.usefixtures("addon")

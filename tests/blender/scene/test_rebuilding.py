@@ -10,7 +10,7 @@ from mathutils import Matrix
 from legorize_addon.scene.builds import builds
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import state_of
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.view.animation import animation_of
 from legorize_addon.view.heat_map import heat_map_shown
 from legorize_addon.view.visibility import section_of

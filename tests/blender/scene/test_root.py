@@ -14,7 +14,7 @@ from legorize_addon.scene.collections import clear_build, read_bricks
 from legorize_addon.scene.duplicates import adopt_copies, is_bare_root
 from legorize_addon.scene.root import RIM
 from legorize_addon.scene.state import state_of
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.requests import chosen_sources
 from tests.blender.bricks import assert_same, random_table, show
 

@@ -14,7 +14,7 @@ from legorize_addon.scene.builds import builds, damage, is_own
 from legorize_addon.scene.collections import clear_build, read_bricks
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import BUILD_KEY, VERSION, is_build, state_of
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.view.heat_map import show_heat_map
 from legorize_addon.view.steps import n_pieces, n_steps
 from legorize_addon.view.visibility import cut_away, section_of, shown_bricks

@@ -22,7 +22,7 @@ from legorize_addon.scene.collections import clear_build, read_bricks
 from legorize_addon.scene.state import BUILD_KEY, state_of
 from legorize_addon.ui import build as operators
 from legorize_addon.ui import job, panels
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.requests import chosen_sources
 from tests.blender.bricks import assert_same, content, instances
 from tests.blender.builders import add_table_on_one_leg

@@ -14,9 +14,9 @@ from legorize_addon.core.model import contact_graph
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.scene import colour_error_of, read_bricks, state_of
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.edit_tool import LEGORIZE_WT_edit
 from legorize_addon.ui.edits import show_edits
-from legorize_addon.ui.properties import current_build
 from legorize_addon.view import change, edits_of, outcomes_in
 from tests.blender.builders import add_table_on_one_leg
 from tests.core.any_bricks import multiset

@@ -15,8 +15,8 @@ from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.collections import read_bricks, steps_of
 from legorize_addon.scene.state import BUILD_KEY
 from legorize_addon.ui import instructions
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.instructions import BookletRequest, MapsRequest
-from legorize_addon.ui.properties import current_build
 from tests.blender.builders import add_table_on_one_leg
 
 pytestmark = pytest.mark.usefixtures("addon")

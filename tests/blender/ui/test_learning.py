@@ -15,9 +15,9 @@ from legorize_addon.scene.collections import read_bricks
 from legorize_addon.scene.state import BUILD_KEY
 from legorize_addon.ui import learned_files
 from legorize_addon.ui import learning as learning_operators
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.learned_files import own_folder, own_versions, resolved
 from legorize_addon.ui.panels import classes
-from legorize_addon.ui.properties import current_build
 from legorize_addon.ui.settings_properties import settings_of
 
 pytestmark = pytest.mark.usefixtures("addon")

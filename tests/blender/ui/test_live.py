@@ -13,7 +13,7 @@ import pytest
 from legorize_addon.core import preview as core_preview
 from legorize_addon.scene import builds, preview_in, read_bricks, state_of
 from legorize_addon.ui import live
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.requests import chosen_sources
 from tests.blender.bricks import assert_same, content, instances
 from tests.blender.builders import add_table_on_one_leg

@@ -7,7 +7,7 @@ import pytest
 
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.scene.builds import builds, line_objects
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.view.visibility import roles_shown
 from tests.blender.builders import add_table_on_one_leg
 

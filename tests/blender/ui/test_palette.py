@@ -11,8 +11,8 @@ from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.scene import found_colours, read_bricks
 from legorize_addon.scene.builds import builds
 from legorize_addon.ui import palette
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.palette import LEGORIZE_OT_palette_colour, codes_of, palette_text, swatch
-from legorize_addon.ui.properties import current_build
 from legorize_addon.ui.settings_properties import settings_of
 from tests.blender.bricks import show, table
 from tests.blender.builders import add_table_on_one_leg

@@ -21,9 +21,9 @@ from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.collections import read_bricks
 from legorize_addon.scene.instancing import GHOST_KEY
 from legorize_addon.scene.state import BUILD_KEY, state_of
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.export import Exporting, proposed_path
 from legorize_addon.ui.parts import places
-from legorize_addon.ui.properties import current_build
 from legorize_addon.ui.requests import build_request, chosen_sources
 from legorize_addon.ui.settings_properties import settings_of
 from legorize_addon.view.lots import shown_lot

@@ -16,7 +16,7 @@ from legorize_addon.scene.builds import layers_of
 from legorize_addon.scene.collections import clear_build
 from legorize_addon.scene.state import BUILD_KEY
 from legorize_addon.ui import panels
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.settings_properties import settings_of, take_renamed
 from tests.blender.bricks import content, instances, show, table
 

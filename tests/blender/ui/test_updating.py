@@ -10,7 +10,7 @@ from legorize_addon.core import stages as core_stages
 from legorize_addon.core.errors import BuildError
 from legorize_addon.scene import builds, read_bricks, state_of
 from legorize_addon.ui import updating
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.ui.session import SESSION
 from tests.blender.bricks import assert_same
 from tests.blender.builders import add_table_on_one_leg

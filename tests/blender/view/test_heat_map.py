@@ -26,7 +26,7 @@ from legorize_addon.scene.part_meshes import set_detail
 from legorize_addon.scene.section import Section
 from legorize_addon.scene.state import BUILD_KEY
 from legorize_addon.scene.verdict import UNCHECKED, check_lines
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.view.heat_map import (
     FAILING,
     HANGING,

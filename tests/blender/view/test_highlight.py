@@ -10,7 +10,7 @@ from legorize_addon.scene.brick_tree import STEPS
 from legorize_addon.scene.builds import point_objects
 from legorize_addon.scene.collections import read_bricks
 from legorize_addon.scene.instancing import bricks_modifier, get_input
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.view.heat_map import show_heat_map
 from legorize_addon.view.highlight import highlight_step, highlighted
 from legorize_addon.view.steps import n_steps

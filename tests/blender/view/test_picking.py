@@ -10,7 +10,7 @@ from mathutils import Matrix, Vector
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.scene import middles, read_bricks, state_of, world_from_mm
-from legorize_addon.ui.properties import current_build
+from legorize_addon.ui.current import current_build
 from legorize_addon.view import brick_under, edges_of, show_layers
 from tests.blender.builders import add_table_on_one_leg
 
