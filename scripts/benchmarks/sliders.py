@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from statistics import median
-from typing import Final
+from typing import Final, Literal
 
 import bpy
 import numpy as np
@@ -72,9 +72,7 @@ def measure(*, bricks: int) -> list[Table]:
     single = [milliseconds(lambda top=top: show_layers(scene, build, top, single=True)) for top in tops]
     rows.append(_row("only this layer", single))
     show_layers(scene, build, LAYERS)
-    for axis in AXES:
-        cuts = [Section(axis, 0.1 + 0.8 * move / MOVES) for move in range(MOVES)]
-        rows.append(_row(f"section {axis}", [milliseconds(lambda cut=cut: cut_away(build, cut)) for cut in cuts]))
+    rows += [_section_row(build, axis, f"section {axis}") for axis in AXES]
     cut_away(build, Section())
     ways = [move / MOVES for move in range(1, MOVES + 1)]
     rows.append(_row("explode", [milliseconds(lambda way=way: explode(build, way)) for way in ways]))
@@ -89,6 +87,12 @@ def measure(*, bricks: int) -> list[Table]:
         ways = (False, True) * (MOVES // 2)
         switched = [milliseconds(lambda on=on, role=role: show_role(build, role, visible=on)) for on in ways]
         rows.append(_row(what, switched))
+    # as after a build, which hides them
+    show_role(build, Role.SUPPORT_OUTSIDE, visible=False)
+    bpy.context.view_layer.update()
+    rows += [_section_row(build, axis, f"section {axis} without supports") for axis in AXES]
+    cut_away(build, Section())
+    show_role(build, Role.SUPPORT_OUTSIDE, visible=True)
     where = f"at {bricks} bricks in Blender {bpy.app.version_string}"
     return [
         Table("scene", f"The scene {where}: within {SCENE:.0f} s, a file within {FILE:.0f} MB", (made,)),
@@ -148,6 +152,12 @@ def milliseconds(move: Callable[[], None]) -> tuple[float, float]:
     move()
     bpy.context.view_layer.update()
     return 1e3 * (time.perf_counter() - start), 1e3 * (time.process_time() - begun)
+
+
+def _section_row(build: bpy.types.Collection, axis: Literal["x", "y", "z"], name: str) -> Row:
+    """Move a section along an axis."""
+    cuts = [Section(axis, 0.1 + 0.8 * move / MOVES) for move in range(MOVES)]
+    return _row(name, [milliseconds(lambda cut=cut: cut_away(build, cut)) for cut in cuts])
 
 
 def _row(slider: str, taken: list[tuple[float, float]]) -> Row:

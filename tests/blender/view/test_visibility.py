@@ -365,6 +365,7 @@ def test_sliders_move_fifty_thousand_bricks(tmp_path) -> None:
         "step",
         "a role's switch",
         "supports",
+        *(f"section {axis} without supports" for axis in "xyz"),
     ]
     assert [row["slider"] for row in rows] == sliders
     assert all(row["median_ms"] > 0 and row["median_cpu_ms"] > 0 for row in rows)
