@@ -88,9 +88,9 @@ def _as_bricks(part: Part) -> bool:
 
 
 def slopes_of(catalogue: Catalogue, *, plates: bool) -> tuple[Form, ...]:
-    """Return the forms of the parts of a catalogue that exist in any colour."""
-    made = catalogue.exists.any(axis=1)
-    return tuple(form for form in forms(catalogue.parts, plates=plates) if made[form.part])
+    """Return the forms of the slopes of a catalogue that exist in any colour; wedge plates are not laid yet."""
+    laid = catalogue.exists.any(axis=1) & np.array([part.sloped for part in catalogue.parts])
+    return tuple(form for form in forms(catalogue.parts, plates=plates) if laid[form.part])
 
 
 def _form(parts: tuple[Part, ...], row: int, turn: int) -> Form:

@@ -43,7 +43,7 @@ def test_second_elements_are_older_ones_of_the_same_pair():
     numbers = [*first[first > 0].tolist(), *second[second > 0].tolist()]
     assert len(set(numbers)) == len(numbers)
     # as counted in the public list
-    assert (second > 0).sum() == 1024
+    assert (second > 0).sum() == 1032
 
 
 def test_prices_are_put_in_once():
