@@ -14,7 +14,7 @@ from .half_studs import HalfStudsError
 from .model import Assembly, UnitGrid
 from .painting import NotMadeError, cells_to_lay, paint_bricks, paint_cells, paint_draft, paint_plan
 from .run import Run
-from .slope_stages import lay_with_slopes, without_weak_slopes
+from .slope_stages import lay_with_slopes, tries_of, without_weak_slopes
 from .slopes import Slopes
 from .stages import cut_pieces, plan_pieces
 from .statics import Stability
@@ -146,7 +146,7 @@ def put_up(
         bricks, shell = run.once(tie_parts, bricks, shell)
         run.ties.append(len(bricks) - before)
     with run.stage("strengthening"):
-        strong = run.once(strengthen_joints, bricks, shell)
+        strong = run.once(strengthen_joints, bricks, shell, most=tries_of(slopes))
         bricks, shell, sparing = run.once(without_weak_slopes, whole, slopes, bricks, strong)
         bricks = run.once(show_colours, bricks, shell)
     by_hand = ByHand(edits, {}, bricks)

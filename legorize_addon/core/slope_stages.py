@@ -37,6 +37,9 @@ _TIES: Final = 0.03
 """Share of its parts that may strengthen a model before slopes beside them are in question: a fox of 48 studs took 9 %,
 and had 394 parts without those slopes in place of 431."""
 
+_TRIES: Final = 7
+"""Rounds of ties after which slopes are in question: a van of 48 studs took seven, none of eight models more."""
+
 Laid = tuple[Bricks, UnitGrid, Stability | None]
 """Bricks, the cells that they cover, and how they stand with something to spare, if that is known."""
 
@@ -96,12 +99,17 @@ def lay_with_slopes(run: Run, shell: UnitGrid, given: Slopes | None) -> tuple[Br
     return lay_with_slopes(run, shell, given.settled(lie_among(given.bricks, laid[0]), filled=True))
 
 
+def tries_of(given: Slopes | None) -> int | None:
+    """Return in how many rounds ties are laid at first, None if there are no slopes that might leave instead."""
+    return None if given is None or not len(given.bricks) else _TRIES
+
+
 def without_weak_slopes(run: Run, shell: UnitGrid, given: Slopes | None, before: Bricks, laid: Laid) -> Laid:
     """Lay a model anew whose studs do not bear it with what is to spare: without the slopes at which it comes apart.
 
-    Ties do not hold it there, and pillars would be seen. If it does not stand then either, all is filled behind its
-    slopes instead. Where many ties hold a model, slopes beside them leave if that saves parts. What tips over needs
-    pillars anyway.
+    Ties do not hold it there, and pillars would be seen. All is filled behind the slopes that stay then: all of them
+    if most touch what comes apart. Where many ties hold a model, slopes beside them leave if that saves parts. What
+    tips over needs pillars anyway.
 
     Parameters
     ----------
@@ -133,11 +141,18 @@ def without_weak_slopes(run: Run, shell: UnitGrid, given: Slopes | None, before:
     stay = lie_among(given.bricks, laid[0])
     weak = _torn(laid[2]) | ~lie_among(laid[0], before)
     left = stay & ~lie_among(given.bricks, laid[0].take(slopes_beside(laid[0], weak, run.catalogue)))
-    if _LEFT * np.count_nonzero(stay) <= np.count_nonzero(left) < np.count_nonzero(stay):
-        other = again(left)
-        if _stands(other) and (not stands or len(other[0]) < len(laid[0])):
-            return other
-    return laid if stands else again(stay)
+    if not _LEFT * np.count_nonzero(stay) <= np.count_nonzero(left) < np.count_nonzero(stay):
+        return laid if stands else _nearer(again(stay), laid)
+    other = again(left)
+    if stands:
+        return other if _stands(other) and len(other[0]) < len(laid[0]) else laid
+    return _nearer(other, laid)
+
+
+def _nearer(one: Laid, other: Laid) -> Laid:
+    """Return which of two models needs fewer pillars, as far as one can tell: that it falls is proven of the other."""
+    open_only = other[2] is not None and other[2].standing is Verdict.UNDECIDED
+    return other if open_only and not _stands(one) else one
 
 
 def _stands(laid: Laid) -> bool:

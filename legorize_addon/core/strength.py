@@ -16,8 +16,10 @@ def tie_parts(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGr
     return add_ties(bricks, shell, run.parts.joining, plates=run.settings.plates != "none")
 
 
-def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks, UnitGrid, Stability | None]:
-    """Tie what is weak, if that is wanted; say how it stands with something to spare, too."""
+def strengthen_joints(
+    run: Run, bricks: Bricks, shell: UnitGrid, *, most: int | None = None
+) -> tuple[Bricks, UnitGrid, Stability | None]:
+    """Tie what is weak, if that is wanted, in so many rounds; say how it stands with something to spare, too."""
     if not run.settings.strengthen:
         return bricks, shell, None
     return strengthen(
@@ -26,6 +28,7 @@ def strengthen_joints(run: Run, bricks: Bricks, shell: UnitGrid) -> tuple[Bricks
         run.parts.joining,
         clutch=(1 - run.settings.spare) * run.settings.clutch,
         plates=run.settings.plates != "none",
+        most=most,
         progress=run.progress,
     )
 

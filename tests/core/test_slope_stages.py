@@ -85,13 +85,18 @@ def test_the_learned_layout_lays_no_slopes():
         ([Verdict.STABLE, Verdict.STABLE], False, 1, 20, [(2, False)], 1),
         ([Verdict.STABLE, Verdict.COLLAPSES], False, 1, 20, [(2, False)], 0),
         ([Verdict.COLLAPSES, Verdict.STABLE], False, 1, 0, [(2, True)], 1),
-        ([Verdict.UNDECIDED] * 3, False, 1, 0, [(2, True), (3, True)], 2),
+        ([Verdict.UNDECIDED] * 2, False, 1, 0, [(2, True)], 0),
+        ([Verdict.UNDECIDED, Verdict.STABLE], False, 1, 0, [(2, True)], 1),
+        ([Verdict.COLLAPSES, Verdict.UNDECIDED], False, 1, 0, [(2, True)], 1),
         ([Verdict.COLLAPSES] * 2, False, 2, 0, [(3, True)], 1),
+        ([Verdict.UNDECIDED, Verdict.COLLAPSES], False, 2, 0, [(3, True)], 0),
         ([Verdict.COLLAPSES], True, 1, 0, [], 0),
     ],
 )
 def test_slopes_where_a_model_comes_apart(monkeypatch, ball, standing, tips, torn, ties, laid, last):
-    """Slopes leave that touch what tears; if most do, or in vain, all is filled behind them; none if it tips.
+    """Slopes leave that touch what tears, if not most do, and all is filled behind the others; none leave if it tips.
+
+    Where that is in vain, a model of which it is open whether it falls is as good as any.
 
     Where many ties hold a model, slopes beside them leave if fewer bricks stand as well.
     """
@@ -124,6 +129,14 @@ def test_slopes_where_a_model_comes_apart(monkeypatch, ball, standing, tips, tor
     made = slope_stages.without_weak_slopes(run, ball.hollow, given, ball.bricks.take(more), first)
     assert asked == laid
     assert made[2].number == last
+
+
+def test_how_long_ties_are_tried(ball):
+    """Rounds are fewer where slopes may leave instead."""
+    given = Slopes(ball.bricks.take(np.flatnonzero(sloped(ball))), np.ones(3), np.arange(3), ball.grid.solid)
+    none = Slopes(ball.bricks.take(np.arange(0)), np.ones(0), np.arange(0), ball.grid.solid)
+    assert slope_stages.tries_of(given) == 7
+    assert slope_stages.tries_of(none) is slope_stages.tries_of(None) is None
 
 
 def test_what_relaxing_sets_loose(monkeypatch, ball):

@@ -111,6 +111,7 @@ def _steps(part: Part) -> Line:
     return tuple((float(row + end), z) for row, z in enumerate(level) for end in (0, 1))
 
 
+@cache
 def columns(part: Part, turn: int) -> Columns:
     """Return the stud squares of a part: what it claims there, and where it has studs, sockets and feet.
 

@@ -11,6 +11,7 @@ from ..arrays import Floats, Ints, Mask
 from ..geometry import mirror_axis
 from ..mesh import TriangleMesh
 from ..model import Bricks, Catalogue, Role, UnitGrid
+from ..native import one_thread
 from ..units import PLATES_PER_BRICK
 from .candidates import Candidates, candidates, rows
 from .forms import Form, slopes_of
@@ -54,6 +55,7 @@ class Slopes:
         return Slopes(self.bricks.take(rows), worth, self.pair[rows], self.dear[rows], self.solid, filled)
 
 
+@one_thread()
 def choose_slopes(
     mesh: TriangleMesh,
     grid: UnitGrid,

@@ -169,8 +169,6 @@ class Effort:
     neighbours : bool
         Whether to see if pushes of neighbours help where studs do not bear the
         model; else it collapses or is undecided without them.
-    leaning : bool
-        Whether studs alone may bear the model by forces that are not upright.
     rounds : int
         Linear programmes of few bodies that are tried: fewer if what is not
         proven soon is as good as what does not stand.
@@ -182,7 +180,6 @@ class Effort:
     near: Stability | None = None
     programme: int = PROGRAMME
     neighbours: bool = True
-    leaning: bool = True
     rounds: int = ROUNDS
     worst_first: bool = False
 
@@ -257,8 +254,6 @@ def stability(
 
 def _kind(effort: Effort) -> Kind:
     """Return among which forces to look: where nearly the same model stands by leaning ones alone, it takes those."""
-    if not effort.leaning:
-        return "upright"
     near = effort.near
     return "all" if near is not None and near.stable and not near.upright else "both"
 

@@ -179,7 +179,7 @@ def _with_fewer(
         left[order[:share]] = False
         fewer = [each for each, stays in zip(pillars, left, strict=False) if stays]
         # with the pillars left out, the forces of the proof are nearly in balance
-        without = tested(fewer, near=propped[1], leaning=not propped[1].upright, rounds=1)
+        without = tested(fewer, near=propped[1], rounds=1)
         if without[1].stable:
             propped, pillars, needed = without, fewer, needed[left[:-1]]
             share = min(share, len(fewer) // 2)

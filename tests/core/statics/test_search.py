@@ -205,3 +205,20 @@ def test_a_programme_of_all_bricks_can_prove_that_they_stand(monkeypatch) -> Non
     _, unknown = looked(table(*stair(12)), aims=(Aim(0.01, 0.0, 5),), programme=0, **options)
     assert (unknown.found, unknown.collapse) == (False, False)
     assert limit < HOLD
+
+
+@pytest.mark.parametrize(("turned", "last", "tries"), [(False, 4, 4), (False, 2, 2), (True, 2, 1)])
+def test_projections_begin_anew_where_they_ended(monkeypatch, turned: bool, last: int, tries: int) -> None:
+    """From forces that may lean they do so up to four times until they reach a balance; from upright ones never."""
+    whole = equations(table(*stair(3)))
+    whole = upright(whole).statics if turned else whole
+    starts = []
+
+    def ended(equations, *, start, **_):
+        starts.append(start.copy())
+        return Balance(start + 1, len(starts) == last, np.zeros(len(equations.loads)), False, 5)
+
+    monkeypatch.setattr(module, "balance", ended)
+    found = module._polished(whole, np.zeros(len(whole.contacts.least)), None, silent)
+    assert [start.mean() for start in starts] == list(range(tries))
+    assert (found.turns, found.found) == (5 * tries, tries == last)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from unittest.mock import Mock
 
@@ -15,11 +16,14 @@ from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import Bricks, Role
 from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.progress import silent
+from legorize_addon.core.statics import search
+from legorize_addon.core.statics.collapse import least_clutch
 from legorize_addon.core.statics.forces import HOLD
+from legorize_addon.core.statics.upright import upright
 from legorize_addon.core.supports.bracing import _pillar_of, _tested, _with_fewer, _with_more, add_bracing
 from legorize_addon.core.supports.pillars import add_pillars
 from scripts.benchmarks.stablelego import stair
-from tests.core.standing import CATALOGUE, judged, table
+from tests.core.standing import CATALOGUE, equations, judged, table
 
 
 def propped(bricks):
@@ -152,6 +156,28 @@ def test_pillars_that_bear_little_are_left_out():
     assert found.stable
     assert 1 <= len(after) - len(bricks) <= 2
     assert same(after.take(np.arange(len(bricks))), bricks)
+
+
+def test_pillars_leave_where_forces_hold_that_lean(monkeypatch):
+    """With pillars under two of four arms upright forces do, even if they bear but half; with one, others bear all."""
+
+    def halved(whole):
+        reduced = upright(whole)
+        contacts = reduced.statics.contacts
+        weak = replace(reduced.statics, contacts=replace(contacts, least=contacts.least / 2))
+        return replace(reduced, statics=weak)
+
+    monkeypatch.setattr(search, "upright", halved)
+    bricks = table(("3001", 4, 0, 0, 1), *(("3001", x, y, 3) for x in (1, 5) for y in (0, 2)))
+    clutch = 1.05 * least_clutch(equations(bricks))
+    pillars = [table(("3005", 8, y, 0)) for y in (0, 3)]
+    tested = partial(_tested, Assembly(bricks, CATALOGUE), clutch=clutch, progress=silent)
+    both = tested(pillars)
+    assert both[1].upright
+    (_, found), left = _with_fewer(both, pillars, tested)
+    assert found.stable
+    assert not found.upright
+    assert len(left) == 1
 
 
 def test_contacts_that_stay_are_told_by_their_pillars():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,8 @@ from legorize_addon.core.model.unit_grid import COLOUR_EMPTY
 from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.statics.collapse import least_clutch
 from legorize_addon.core.statics.equilibrium import is_equilibrium
+from legorize_addon.core.statics.stability import stability
+from legorize_addon.core.supports import strengthening as module
 from legorize_addon.core.supports.strengthening import rigid_parts, strengthen, velocity
 from scripts.benchmarks.stablelego import stair
 from tests.core.layout.cells import CATALOGUE, RED, assert_covers, brick_grid
@@ -49,6 +53,37 @@ def test_ties_make_do_with_less_clutch() -> None:
     assert contact_graph(tied, CATALOGUE).collisions == 0
     assert least_clutch(equations(tied)) <= 0.5 * limit
     assert is_equilibrium(equations(tied, clutch=0.5 * limit), found.forces)
+
+
+def test_what_stays_open_is_tied_where_it_opens_most(monkeypatch) -> None:
+    """Without a proof that the crane falls, what opens in the last motion is tied as if it tore."""
+    bricks, grid = crane()
+    limit = least_clutch(equations(bricks))
+    verdicts = iter([Verdict.UNDECIDED, Verdict.STABLE])
+
+    def stays_open(model, **options):
+        found = stability(model, **options)
+        return replace(found, standing=next(verdicts), torn=found.torn[:0])
+
+    monkeypatch.setattr(module, "stability", stays_open)
+    tied, after, _ = strengthen(bricks, grid, CATALOGUE, clutch=0.9 * limit, plates=True)
+    assert least_clutch(equations(tied)) < limit
+    assert_covers(tied, after)
+
+
+def test_rounds_are_as_many_as_allowed(monkeypatch) -> None:
+    """With one round, ties are laid once, and how the bricks stand with them is told."""
+    bricks, grid = crane()
+    asked = []
+
+    def counted(model, **options):
+        asked.append(len(model))
+        return stability(model, **options)
+
+    monkeypatch.setattr(module, "stability", counted)
+    tied, _, found = strengthen(bricks, grid, CATALOGUE, clutch=1e-3, plates=True, most=1)
+    assert asked == [len(bricks), len(tied)]
+    assert len(found.margin) == len(tied) > len(bricks)
 
 
 def test_what_stands_is_given_back_with_its_proof() -> None:

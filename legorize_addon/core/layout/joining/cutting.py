@@ -9,12 +9,12 @@ well.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from ...model import NOBODY, Bricks, Catalogue, columns, footprint
+from ...model import NOBODY, Bricks, Catalogue, Part, columns, footprint
 from ...units import PLATES_PER_BRICK
 from ..problem import Rows
 
@@ -135,12 +135,7 @@ class Bench:
         self._cut: set[int] = set()
         surface = [part.shaped or part.jumper or part.profile == "tile" for part in catalogue.parts]
         self.fixed = {number for number, brick in enumerate(self.laid) if surface[brick.form.part]}
-        self._held = {
-            (number, step): _squares_held(brick, catalogue, step)
-            for number, brick in enumerate(self.laid)
-            if number in self.fixed
-            for step in (-1, 1)
-        }
+        self._parts = catalogue.parts
 
     def at(self, level: int, square: Square) -> int:
         """Return the number of the brick in a cell."""
@@ -149,7 +144,11 @@ class Bench:
     def holding(self, level: int, square: Square, step: int) -> int:
         """Return the number of the brick that holds what lies in a cell from below, -1, or from above, 1."""
         number = self.at(level + step, square)
-        return number if square in self._held.get((number, step), (square,)) else NOBODY
+        if number not in self.fixed:
+            return number
+        brick = self.laid[number]
+        here = square[0] - brick.corner[0], square[1] - brick.corner[1]
+        return number if here in _squares_held(self._parts[brick.form.part], brick.form.turn, step) else NOBODY
 
     def over_and_under(self, seam: Seam) -> list[int]:
         """Return the numbers of the bricks right above and right below a seam."""
@@ -229,11 +228,12 @@ class Bench:
         ).take(order)
 
 
-def _squares_held(brick: Laid, catalogue: Catalogue, step: int) -> set[Square]:
-    """Return the squares in which a brick holds what lies above it, -1, or below it, 1."""
-    facts = columns(catalogue.parts[brick.form.part], brick.form.turn)
+@cache
+def _squares_held(part: Part, turn: int, step: int) -> frozenset[Square]:
+    """Return the squares, from its corner, in which a part holds what lies above it, -1, or below it, 1."""
+    facts = columns(part, turn)
     there = facts.stud if step < 0 else facts.socket
-    return {(brick.corner[0] + x, brick.corner[1] + y) for x, y in facts.xy[there].tolist()}
+    return frozenset((x, y) for x, y in facts.xy[there].tolist())
 
 
 def _whole(beside: list[set[int]]) -> bool:
