@@ -131,10 +131,9 @@ def test_slopes_where_a_model_comes_apart(monkeypatch, ball, standing, tips, tor
     assert made[2].number == last
 
 
-def test_how_long_ties_are_tried(ball):
+def test_how_long_ties_are_tried():
     """Rounds are fewer where slopes may leave instead."""
-    given = Slopes(ball.bricks.take(np.flatnonzero(sloped(ball))), np.ones(3), np.arange(3), ball.grid.solid)
-    none = Slopes(ball.bricks.take(np.arange(0)), np.ones(0), np.arange(0), ball.grid.solid)
+    given, none = (SimpleNamespace(bricks=[0] * count) for count in (3, 0))
     assert slope_stages.tries_of(given) == 7
     assert slope_stages.tries_of(none) is slope_stages.tries_of(None) is None
 
