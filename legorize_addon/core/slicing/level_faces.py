@@ -21,7 +21,11 @@ from .slices import slice_mesh
 from .trajectories import linked
 
 _PARTS: Final = 4
-"""Parts of a stud and of a plate that are compared."""
+"""Parts of a plate that are compared."""
+
+_ACROSS: Final = 2
+"""Parts of a stud that are compared: with 4 the errors of eight models at 24, 32 and 48 studs differ by 2.5 % at most,
+all get the same grid, and it takes twice as long."""
 
 PHASES: Final = (0, -1, 1, 2)
 """Quarters of a plate by which the lowest plane may lie above the lowest point, the usual one first."""
@@ -54,16 +58,16 @@ class LevelFaces:
         n_plates = -(-n_slices // _PARTS)
         heights = low + (np.arange(n_slices) - 0.5) * PLATE / _PARTS
         factor = cell_factors(mesh, np.array([*grid.origin[:2], low]), (n_plates, grid.n_y, grid.n_x))
-        n_y, n_x = _PARTS * grid.n_y, _PARTS * grid.n_x
+        n_y, n_x = _ACROSS * grid.n_y, _ACROSS * grid.n_x
         area, before = np.zeros(n_slices - 1), np.zeros((1, n_y, n_x))
         for some in np.array_split(np.arange(1, n_slices), -(-n_slices * n_y * n_x // _CELLS)):
             outline = linked(mesh.faces, slice_mesh(mesh, heights[some]))
-            fine = replace(outline, start=outline.start * _PARTS)
-            covered = covered_area(fine, len(some), grid.origin[:2] * _PARTS, n_y, n_x)
+            fine = replace(outline, start=outline.start * _ACROSS)
+            covered = covered_area(fine, len(some), grid.origin[:2] * _ACROSS, n_y, n_x)
             changed = np.abs(np.diff(np.concatenate([before, covered]), axis=0))
-            by_cell = changed.reshape(len(some), grid.n_y, _PARTS, grid.n_x, _PARTS).sum(axis=(2, 4))
+            by_cell = changed.reshape(len(some), grid.n_y, _ACROSS, grid.n_x, _ACROSS).sum(axis=(2, 4))
             plate = np.maximum((some - 1) // _PARTS, 0)
-            area[some - 1] = (factor[plate] * by_cell).sum(axis=(1, 2)) / (CELL_AREA * _PARTS**2)
+            area[some - 1] = (factor[plate] * by_cell).sum(axis=(1, 2)) / (CELL_AREA * _ACROSS**2)
             before = covered[-1:]
         return cls(np.arange(n_slices - 1) / _PARTS, area)
 
