@@ -48,7 +48,7 @@ from .kept_steps import read_steps
 from .model import Model, Source
 from .part_meshes import Detail, parts_collection, parts_in_use
 from .placing import Place, hang, middle_of, upright
-from .root import POINTS_KEY, new_root
+from .root import POINTS_KEY, Outline, new_root
 from .section import Section, add_plane
 from .shared_parts import leave_plane, sweep
 from .state import BUILD_KEY as BUILD_KEY
@@ -102,8 +102,8 @@ def show_build(
         clear_build(scene, each)
     build = bpy.data.collections.new(f"Legorize {source.name}")
     place.collection.children.link(build)
-    facts = _table_facts(bricks, catalogue)
-    root = _own(build, new_root(build.name, facts["extent"]))
+    facts, outline = _table_facts(bricks, catalogue)
+    root = _own(build, new_root(build.name, outline))
     place.put(root, upright(np.add(model.origin, facts["middle"]).tolist(), 1 / (model.scale * model.mm_per_unit)))
     plane = _own(build, add_plane(build.name))
     hang(plane, root, facts["middle"])
@@ -261,18 +261,23 @@ def _add_layers(
     return objects
 
 
-def _table_facts(bricks: Bricks, catalogue: Catalogue) -> dict[str, Any]:
-    """Return the fields of a state that follow from the table of bricks."""
+def _table_facts(bricks: Bricks, catalogue: Catalogue) -> tuple[dict[str, Any], Outline]:
+    """Return the fields of a state that follow from the table of bricks, and the outline of what stays of them."""
     corners = box_corners(bricks, catalogue)
     extent = {"low": corners.min(axis=0).tolist(), "high": corners.max(axis=0).tolist()}
-    return {
+    taken = np.repeat(bricks.role == Role.SUPPORT_OUTSIDE, 8)
+    stays = corners if taken.all() else corners[~taken]
+    # other supports do not move the root, and a model that hangs has the same ground
+    outline = {"low": [*stays.min(axis=0).tolist()[:2], extent["low"][2]], "high": stays.max(axis=0).tolist()}
+    facts = {
         "roles": [Role(role) for role in np.unique(bricks.role).tolist()],
         "part_numbers": [part.number for part in catalogue.parts],
         "layers": n_layers(bricks),
         "top_layer": n_layers(bricks),
         "extent": extent,
-        "middle": middle_of(extent),
+        "middle": middle_of(outline),
     }
+    return facts, outline
 
 
 def _more(model: Model) -> Columns:

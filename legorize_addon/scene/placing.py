@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
 import bpy
@@ -11,6 +11,7 @@ from mathutils import Matrix, Vector
 
 from ..core.units import STUD
 from .builds import builds, damage, sources_of
+from .root import Outline
 from .state import BuildState, state_of
 
 ROUNDING: Final = 1e-5
@@ -67,9 +68,9 @@ def layer_collections(entry: bpy.types.LayerCollection) -> Iterator[bpy.types.La
         yield from layer_collections(child)
 
 
-def middle_of(extent: Mapping[str, Sequence[float]]) -> tuple[float, float, float]:
+def middle_of(outline: Outline) -> tuple[float, float, float]:
     """Return where the root of a new build is: below the middle of its bricks, on the ground, in mm."""
-    low, high = extent["low"], extent["high"]
+    low, high = outline["low"], outline["high"]
     return (low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]
 
 
@@ -122,9 +123,9 @@ def stand_beside(scene: bpy.types.Scene, build: bpy.types.Collection, other: bpy
 
 
 def _half(build: bpy.types.Collection) -> float:
-    """Return half the width of a build in mm."""
-    low, high = state_of(build).extent
-    return (high[0] - low[0]) / 2
+    """Return how far a build reaches from its root in mm, supports included."""
+    (low, high), middle = state_of(build).extent, state_of(build).middle
+    return max(high[0] - middle[0], middle[0] - low[0])
 
 
 def _moved(state: BuildState) -> Matrix:

@@ -22,6 +22,9 @@ MODEL_KEY: Final = "legorize_model"
 POINTS_KEY: Final = "legorize_points"
 """Key, on meshes, of the points of a build, and of the frame that is its root: those without users are removed."""
 
+Outline = Mapping[str, Sequence[float]]
+"""Lowest and highest corner of bricks, ``low`` and ``high``, in mm."""
+
 RIM: Final = STUD / 2
 """Between bricks and frame in mm, chosen: on the edges of the lowest bricks it could be neither seen nor hit."""
 
@@ -29,22 +32,22 @@ PLANE: Final = "SINGLE_ARROW"
 """How the empty of a section is drawn, by which it is told from the root of an earlier version."""
 
 
-def new_root(name: str, extent: Mapping[str, Sequence[float]]) -> bpy.types.Object:
+def new_root(name: str, outline: Outline) -> bpy.types.Object:
     """Return a new root, in no collection yet.
 
     Parameters
     ----------
     name : str
         Of the build.
-    extent : mapping of str to sequence of three float
-        Lowest and highest corner of the bricks, ``low`` and ``high``, in mm.
+    outline : Outline
+        Of the bricks that stay.
 
     Returns
     -------
     bpy.types.Object
         Its coordinates are in mm from below the middle of the bricks.
     """
-    wide, deep, high = (np.subtract(extent["high"], extent["low"]) / (2.0, 2.0, 1.0)).tolist()
+    wide, deep, high = (np.subtract(outline["high"], outline["low"]) / (2.0, 2.0, 1.0)).tolist()
     wide, deep = wide + RIM, deep + RIM
     mesh = bpy.data.meshes.new(name)
     corners = [(-wide, -deep, 0.0), (wide, -deep, 0.0), (wide, deep, 0.0), (-wide, deep, 0.0)]

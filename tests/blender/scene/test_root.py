@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from mathutils import Vector
 
+from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.catalogue import load_catalogue
+from legorize_addon.core.units import PLATE
 from legorize_addon.scene.brick_points import box_corners
 from legorize_addon.scene.builds import builds, damage, point_objects
 from legorize_addon.scene.collections import clear_build, read_bricks
@@ -16,7 +18,7 @@ from legorize_addon.scene.root import RIM
 from legorize_addon.scene.state import state_of
 from legorize_addon.ui.current import current_build
 from legorize_addon.ui.requests import chosen_sources
-from tests.blender.bricks import assert_same, random_table, show
+from tests.blender.bricks import assert_same, random_table, show, table
 
 pytestmark = pytest.mark.usefixtures("registered")
 
@@ -37,10 +39,25 @@ def test_view_selected_frames_the_bricks() -> None:
     bpy.context.view_layer.update()
     unit = root.matrix_world.median_scale
     spans = np.array([root.matrix_world @ Vector(corner) for corner in root.bound_box])
-    bricks = box_corners(read_bricks(build), load_catalogue()) * unit
-    wide = np.ptp(bricks, axis=0) + np.array([2, 2, 0]) * RIM * unit
+    bricks = read_bricks(build)
+    stays = box_corners(bricks.take(bricks.role != Role.SUPPORT_OUTSIDE), load_catalogue()) * unit
+    ground = box_corners(bricks, load_catalogue())[:, 2].min() * unit
+    wide = stays.max(axis=0) - [*stays.min(axis=0)[:2], ground] + np.array([2, 2, 0]) * RIM * unit
     np.testing.assert_allclose(np.ptp(spans, axis=0), wide, rtol=1e-5)
     np.testing.assert_allclose(spans[:, 2].min(), root.location.z, atol=1e-5)
+
+
+def test_supports_do_not_move_the_root() -> None:
+    """It stands below the middle of what stays, whatever stands beside that for a while, on the ground of all."""
+    rows = [(0, 4, 4, 3, 0, 4), (0, 8, 6, 3, 0, 4)]
+    alone = show(table(rows), name="alone")
+    supported = show(table([*rows, (0, 20, 4, 0, 0, 4, Role.SUPPORT_OUTSIDE)]), name="supported")
+    (x, y, z), (other_x, other_y, ground) = state_of(alone).middle, state_of(supported).middle
+    assert (x, y) == (other_x, other_y)
+    assert z == 3 * PLATE
+    assert ground == 0
+    spans = [np.ptp(np.array(state_of(build).root.bound_box), axis=0) for build in (alone, supported)]
+    np.testing.assert_allclose(spans[1] - spans[0], (0, 0, 3 * PLATE), atol=1e-4)
 
 
 def test_a_root_has_nothing_to_render(build) -> None:
