@@ -168,10 +168,15 @@ def move_and_rebuild(seen: dict[str, Any]) -> Wait:
         bpy.ops.view3d.view_axis(type="FRONT")
     yield 0.5
     view = area.spaces.active.region_3d
-    view.view_distance *= 20
+    near = view.view_distance
+    view.view_distance = 20 * near
     yield 0.5
     yield from press("NUMPAD_PERIOD")
+    yield from wait_until(lambda: view.view_distance < 10 * near)
+    # a view turns to its place in several steps, and a busy machine draws the last one late
     yield 1.0
+    with bpy.context.temp_override(window=window(), area=area, region=region_of(area, "WINDOW")):
+        bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
     extent = build["legorize"]["extent"]
     high = build["legorize"]["root"].matrix_world.median_scale * (extent["high"][2] - extent["low"][2])
     seen["framed"] = {"height": high, "distance": view.view_distance, "looked_at": list(view.view_location)}
