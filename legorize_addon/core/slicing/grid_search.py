@@ -43,7 +43,10 @@ _RAISED: Final = 0.02
 """Share of the error that other planes have to save: less is not worth feet that are cut or lengthened."""
 
 _RESIZED: Final = 0.04
-"""Share of the error that another size has to save: less is not worth a size that nobody asked for."""
+"""Share of the error that another size has to save: less is not worth a size that nobody asked for.
+
+A larger one has to save as much more as it is larger: a fox of 48 studs took a fifth more parts, for a gap 6 % smaller.
+"""
 
 
 def best_grid(mesh: TriangleMesh, *, symmetric: bool, plates: bool, leeway: float = 0.0) -> tuple[Grid, float]:
@@ -66,12 +69,12 @@ def best_grid(mesh: TriangleMesh, *, symmetric: bool, plates: bool, leeway: floa
         The size, as a multiple of that given; the grid is that of the scaled mesh.
     """
     level = LevelFaces.of(mesh, fit_grid(mesh, symmetric=symmetric, plates=plates)) if plates else None
-    # the given size first: another one has to be clearly better
-    found = [
+    given, *others = (
         _shifted(mesh, factor, level, symmetric=symmetric, plates=plates) for factor in (1.0, *_factors(mesh, leeway))
-    ]
-    best = min(found, key=lambda each: each.error)
-    best = best if best.error < (1 - _RESIZED) * found[0].error else found[0]
+    )
+    # another size has to be clearly better, and a larger one worth the parts that it takes more
+    least = (1 - _RESIZED) * given.error
+    best = min((each for each in others if each.error * max(each.factor, 1) < least), key=_error, default=given)
     return best.grid, best.factor
 
 
@@ -91,6 +94,10 @@ class _Found:
     grid: Grid
     factor: float
     error: float
+
+
+def _error(found: _Found) -> float:
+    return found.error
 
 
 def _shifted(mesh: TriangleMesh, factor: float, level: LevelFaces | None, *, symmetric: bool, plates: bool) -> _Found:

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from legorize_addon.core.mesh import scale_mesh
-from legorize_addon.core.slicing import LEEWAY, best_grid, fit_grid, slice_mesh
+from legorize_addon.core.slicing import LEEWAY, best_grid, fit_grid, grid_search, slice_mesh
 from legorize_addon.core.slicing.coverage import covered_area
 from legorize_addon.core.slicing.grid_search import PARTS
 from legorize_addon.core.slicing.trajectories import linked
@@ -79,6 +79,30 @@ def test_a_ball_keeps_its_size_and_its_planes():
     best, factor = best_grid(mesh, symmetric=True, plates=True, leeway=LEEWAY)
     assert factor == 1
     assert best.origin[2] == pytest.approx(fit_grid(mesh, symmetric=True, plates=True).origin[2])
+
+
+@pytest.mark.parametrize(
+    ("errors", "factor"),
+    [
+        ({1.0: 100}, 1.0),
+        ({0.97: 96.5}, 1.0),
+        ({0.97: 95.5}, 0.97),
+        ({1.03: 94.0}, 1.0),
+        ({1.03: 93.0}, 1.03),
+        ({1.03: 94.0, 0.97: 95.5}, 0.97),
+        ({1.03: 93.0, 0.97: 95.5}, 1.03),
+    ],
+)
+def test_a_larger_size_has_to_save_more(monkeypatch, errors, factor):
+    """Four per cent for a smaller one, and as much more as a larger one is larger."""
+    mesh = box((0, 0, 0), (80, 80, 96))
+
+    def found(_mesh, size, *_level, **_settings):
+        error = {1.0: 100.0, **errors}.get(round(size, 2), 99.0)
+        return grid_search._Found(fit_grid(mesh, symmetric=True), size, error)
+
+    monkeypatch.setattr(grid_search, "_shifted", found)
+    assert best_grid(mesh, symmetric=True, plates=True, leeway=LEEWAY)[1] == pytest.approx(factor)
 
 
 @pytest.mark.parametrize(("low", "raised"), [(15.0, 0), (14.75, -1), (15.25, 1), (15.5, 2), (15.1, 0)])
