@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.model import Catalogue, Part, columns, outline
+from ..core.model.polygons import depths
 from ..core.units import PLATE, STUD
 from .lofts import BEVEL, GAP, ROOF, WALL, Detail, Floats, Loft
 from .rounding import corner_normals
@@ -261,7 +262,10 @@ def _tube_centres(part: Part) -> Floats:
     across = np.arange(1, part.width) if part.width > 1 else np.array([0.5])
     y, x = (each.ravel() for each in np.meshgrid(across, np.arange(1, part.length), indexing="ij"))
     centres = np.stack([x, y], axis=1)
-    if part.shaped:
+    if part.wedge:
+        # only where one has room between the sides
+        return centres[depths(outline(part) * STUD, centres * STUD) >= TUBE_RADIUS + WALL] * STUD
+    if part.sloped:
         # only between squares that stand on the same level, and clutch
         found = columns(part, 0)
         level_of = np.full((part.length, part.width), -1)

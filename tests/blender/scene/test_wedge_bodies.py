@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from legorize_addon.core.model import Part, columns, load_catalogue, outline
-from legorize_addon.core.model.polygons import area
+from legorize_addon.core.model.polygons import area, depths
 from legorize_addon.core.units import PLATE, STUD
 from legorize_addon.scene.lofts import GAP, Loft
 from legorize_addon.scene.part_meshes import SIDES, part_loft
@@ -81,3 +81,11 @@ def test_sides_that_vanish_leave_one_corner() -> None:
     assert found[0].tolist() == [1.0, 1.0]
     square = np.array([(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)])
     assert inset(square, 1.0).tolist() == [[1.0, 1.0], [3.0, 1.0], [3.0, 3.0], [1.0, 3.0]]
+
+
+@every_wedge
+def test_tubes_stand_between_the_sides(part: Part) -> None:
+    """No part of the mesh reaches beyond the outline, as tubes did where two squares clutch, but no four."""
+    loft = part_loft(part, "high")
+    places = loft.vertices[:, :2] + np.array([part.length, part.width]) * STUD / 2
+    assert depths(outline(part) * STUD, places).min() > 0
