@@ -97,7 +97,7 @@ def _erected(run: Run, made: Draft, edits: Edits, *, last: bool = False) -> Erec
         plan, joints = plan_pieces(run, assembly, *pieces, made.halves.half if made.halves is not None else None)
     if made.halves is not None or len(plan.final) > len(assembly):
         with run.stage("stability again"):
-            found = run.once(check_final, plan.final)
+            found = run.once(check_final, plan.final, found)
             if made.halves is not None:
                 plan, found = run.once(lie_apart, plan, made.halves, found)
     if last:

@@ -113,9 +113,13 @@ def weaker(tested: Stability, found: Stability) -> bool:
     return (found.stable and not tested.stable) or (found.stands and not tested.stands)
 
 
-def check_final(run: Run, assembly: Assembly) -> Stability:
-    """Test the model with all that stays in it by force."""
-    return stability(assembly, clutch=run.settings.clutch, progress=run.progress)
+def check_final(run: Run, assembly: Assembly, near: Stability | None = None) -> Stability:
+    """Test the model with all that stays in it by force, from the proof that it stood before, if there is one."""
+    if near is not None and near.stable:
+        # with as much to spare, if that is soon found
+        near = like_before(run, assembly, near, Effort(near=near, programme=0, neighbours=False))
+    effort = Effort(near=near if near is not None and near.stable else None)
+    return stability(assembly, clutch=run.settings.clutch, effort=effort, progress=run.progress)
 
 
 def prove(run: Run, plan: AssemblyPlan) -> Proof:

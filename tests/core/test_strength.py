@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from legorize_addon.core.model.assembly import Assembly
@@ -9,7 +11,16 @@ from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.verdict import Verdict
 from legorize_addon.core.stages import make_plan
 from legorize_addon.core.statics.stability import stability
-from legorize_addon.core.strength import brace, carry, check_stability, check_strong, strengthen_joints, take_fewer_lots
+from legorize_addon.core.strength import (
+    brace,
+    carry,
+    check_final,
+    check_stability,
+    check_strong,
+    strengthen_joints,
+    take_fewer_lots,
+)
+from scripts.benchmarks.stablelego import stair
 from tests.core.any_bricks import table as bricks_of
 from tests.core.owned.test_other_parts import apart, brick
 from tests.core.standing import CATALOGUE, table
@@ -54,6 +65,19 @@ def test_floating_bricks_get_pillars_if_there_may_be_supports(supports: str, pil
     found = check_stability(run, assembly, None)
     assert (assembly.bricks.role == Role.SUPPORT_KEPT).sum() == pillars
     assert bool(len(found.unsupported)) != bool(pillars)
+
+
+def test_supports_that_stay_change_the_proof_where_they_stand():
+    """With more bricks, the forces of a stair stay those of its proof; what is no proof is not begun from."""
+    run, stairs = run_of(), Assembly(table(*stair(2)), CATALOGUE)
+    found = check_stability(run, stairs, None)
+    assert found.iterations
+    more = stairs.with_more([table(("3003", 20, 0, 0), ("3003", 20, 0, 3))])
+    again = check_final(run, more, found)
+    assert again.stable
+    assert again.iterations == 0
+    assert again.margin[: len(stairs)] == pytest.approx(found.margin)
+    assert check_final(run, more, replace(found, standing=Verdict.UNDECIDED)).iterations
 
 
 def test_what_pillars_will_carry_is_not_tested_before():
