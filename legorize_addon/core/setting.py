@@ -25,7 +25,7 @@ class Rare(TypedDict, total=False):
         Another setting, and its words with which this one has an effect; a
         setting alone must be on, above 0 or not empty.
     also : str
-        A switch that gives it an effect as well.
+        A switch, or a choice other than "none", that gives it an effect as well.
     was : str
         Name that it had in an earlier version: still read from scenes and the
         command line, with a remark.

@@ -118,9 +118,14 @@ class Settings:
     weight: str = setting(
         "", "Weight", "Vertex group, or attribute of points, that says where likeness counts more, as on eyes and "
         "letters: from 0, as elsewhere, to 1; empty for none.", group="Shape")
+    features: Literal["none", "colours", "shapes", "all"] = setting(
+        "none", "Features", "What counts more by itself, as if it were painted with a weight.", group="Shape", words={
+            "none": "nothing", "colours": "small patterns such as eyes, letters and logos",
+            "shapes": "edges and thin parts such as horns, ears and beaks",
+            "all": "such patterns, edges and thin parts"})
     emphasis: float = setting(
         3.0, "Emphasis", "How much more than elsewhere likeness counts where the weight is 1: with 3, four times as "
-        "much.", group="Shape", limits=(0.0, 100.0), needs=("weight",))
+        "much.", group="Shape", limits=(0.0, 100.0), needs=("weight",), also="features")
     symmetric: bool = setting(
         True, "Symmetric", "Centre the grid on the model, so that a symmetric object becomes a symmetric model.",
         group="Shape")
@@ -312,4 +317,5 @@ def has_effect(entry: Field[Any], values: Any) -> bool:
         return True
     name, *words = entry.metadata["needs"]
     value, also = getattr(values, name), entry.metadata["also"]
-    return (value in words if words else bool(value)) or bool(also and getattr(values, also))
+    switched = bool(also) and getattr(values, also) not in (False, "none")
+    return (value in words if words else bool(value)) or switched

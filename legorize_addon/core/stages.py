@@ -44,7 +44,7 @@ from .supports import (
     plan_assembly,
     segment,
 )
-from .texturing import reduce_images, remarks_on_unseen, seen_part
+from .texturing import reduce_images, remarks_on_unseen, seen_part, with_features
 from .unit_bricks import (
     Detail,
     Facing,
@@ -80,6 +80,7 @@ def prepare_mesh(run: Run, mesh: TriangleMesh) -> tuple[TriangleMesh, Repairs, F
     mesh = emphasised(scale_mesh(mesh, factor), settings.emphasis if settings.weight else 0.0)
     # where nothing can be seen, all of it was used
     mesh = reduce_images(mesh, least=least * (share < 1), mean=settings.fine_texture == "mean")
+    mesh = with_features(mesh, settings.features, settings.emphasis)
     told = remarks_on_unseen(share, least=least)
     if settings.weight and settings.emphasis and mesh.weight is None:
         told += (f"The weight {settings.weight!r} is 0 everywhere: no part of the surface counts more than others.",)

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from legorize_addon.core.colours.counted import count_texels
 from legorize_addon.core.colours.dominant import SurfaceColours, chosen_palette, surface_colours
 from legorize_addon.core.errors import MeshError
-from legorize_addon.core.mesh.size import model_scale
-from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh, repair, scale_mesh
+from legorize_addon.core.mesh.size import model_scale, scale_mesh
+from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh, repair
 from legorize_addon.core.model.catalogue import load_catalogue
 from legorize_addon.core.settings import Settings
 from legorize_addon.core.units import MM_PER_METRE

@@ -124,6 +124,9 @@ def test_a_setting_waits_for_the_one_that_it_needs():
     assert not has_effect(ENTRIES["slope_price"], Settings())
     assert has_effect(ENTRIES["slope_price"], Settings(surface="slopes"))
     assert has_effect(ENTRIES["slope_price"], Settings(half_studs=True))
+    assert not has_effect(ENTRIES["emphasis"], Settings())
+    assert has_effect(ENTRIES["emphasis"], Settings(weight="face"))
+    assert has_effect(ENTRIES["emphasis"], Settings(features="colours"))
 
 
 NEEDY = [name for name, entry in ENTRIES.items() if entry.metadata["needs"]]
@@ -145,7 +148,7 @@ def test_what_a_setting_needs_is_another_one(name):
     assert other != name
     assert set(words) <= set(choices(ENTRIES[other]))
     also = ENTRIES[name].metadata["also"]
-    assert not also or setting_type(ENTRIES[also]) is bool
+    assert not also or setting_type(ENTRIES[also]) is bool or "none" in choices(ENTRIES[also])
 
 
 SHAPED = ["plate_gain", "fewer_parts", "layer_difference", "shell", "ceilings", "learned"]

@@ -50,6 +50,14 @@ def test_eyes_smaller_than_their_cells_stay_white_unless_they_count():
     assert black_cells(mesh, QUICK) == 2
 
 
+def test_eyes_are_found_without_paint():
+    """Eyes of 1.2 x 1.2 studs are features, and not made smaller; where edges and thin parts count, as before."""
+    mesh, plain = replace(face(1.2), weight=None), replace(QUICK, weight="")
+    assert black_cells(mesh, plain) == 2
+    assert black_cells(mesh, replace(plain, features="shapes")) == 2
+    assert black_cells(mesh, replace(plain, features="colours")) == 4
+
+
 def test_a_weight_of_nothing_is_told():
     """Where all weights are 0, a remark says so, and the model is the one without; no remark without a name."""
     mesh = face(0.6)
@@ -67,6 +75,7 @@ def test_an_update_of_the_weight_is_a_build():
         (replace(mesh, weight=0.5 * mesh.weight), QUICK),
         (mesh, QUICK),
         (mesh, replace(QUICK, emphasis=6.0)),
+        (mesh, replace(QUICK, features="all")),
     ):
         trial = memo.trial()
         found, fresh = legorize(own, settings, trial=trial), legorize(own, settings)

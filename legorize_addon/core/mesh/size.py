@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -65,6 +66,12 @@ def scale_of_extent(extent: Floats, *, size_by: str, width: int, height: int, sc
     if along <= 1e-9 * extent.max():
         raise SettingsError(f"The mesh has a {word} of {along:g} mm: set the size by something else than {word}.")
     return float(wanted / along)
+
+
+def scale_mesh(mesh: TriangleMesh, factor: float) -> TriangleMesh:
+    """Return the mesh scaled about the origin by a positive factor."""
+    features = mesh.features and mesh.features.scaled(factor)
+    return replace(mesh, vertices=mesh.vertices * factor, features=features)
 
 
 def check_any(grid: UnitGrid, mesh: TriangleMesh, *, keep_thin: bool) -> None:

@@ -19,6 +19,7 @@ from .orientation import consistent_winding, inside_out
 from .repair import WELD, redundant, small_holes, useless_slivers, weld
 from .topology import Edges, areas_and_longest_sides, edges_of, n_bodies, open_rim
 from .vertex_weights import repaired_weight
+from .weight_field import WeightField
 
 FEWEST_TRIANGLES: Final = 2
 """Triangles of the simplest body, a tetrahedron."""
@@ -58,6 +59,8 @@ class TriangleMesh:
         How many times more than other surface the one at each vertex counts
         wherever likeness is weighed against something else: 0 for as much. As
         read 0 to 1; None where a user has weighted nothing.
+    features : WeightField or None
+        How many times more surface counts as it is a feature, besides that.
     """
 
     vertices: Floats
@@ -68,6 +71,7 @@ class TriangleMesh:
     image_clamp: NDArray[np.bool_]
     opacities: tuple[NDArray[np.uint8] | None, ...] = ()
     weight: Floats | None = None
+    features: WeightField | None = None
 
     @property
     def normals(self) -> Floats:
@@ -220,11 +224,6 @@ def checked_vertices(mesh: TriangleMesh) -> Floats:
     vertices, _ = _referenced(mesh)
     _frame(vertices)
     return vertices
-
-
-def scale_mesh(mesh: TriangleMesh, factor: float) -> TriangleMesh:
-    """Return the mesh scaled about the origin by a positive factor."""
-    return replace(mesh, vertices=mesh.vertices * factor)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -42,11 +42,19 @@ def weight_at(mesh: TriangleMesh, face: Ints, points: Floats) -> Floats | None:
     Returns
     -------
     (n,) float64 array or None
-        Between those of the corners; None where the mesh has no weights.
+        Between those of the corners, with those of features; None where the mesh has no weights.
     """
-    if mesh.weight is None:
+    if mesh.weight is None and mesh.features is None:
         return None
-    corners, own = mesh.vertices[mesh.faces[face]], mesh.weight[mesh.faces[face]]
+    found = np.zeros(len(points)) if mesh.weight is None else _painted(mesh, mesh.weight, face, points)
+    if mesh.features is not None:
+        found += mesh.features.at(points)
+    return found
+
+
+def _painted(mesh: TriangleMesh, weight: Floats, face: Ints, points: Floats) -> Floats:
+    """Return what the weights of the corners of faces come to at points on these."""
+    corners, own = mesh.vertices[mesh.faces[face]], weight[mesh.faces[face]]
     normal = mesh.normals[face]
     share = np.empty((len(points), 3))
     for i in range(3):
@@ -78,10 +86,12 @@ def cell_factors(mesh: TriangleMesh, corner: Floats, shape: tuple[int, int, int]
         1 plus the mean weight of the surface in a cell, or of that in the cells around it where it has none; 1
         elsewhere.
     """
-    if mesh.weight is None:
+    if mesh.weight is None and mesh.features is None:
         return np.broadcast_to(1.0, shape)
     area, weighted = np.zeros((2, *shape))
-    for points, weight, amount in _samples(mesh, corner):
+    for face, points, _, amount in surface_hits(mesh, corner):
+        weight = weight_at(mesh, face, points)
+        assert weight is not None
         cell = np.floor((points - corner) / [STUD, STUD, PLATE]).astype(np.int64)[:, ::-1]
         inside = ((cell >= 0) & (cell < shape)).all(axis=1)
         flat = np.ravel_multi_index(tuple(cell[inside].T), shape)
@@ -94,19 +104,35 @@ def cell_factors(mesh: TriangleMesh, corner: Floats, shape: tuple[int, int, int]
     return factors
 
 
-def _samples(mesh: TriangleMesh, corner: Floats) -> Iterator[tuple[Floats, Floats, Floats]]:
-    """Yield where rays along each axis meet the surface, its weight there, and the area that each hit stands for."""
+def surface_hits(mesh: TriangleMesh, corner: Floats) -> Iterator[tuple[Ints, Floats, Floats, Floats]]:
+    """Yield where rays along each axis, three a stud, meet the surface.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        In mm.
+    corner : (3,) float64 array
+        Of the lattice of rays in mm.
+
+    Yields
+    ------
+    face : (n,) int64 array
+    points : (n, 3) float64 array
+        In mm.
+    uvs : (n, 2) float64 array
+        Image coordinates.
+    amount : (n,) float64 array
+        Area in mm² that each hit stands for; those of all axes add up to the whole.
+    """
     for axis in range(3):
         shift = 2 - axis
         turned = replace(mesh, vertices=np.roll(mesh.vertices, shift, axis=1))
-        face, points, _ = vertical_hits(turned, corner=np.roll(corner, shift)[:2], pitch=_PITCH)
-        weight = weight_at(turned, face, points)
-        assert weight is not None
+        face, points, uvs = vertical_hits(turned, corner=np.roll(corner, shift)[:2], pitch=_PITCH)
         normal = turned.normals[face]
         length = np.linalg.norm(normal, axis=1)
         # of a face with shares s of its normal along the axes, rays see the share s; times s again they add up to it
         amount = _PITCH**2 * np.abs(normal[:, 2]) / np.maximum(length, np.finfo(float).tiny)
-        yield np.roll(points, -shift, axis=1), weight, amount
+        yield face, np.roll(points, -shift, axis=1), uvs, amount
 
 
 def _boxes(amount: Floats) -> Floats:

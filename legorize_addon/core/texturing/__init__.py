@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .box_means import box_means
 from .cutouts import remarks_on_unseen, seen_part
+from .features import with_features
 from .reduced_images import reduce_images
 
 __all__ = [
@@ -11,4 +12,5 @@ __all__ = [
     "reduce_images",
     "remarks_on_unseen",
     "seen_part",
+    "with_features",
 ]

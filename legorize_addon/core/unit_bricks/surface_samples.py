@@ -124,7 +124,7 @@ def _weights(
     mesh: TriangleMesh, face: NDArray[np.int32], middle: Floats, slice_: Ints, levels: Levels, grid: Grid
 ) -> Floats | None:
     """Return the weights where slices cut faces, as the colours are taken there; None where the mesh has none."""
-    if mesh.weight is None:
+    if mesh.weight is None and mesh.features is None:
         return None
     # a slice that stands for three plates is in the middle of them
     height = np.bincount(levels.slice, levels.place) / np.maximum(np.bincount(levels.slice), 1)

@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from legorize_addon.core.errors import MeshError
-from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh, repair, scale_mesh
+from legorize_addon.core.mesh.size import scale_mesh
+from legorize_addon.core.mesh.triangle_mesh import Repairs, TriangleMesh, repair
 from tests.core.solids import (
     BOX_FACES,
     area,

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, scale_mesh
+from legorize_addon.core.mesh.size import scale_mesh
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.slicing.coverage import covered_area
 from legorize_addon.core.slicing.lattice import ALPHA, Grid, fit_grid
 from legorize_addon.core.slicing.slices import slice_mesh

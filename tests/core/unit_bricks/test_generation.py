@@ -10,7 +10,8 @@ from hypothesis.extra.numpy import arrays
 from scipy import ndimage
 
 from legorize_addon.core.geometry.neighbourhoods import outer_air, visible
-from legorize_addon.core.mesh.triangle_mesh import TriangleMesh, scale_mesh
+from legorize_addon.core.mesh.size import scale_mesh
+from legorize_addon.core.mesh.triangle_mesh import TriangleMesh
 from legorize_addon.core.model.bricks import Role
 from legorize_addon.core.model.unit_grid import COLOUR_ANY, COLOUR_EMPTY, Fill
 from legorize_addon.core.slicing.lattice import Grid
