@@ -31,7 +31,7 @@ LEEWAY: Final = 1 / 32
 """Share by which a size may differ: a stud of 32."""
 
 _STEP: Final = 0.01
-"""Between two sizes that are tried, beside those that are a whole number of studs long."""
+"""Between two sizes that are tried where none is a whole number of studs long: such a one ends flush at both ends."""
 
 _CELLS: Final = 4_000_000
 """Fine cells at a time: 32 MB."""
@@ -82,9 +82,9 @@ def _factors(mesh: TriangleMesh, leeway: float) -> list[float]:
     """Return the other sizes within a leeway that are tried: the nearest to the given one first."""
     long = float(np.ptp(mesh.vertices[:, :2], axis=0).max()) / STUD
     whole = [(round(long) + more) / long for more in (-1, 0, 1)] if long > 0 else []
+    whole = [each for each in whole if 1e-6 < abs(each - 1) <= leeway + 1e-9]
     steps = np.arange(1, int(leeway / _STEP) + 1) * _STEP
-    tried = [*whole, *(1 - steps).tolist(), *(1 + steps).tolist()]
-    return sorted({each for each in tried if 1e-6 < abs(each - 1) <= leeway + 1e-9}, key=lambda each: abs(each - 1))
+    return sorted(whole or [*(1 - steps).tolist(), *(1 + steps).tolist()], key=lambda each: abs(each - 1))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

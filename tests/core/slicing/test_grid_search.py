@@ -81,6 +81,13 @@ def test_a_ball_keeps_its_size_and_its_planes():
     assert best.origin[2] == pytest.approx(fit_grid(mesh, symmetric=True, plates=True).origin[2])
 
 
+@pytest.mark.parametrize(("long", "tried"), [(48, [47 / 48, 49 / 48]), (10.2, [10 / 10.2]), (24, 6)])
+def test_sizes_of_whole_studs_come_first(long, tried):
+    """Steps of one per cent are tried only where no whole number of studs is near."""
+    found = grid_search._factors(box((0, 0, 0), (8 * long, 40, 40)), LEEWAY)
+    assert sorted(found) == pytest.approx(tried) if isinstance(tried, list) else len(found) == tried
+
+
 @pytest.mark.parametrize(
     ("errors", "factor"),
     [
