@@ -27,8 +27,11 @@ _ACROSS: Final = 2
 """Parts of a stud that are compared: with 4 the errors of eight models at 24, 32 and 48 studs differ by 2.5 % at most,
 all get the same grid, and it takes twice as long."""
 
-PHASES: Final = (0, -1, 1, 2)
-"""Quarters of a plate by which the lowest plane may lie above the lowest point, the usual one first."""
+PHASES: Final = (0, -1, 1)
+"""Quarters of a plate by which the lowest plane may lie above the lowest point, the usual one first.
+
+With half a plate as well, a van of 48 studs was 3 % farther from its shape: its bottom lay between two plates.
+"""
 
 _CELLS: Final = 4_000_000
 """Fine cells at a time: 32 MB."""

@@ -112,7 +112,7 @@ def test_a_larger_size_has_to_save_more(monkeypatch, errors, factor):
     assert best_grid(mesh, symmetric=True, plates=True, leeway=LEEWAY)[1] == pytest.approx(factor)
 
 
-@pytest.mark.parametrize(("low", "raised"), [(15.0, 0), (14.75, -1), (15.25, 1), (15.5, 2), (15.1, 0)])
+@pytest.mark.parametrize(("low", "raised"), [(15.0, 0), (14.75, -1), (15.25, 1), (15.4, 1), (15.1, 0)])
 def test_planes_lie_where_level_surface_is(low, raised):
     """The top of a table lies between two planes, whatever the height of its legs."""
     legs = [box((x, y, 0), (x + 8, y + 8, low * PLATE)) for x in (0.0, 88.0) for y in (0.0, 88.0)]
