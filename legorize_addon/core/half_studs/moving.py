@@ -43,7 +43,13 @@ def draw_together(mesh: TriangleMesh, ground: float, islands: Islands, half: Int
             mesh = cut_at(mesh, height)
     vertices = mesh.vertices.copy()
     vertices[:, :2] -= STUD / 2 * _moved(vertices, ground, islands, half, across)
-    return replace(mesh, vertices=vertices)
+    features = mesh.features
+    if features is not None:
+        # what lies at a point now was half a stud or none further on
+        points = features.points
+        points[:, :2] += STUD / 2 * _moved(points, ground, islands, half, across)
+        features = replace(features, values=features.at(points).reshape(features.values.shape).astype(np.float32))
+    return replace(mesh, vertices=vertices, features=features)
 
 
 def _moved(vertices: Floats, ground: float, islands: Islands, half: Ints, across: Ints) -> Floats:

@@ -29,6 +29,12 @@ class WeightField:
     pitch: float
     values: NDArray[np.float32]
 
+    @property
+    def points(self) -> Floats:
+        """The points of the lattice in mm, (n, 3), as their values lie in memory."""
+        place = np.indices(self.values.shape).reshape(3, -1).T[:, ::-1]
+        return self.origin + self.pitch * place
+
     def at(self, points: Floats) -> Floats:
         """Return the weights at points in mm, (n, 3): between those of the lattice, 0 outside of it, (n,)."""
         place = ((points - self.origin) / self.pitch).T[::-1]

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from legorize_addon.core.half_studs.islands import PHASES, find_islands
 from legorize_addon.core.half_studs.moving import cut_at, draw_together
 from legorize_addon.core.half_studs.regions import choose_regions
+from legorize_addon.core.mesh import WeightField
 from legorize_addon.core.slicing.lattice import fit_grid
 from tests.core.half_studs.tower import BLOCK, table, tower
 from tests.core.mesh.test_vertex_weights import by_x
@@ -70,6 +73,18 @@ def test_a_cut_keeps_the_weights():
     cut = cut_at(mesh, 0.123)
     assert len(cut.vertices) > len(mesh.vertices)
     np.testing.assert_allclose(cut.weight, rise(cut.vertices), atol=1e-12)
+
+
+def test_features_move_with_their_surface():
+    """The surface of a tower that comes back counts as much as it did before, and so does that of the block."""
+    mesh = tower()
+    shape = (14, 4, 10)
+    places = np.arange(10) * 8.0 - 12
+    field = WeightField(np.array([-12.0, -4, -4]), 8.0, np.broadcast_to(places, shape).astype(np.float32))
+    found = drawn(replace(mesh, features=field), lambda layer: (int(layer >= BLOCK), 0))
+    assert found.features is not None
+    high = 9.6 * BLOCK
+    np.testing.assert_allclose(found.features.at(np.array([[20.0, 8, high + 12], [20, 8, high - 12]])), [24, 20])
 
 
 def test_a_leg_comes_back_alone():

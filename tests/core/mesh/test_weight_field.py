@@ -23,3 +23,8 @@ def test_a_scaled_field_goes_with_its_mesh():
     """The same weights lie at places that are scaled about the origin."""
     points = np.random.default_rng(0).uniform([8, -4, 2], [24, 8, 10], (50, 3))
     np.testing.assert_allclose(ramp().scaled(1.5).at(1.5 * points), ramp().at(points))
+
+
+def test_points_of_the_lattice_have_their_own_weights():
+    """The points are listed as the weights are."""
+    np.testing.assert_allclose(ramp().at(ramp().points), ramp().values.reshape(-1))
