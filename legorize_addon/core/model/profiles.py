@@ -64,7 +64,7 @@ class Columns:
     socket : (k,) bool array
         Whether the column clutches a stud below, at `low`.
     foot : (k,) bool array
-        Whether the column has a flat underside, at `low`, to stand on.
+        Whether the column has a flat underside all over, at `low`, to stand on.
     """
 
     xy: NDArray[np.int32]
@@ -145,11 +145,12 @@ def columns(part: Part, turn: int) -> Columns:
 
 
 def _flat_columns(part: Part, turn: int, xy: NDArray[np.int32]) -> Columns:
-    """Return the stud squares of a wedge plate: it stands on those that clutch."""
+    """Return the stud squares of a wedge plate: it stands on those that it covers all over."""
     deep = depths(outline(part), _unturned(part, turn, _middles(xy)))
     low = np.zeros(len(xy), np.int32)
-    socket = deep >= SOCKET_ROOM
-    return Columns(xy, low, low + np.int32(part.height), deep >= STUD_ROOM, socket, socket)
+    x, y = xy.T
+    foot = np.rot90(shares(outline(part), part.length, part.width), turn)[x, y] == 1
+    return Columns(xy, low, low + np.int32(part.height), deep >= STUD_ROOM, deep >= SOCKET_ROOM, foot)
 
 
 def _extremes(line: Line, start: Floats) -> tuple[Floats, Floats]:

@@ -18,6 +18,7 @@ without needs no neighbour to stand close.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 from typing import Final
@@ -32,12 +33,13 @@ from ..model import (
     Assembly,
     Bricks,
     Catalogue,
-    ContactGraph,
     Rows,
     centres,
     clutches,
     column_facts,
+    outline,
     stud_columns,
+    turned,
 )
 from ..units import PLATE, STUD
 
@@ -144,8 +146,6 @@ def statics(
     ----------
     assembly : Assembly
         The model. Its lowest plate is the ground.
-    graph : ContactGraph
-        Cells and components of the bricks.
     clutch : float
         Pull in N that one contact point bears.
     ground : Ground
@@ -163,13 +163,10 @@ def statics(
     squares = stud_columns(assembly.bricks, assembly.catalogue)
     middle, rows = _centres(assembly.bricks, assembly.catalogue), np.flatnonzero(assembly.graph.grounded)
     narrow = np.array([part.width < 2 for part in assembly.catalogue.parts])[assembly.bricks.part]
-    foot = column_facts(assembly.bricks, assembly.catalogue).foot
-    standing = foot & (squares[1][:, 2] == squares[1][foot, 2].min(initial=np.iinfo(np.int32).max))
-    feet = squares[0][standing], _moved(squares[1], assembly.bricks, squares[0])[standing]
     contacts = _joined(
         _studs(assembly, *squares, narrow, clutch),
-        *(_sides(assembly.graph, assembly.bricks.shift) if neighbours else ()),
-        (_table(*feet) if ground is Ground.TABLE else _baseplate(*feet, narrow, clutch)),
+        *(_sides(assembly) if neighbours else ()),
+        (_table(assembly, *squares) if ground is Ground.TABLE else _baseplate(assembly, *squares, narrow, clutch)),
     )
     contacts = _among(contacts, rows, len(assembly.bricks))
     weight = np.zeros((len(assembly.bricks), EQUATIONS))
@@ -219,12 +216,12 @@ def _grips(brick: Rows, lower: Rows, columns: Rows | Floats, narrow: Mask, clutc
     return _joined(*made)
 
 
-def _sides(graph: ContactGraph, shift: Floats) -> tuple[ContactForces, ...]:
+def _sides(assembly: Assembly) -> tuple[ContactForces, ...]:
     """Return two pushes for each pair of bricks side by side: where they touch, at the bottom as in StableLego.
 
     One is at each end of the face, so that together they push anywhere along it.
     """
-    owner = graph.owner
+    graph, shift, owner = assembly.graph, assembly.bricks.shift, _filled(assembly)
     made = []
     for axis, direction in ((2, (1, 0, 0)), (1, (0, 1, 0))):
         stride = owner.strides[axis] // owner.itemsize
@@ -248,22 +245,66 @@ def _sides(graph: ContactGraph, shift: Floats) -> tuple[ContactForces, ...]:
     return tuple(made)
 
 
-def _table(brick: Rows, columns: Rows | Floats) -> ContactForces:
+def _filled(assembly: Assembly) -> Rows:
+    """Return the brick in each cell without the squares into which wedge plates only reach: beside these is a gap."""
+    owner = assembly.graph.owner
+    wedge = _wedges(assembly)
+    if not wedge.any():
+        return owner
+    brick, columns = stud_columns(assembly.bricks, assembly.catalogue)
+    some = wedge[brick] & ~column_facts(assembly.bricks, assembly.catalogue).foot
+    x, y, z = (columns[some] - assembly.graph.low).T
+    owner = owner.copy()
+    owner[z, y, x] = NOBODY
+    return owner
+
+
+def _wedges(assembly: Assembly) -> Mask:
+    """Return which bricks are wedge plates, (n,)."""
+    return np.array([part.wedge for part in assembly.catalogue.parts])[assembly.bricks.part]
+
+
+def _lowest(assembly: Assembly, columns: Rows, bears: Mask) -> Mask:
+    """Return which stud squares that bear something are on the ground."""
+    feet = columns[column_facts(assembly.bricks, assembly.catalogue).foot, 2]
+    lowest: Mask = bears & (columns[:, 2] == feet.min(initial=np.iinfo(np.int32).max))
+    return lowest
+
+
+def _table(assembly: Assembly, brick: Rows, columns: Rows) -> ContactForces:
     """Return the pushes at the corners of the lowest bricks, each leaning four ways as far as friction goes."""
+    standing = _lowest(assembly, columns, column_facts(assembly.bricks, assembly.catalogue).foot)
+    wedge = _wedges(assembly)
+    boxes = standing & ~wedge[brick]
     around = np.array([(0, 0), (0, 1), (1, 0), (1, 1)])
-    corners = np.column_stack([np.repeat(brick, 4), (columns[:, None, :2] + around).reshape(-1, 2)])
+    places = _moved(columns, assembly.bricks, brick)[boxes, None, :2] + around
+    corners = np.column_stack([np.repeat(brick[boxes], 4), places.reshape(-1, 2)])
     corners, cells = np.unique(corners, axis=0, return_counts=True)
     # the outline turns outwards where a corner belongs to one cell alone; no force needs another corner
-    corners = corners[cells == 1]
-    points = np.column_stack([corners[:, 1:], np.full(len(corners), columns[:, 2].min(initial=0) * PLATE / STUD)])
+    corners = np.concatenate([corners[cells == 1], *_outlines(assembly, np.unique(brick[standing & wedge[brick]]))])
+    points = np.column_stack(
+        [corners[:, 1:], np.full(len(corners), columns[standing, 2].min(initial=0) * PLATE / STUD)]
+    )
     ways = ((TABLE_FRICTION, 0, 1), (-TABLE_FRICTION, 0, 1), (0, TABLE_FRICTION, 1), (0, -TABLE_FRICTION, 1))
     directions = np.tile(np.array(ways, dtype=np.float64), (len(corners), 1, 1))
     return _forces(corners[:, 0], np.full(len(corners), NOBODY), points, directions, 0.0)
 
 
-def _baseplate(brick: Rows, columns: Rows | Floats, narrow: Mask, clutch: float) -> ContactForces:
+def _outlines(assembly: Assembly, wedges: Rows) -> Iterator[Floats]:
+    """Yield the rows of some wedge plates with the corners of their outlines in studs, (k, 3)."""
+    bricks, parts = assembly.bricks, assembly.catalogue.parts
+    for row in wedges.tolist():
+        part = parts[bricks.part[row]]
+        corners = turned(part, int(bricks.turn[row]), outline(part)) + (bricks.corner[row] + bricks.shift[row])[:2]
+        yield np.insert(corners, 0, row, axis=1)
+
+
+def _baseplate(assembly: Assembly, brick: Rows, columns: Rows, narrow: Mask, clutch: float) -> ContactForces:
     """Return the forces between the lowest bricks and the studs of a plate that never moves."""
-    return _grips(brick, np.full(len(brick), NOBODY), columns, narrow, clutch)
+    facts = column_facts(assembly.bricks, assembly.catalogue)
+    held = _lowest(assembly, columns, facts.foot | facts.socket)
+    places = _moved(columns, assembly.bricks, brick)[held]
+    return _grips(brick[held], np.full(np.count_nonzero(held), NOBODY), places, narrow, clutch)
 
 
 def _forces(

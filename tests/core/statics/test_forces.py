@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from legorize_addon.core.model import columns, outline, turned
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.contacts import contact_graph
 from legorize_addon.core.statics.forces import GRAVITY, HOLD, TABLE_FRICTION, Ground
@@ -157,3 +158,44 @@ def test_corners_that_reach_into_each_other_push_wherever_they_stand():
         there = equations(table(*((number, x + shift[0], y + shift[1], z, *turn) for number, x, y, z, *turn in rows)))
         np.testing.assert_allclose(there.contacts.point, here.point + np.array([*shift, 0]))
         np.testing.assert_array_equal(there.contacts.direction, here.direction)
+
+
+WEDGES = [part for part in CATALOGUE.parts if part.wedge]
+
+
+@pytest.mark.parametrize("turn", range(4))
+@pytest.mark.parametrize("part", WEDGES, ids=lambda part: part.number)
+def test_the_table_bears_wedge_plates_at_the_corners_of_their_outline(part, turn) -> None:
+    """Where a wedge plate only reaches into a square, the corner of this bears nothing."""
+    contacts = equations(table((part.number, 4, 2, 0, turn))).contacts
+    assert (contacts.by == NOBODY).all()
+    expected = turned(part, turn, outline(part)) + np.array([4, 2])
+    np.testing.assert_allclose(np.unique(contacts.point[:, :2], axis=0), np.unique(expected, axis=0))
+    assert (contacts.point[:, 2] == 0).all()
+
+
+@pytest.mark.parametrize("part", WEDGES, ids=lambda part: part.number)
+def test_wedge_plates_hold_on_studs_alone(part) -> None:
+    """Grips are where a plate below has a stud and the wedge plate a socket: none in its notches."""
+    own = columns(part, 0)
+    below = [("3024", x, y, 0) for x, y in own.xy.tolist()]
+    contacts = equations(table(*below, (part.number, 0, 0, 1))).contacts
+    gripping = contacts.by != NOBODY
+    assert set(contacts.on[gripping].tolist()) == {len(below)}
+    squares = np.floor(contacts.point[gripping, :2]).astype(int)
+    assert set(map(tuple, squares.tolist())) == set(map(tuple, own.xy[own.socket].tolist()))
+    # and a baseplate holds it at the same ones
+    held = equations(table((part.number, 0, 0, 0)), ground=Ground.BASEPLATE).contacts.point[:, :2]
+    assert set(map(tuple, np.floor(held).astype(int).tolist())) == set(map(tuple, own.xy[own.socket].tolist()))
+
+
+def test_nothing_presses_on_the_aslant_side_of_a_wedge_plate() -> None:
+    """Bricks beside a wedge plate push its long straight side and its wide end; beside the other one is a gap."""
+    # 43722 is three studs long, straight at high y
+    bricks = table(("43722", 0, 1, 0), ("3623", 0, 3, 0), ("3623", 0, 0, 0), ("3022", 3, 1, 0), ("3022", -2, 1, 0))
+    contacts = equations(bricks, neighbours=True).contacts
+    sides = (contacts.by != NOBODY) & ((contacts.on == 0) | (contacts.by == 0))
+    assert set((contacts.on + contacts.by)[sides].tolist()) == {1, 3, 4}
+    # only where the plate is as deep as its squares
+    ends = contacts.point[sides & ((contacts.on + contacts.by) >= 3), 1]
+    assert set(ends.tolist()) == {2.0, 3.0}
