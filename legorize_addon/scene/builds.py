@@ -9,13 +9,15 @@ from collections.abc import Sequence
 from typing import Final
 
 import bpy
+import numpy as np
+from mathutils import Matrix, Vector
 
 from ..core.errors import BuildError
 from ..core.model import Bricks, load_catalogue
 from .brick_points import read_points
 from .instancing import bricks_modifier
 from .root import is_root
-from .state import VERSION, is_build, state_of
+from .state import VERSION, BuildState, is_build, state_of
 
 LAYER_KEY: Final = "legorize_layer"
 ROLE_KEY: Final = "legorize_role"
@@ -66,7 +68,22 @@ def damage(build: bpy.types.Collection) -> str | None:
             f"{build.name!r} is damaged, because some of its objects were deleted: undo that, or remove the model "
             "and build it again."
         )
+    if not _hangs_as_built(state):
+        return (
+            f"{build.name!r} is damaged, because the location, rotation or scale of its root was applied, or its "
+            "origin was set: undo that, or remove the model and build it again."
+        )
     return None
+
+
+def _hangs_as_built(state: BuildState) -> bool:
+    """Tell whether things hang on the root of a build as when it was built.
+
+    Commands that change the frame itself let what hangs on it stay in its place, so that the root no longer tells
+    where the bricks are.
+    """
+    usual = Matrix.Translation(-Vector(state.middle))
+    return np.allclose(np.array(state.plane.matrix_parent_inverse), np.array(usual), rtol=1e-5, atol=1e-4)
 
 
 def n_deleted(build: bpy.types.Collection) -> int:

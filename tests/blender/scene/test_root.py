@@ -83,6 +83,34 @@ def test_a_root_is_never_legorized(build, cube) -> None:
     assert damage(build) is None
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda: bpy.ops.object.transform_apply(location=False, rotation=False, scale=True),
+        lambda: bpy.ops.object.transform_apply(location=True, rotation=True, scale=False),
+        lambda: bpy.ops.object.origin_set(type="ORIGIN_GEOMETRY"),
+    ],
+    ids=["scale", "place", "origin"],
+)
+def test_a_changed_frame_is_told(build, change) -> None:
+    """Blender then keeps the bricks in their place: the root no longer tells where they are."""
+    state = state_of(build)
+    state.root.scale *= 3
+    state.root.location.x += 2
+    state.root.rotation_euler.z = 1
+    bpy.context.view_layer.update()
+    assert damage(build) is None
+    assert change() == {"FINISHED"}
+    assert damage(build) == (
+        "'Legorize Cube' is damaged, because the location, rotation or scale of its root was applied, or its origin "
+        "was set: undo that, or remove the model and build it again."
+    )
+    assert not bpy.ops.legorize.export_ldr.poll()
+    bpy.ops.legorize.build()
+    [again] = builds(bpy.context.scene)
+    assert damage(again) is None
+
+
 def test_its_mesh_goes_with_the_last_root(build) -> None:
     """A linked duplicate shares the mesh of the frame until both are removed, or deleted by hand."""
     mesh = state_of(build).root.data.name
