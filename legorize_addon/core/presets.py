@@ -40,8 +40,8 @@ PRESETS: Final[Mapping[str, Preset]] = MappingProxyType(
         ),
         "smooth": Preset(
             "Smooth Surface",
-            "Slopes where the surface falls, tiles where studs would show, and the grid, in a size up to 3 % off, "
-            "where it fits the shape best: closer to it for some more parts.",
+            "Slopes where the surface is inclined, tiles where studs would show, and the grid of studs where it fits "
+            "best, at a size up to 3 % smaller or larger: closer to the shape, for some more parts.",
             {"surface": "slopes", "grid_fit": "sizes"},
         ),
         "bricks": Preset("Bricks Only", "Bold and quick to build: whole bricks, without plates.", {"plates": "none"}),

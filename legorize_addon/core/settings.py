@@ -102,8 +102,9 @@ class Settings:
         0.2, "Gain of plates", "Error that plates must save to pay, as a share of a brick's volume or of a clear "
         "colour difference on its faces.", group="Shape", limits=(0.0, 1.0), needs=("plates", "pays"))
     fewer_parts: float = setting(
-        0.3, "Fewer parts", "Error, as above, to accept for one part less: neighbours then share plates and colours; "
-        "0 lets every column decide by itself.", group="Shape", limits=(0.0, 2.0), needs=("plates", "pays"))
+        0.3, "Fewer parts", "Error, measured as in Gain of plates, to accept for one part less: neighbours then share "
+        "plates and colours; 0 lets every column decide by itself.", group="Shape", limits=(0.0, 2.0),
+        needs=("plates", "pays"))
     layer_difference: float = setting(
         0.1, "Layer difference", "Share by which trajectories of neighbouring layers may differ in length or area "
         "before these layers are sliced plate by plate.", group="Shape", limits=(0.0, 1.0), needs=("plates", "pays"))

@@ -98,7 +98,8 @@ def place_grid(run: Run, mesh: TriangleMesh, scale: float) -> tuple[TriangleMesh
     if factor == 1:
         return mesh, scale, frame, ()
     way = "larger" if factor > 1 else "smaller"
-    told = f"The model is {100 * abs(factor - 1):.0f} % {way} than asked for: its surface fits the studs better so."
+    by = f"{100 * abs(factor - 1):.0f} % {way}"
+    told = f"The model is {by} than asked for, because its surface fits the studs better."
     return scale_mesh(mesh, factor), scale * factor, frame, (told,)
 
 

@@ -93,7 +93,7 @@ def _again(run: Run, assembly: Assembly, near: Stability) -> Stability:
 
 
 def _told(made: Smoothed, before: int) -> str:
-    """Say how many studs tiles took out of sight, and for how many parts."""
+    """Say how many studs tiles hide, and how many parts more that takes."""
     more = len(made.bricks) - before
-    parts = "no part more" if not more else "1 part more" if more == 1 else f"{more} parts more"
-    return f"Tiles take {made.seen - made.left} of the {made.seen} studs that show on top out of sight, for {parts}."
+    parts = "no additional part" if not more else "1 additional part" if more == 1 else f"{more} additional parts"
+    return f"Tiles hide {made.seen - made.left} of the {made.seen} studs that would show on top, with {parts}."

@@ -42,7 +42,7 @@ class LEGORIZE_OT_close_hints(bpy.types.Operator):
 
     bl_idname = "legorize.close_hints"
     bl_label = "Close Hints"
-    bl_description = "Show the hints no more; the preferences of the add-on bring them back"
+    bl_description = "Do not show the hints any more; the preferences of the add-on bring them back"
     bl_options = {"REGISTER", "INTERNAL"}
 
     @classmethod

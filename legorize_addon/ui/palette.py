@@ -166,7 +166,7 @@ class LEGORIZE_PT_palette(Tab, bpy.types.Panel):
         catalogue = load_catalogue()
         used = codes_of(context.scene.legorize.settings.palette, catalogue)
         self.layout.label(text=iface("{} of {} colours").format(len(used), len(catalogue.colours)))
-        self.layout.label(text="Shift-click: only this one")
+        self.layout.label(text="Shift-click: use only that colour")
         row = self.layout.row(align=True)
         row.operator(LEGORIZE_OT_palette_all.bl_idname)
         row.operator(LEGORIZE_OT_palette_of_build.bl_idname)

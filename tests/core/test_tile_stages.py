@@ -67,8 +67,8 @@ def test_same_outline_and_as_strong(plain, ball):
     assert ball.stability.margin.min() >= SETTINGS.spare
     assert CATALOGUE.exists_in(ball.bricks.part, ball.bricks.colour).all()
     assert ball.supports.walk.buildable
-    (told,) = (note for note in ball.notes if note.startswith("Tiles take"))
-    assert f"for {len(ball.bricks) - len(plain.bricks)} parts more." in told
+    (told,) = (note for note in ball.notes if note.startswith("Tiles hide"))
+    assert f"with {len(ball.bricks) - len(plain.bricks)} additional parts." in told
 
 
 def test_only_what_fails_stays_whole(ball):

@@ -43,6 +43,14 @@ WORDS_OF_BLENDER = {
 }
 """What Blender 4.3 calls the same things, by its own catalogues; words that mean something else there are left out."""
 
+WORD_INSIDE = {
+    r"\bframes?\b": {"de_DE": "einzelbild", "es": "fotograma", "fr_FR": "frame", "ja_JP": "フレーム", "zh_HANS": "帧"},
+}
+"""English words, and what stands for them inside of longer texts."""
+
+SECOND_WORDS = {"ja_JP": ("部品",)}
+"""What must not stand for a thing, since another word does so everywhere else."""
+
 Text = tuple[str, str]
 """Context and English text."""
 
@@ -152,6 +160,18 @@ def test_things_are_called_as_in_blender(language: str) -> None:
     known = {text: said for (context, text), said in messages(language).items() if context == DEFAULT}
     words = WORDS_OF_BLENDER[language]
     assert {text: known[text] for text in words} == words
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_one_word_for_one_thing(language: str) -> None:
+    """A thing has the same name in all texts of a language."""
+    wrong = []
+    for (_, text), said in messages(language).items():
+        for word, names in WORD_INSIDE.items():
+            if re.search(word, text, re.IGNORECASE) and names[language] not in said.lower():
+                wrong.append((text, said))
+        wrong += [(text, said) for other in SECOND_WORDS.get(language, ()) if other in said]
+    assert wrong == []
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
