@@ -6,6 +6,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,6 +20,7 @@ from legorize_addon.core.building.tables import Put, Table
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.model.bricks import NOBODY
 from legorize_addon.core.model.contacts import contact_graph
+from legorize_addon.core.model.profiles import columns
 from tests.core.building.heaps import cells_of, heap
 from tests.core.standing import CATALOGUE, table
 
@@ -223,3 +225,16 @@ def test_what_lies_under_the_step_of_a_slope_goes_under_it_first():
         assert [each.kind for each in steps.submodels] == [Kind.MAIN, Kind.SUBASSEMBLY]
         assert sequence(steps)[:2] == [("PLACE", 2, 1), ("PLACE", 1, 1)]
         assert found.buildable
+
+
+@pytest.mark.parametrize("part", [part for part in CATALOGUE.parts if part.wedge], ids=lambda part: part.number)
+def test_wedge_plates_are_pressed_on_like_plates(part):
+    """One on a plate, with a plate on its studs, is built from below; over studs in notches it hangs in the air."""
+    bricks = table(("3958", 0, 0, 2), (part.number, 1, 1, 1, 1), ("3958", 0, 0, 0))
+    steps, found = planned(bricks)
+    assert steps.moves.brick.tolist() == [2, 1, 0]
+    assert found.buildable
+    own = columns(part, 1)
+    alone = table(*(("3024", x, y, 0) for x, y in own.xy[~own.socket].tolist()), (part.number, 0, 0, 1, 1))
+    _, found = planned(alone)
+    assert not found.buildable

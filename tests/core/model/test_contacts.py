@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from legorize_addon.core.model.bricks import NOBODY, Bricks
 from legorize_addon.core.model.catalogue import footprint, load_catalogue
 from legorize_addon.core.model.contacts import contact_graph, stud_columns
+from legorize_addon.core.model.profiles import columns
 
 CATALOGUE = load_catalogue()
 
@@ -186,3 +187,18 @@ def test_nothing_clutches_on_a_tile_or_under_a_baseplate(lower, upper, holds):
     assert links.collisions == 0
     assert links.pairs.tolist() == ([[0, 1]] if holds else [])
     assert links.grounded.tolist() == [True, holds]
+
+
+@pytest.mark.parametrize("turn", range(4))
+@pytest.mark.parametrize("part", [part for part in CATALOGUE.parts if part.wedge], ids=lambda part: part.number)
+def test_wedge_plates_clutch_where_they_have_room(part, turn):
+    """What lies over a wedge plate is held by its studs, it by those under its sockets; studs in notches hold none."""
+    own = columns(part, turn)
+    found = contact_graph(table(("3958", 0, 0, 0), (part.number, 1, 1, 1, turn), ("3958", 0, 0, 2)), CATALOGUE)
+    assert found.collisions == 0
+    assert found.pairs.tolist() == [[0, 1], [1, 2]]
+    assert found.studs.tolist() == [np.count_nonzero(own.socket), np.count_nonzero(own.stud)]
+    notches = [("3024", x, y, 0) for x, y in own.xy[~own.socket].tolist()]
+    found = contact_graph(table(*notches, (part.number, 0, 0, 1, turn)), CATALOGUE)
+    assert found.collisions == len(found.pairs) == 0
+    assert found.grounded.tolist() == [True] * len(notches) + [False]

@@ -68,6 +68,8 @@ def test_a_single_short_brick_is_joined():
         [brick(6, 0, role=int(Role.SUPPORT_KEPT)), *apart(2, 4)],
         # three are no small lot
         [*apart(6, y=30), *apart(2, 4)],
+        # a wedge plate is there for its shape
+        [(ROW("43722"), 0, 0, 0, 0, RED, 0, 0, 0), *((ROW("3021"), 10 * n, 9, 0, 0, RED, 0, 0, 0) for n in range(3))],
     ],
 )
 def test_what_has_no_place_stays(rows):

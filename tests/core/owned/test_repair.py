@@ -49,9 +49,9 @@ def test_what_suffices_is_left_as_it_is():
     assert repair_parts(brick, owning({("3001", 4): 1}).sum(axis=1)) is brick
 
 
-@pytest.mark.parametrize("other", ["15573", "3069b", "85984"])
+@pytest.mark.parametrize("other", ["15573", "3069b", "85984", "43722", "51739"])
 def test_what_was_chosen_for_its_place_stays(other):
-    """Jumpers, tiles and slopes are not laid anew as plates beside a plate that is missing."""
+    """Jumpers, tiles, slopes and wedge plates are not laid anew as plates beside a plate that is missing."""
     height = CATALOGUE.height[NUMBER[other]]
     plain = "3023" if height == 1 else "3004"
     model = Assembly(

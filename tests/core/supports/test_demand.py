@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from legorize_addon.core.model import columns
 from legorize_addon.core.model.assembly import Assembly
 from legorize_addon.core.statics.forces import GRAVITY
 from legorize_addon.core.supports.demand import support_demand
@@ -103,3 +104,12 @@ def test_falls_of_inverted_slopes_are_no_undersides():
     """Where a part has no socket below, a support would hold nothing."""
     found = need(("3003", 5, 0, 0), ("3665", 0, 0, 9))
     assert (found.undersides + found.room.low).tolist() == [[0, 0, 9]]
+
+
+@pytest.mark.parametrize("part", [part for part in CATALOGUE.parts if part.wedge], ids=lambda part: part.number)
+def test_notches_of_wedge_plates_are_no_undersides(part):
+    """A support stands under the squares that clutch, never where a wedge plate only reaches into one."""
+    own = columns(part, 1)
+    found = need(("3003", 9, 0, 0), (part.number, 0, 0, 9, 1))
+    places = (found.undersides + found.room.low)[found.over == 1]
+    assert sorted(map(tuple, places.tolist())) == sorted((x, y, 9) for x, y in own.xy[own.socket].tolist())
