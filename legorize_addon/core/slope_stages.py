@@ -91,7 +91,9 @@ def lay_with_slopes(run: Run, shell: UnitGrid, given: Slopes | None) -> tuple[Br
         bricks = lay_around(cells, run.catalogue, around, rng=deepcopy(run.rng), filler=filler, progress=run.progress)
         return concatenate([fixed, bricks])
 
-    pays = paying(given.bricks, given.worth, given.pair, run.catalogue, lay_roughly, price=run.settings.slope_price)
+    pays, price = np.ones(len(given.bricks), bool), run.settings.slope_price
+    if not given.pays:
+        pays = paying(given.bricks, given.worth, given.pair, run.catalogue, lay_roughly, price=price)
     worth, pair, dear = given.worth[pays], given.pair[pays], given.dear[pays]
     laid = lay_around_slopes(given.bricks.take(pays), worth, pair, dear, run.catalogue, lay)
     if given.filled or contact_graph(laid[0], run.catalogue).n_components <= 1:

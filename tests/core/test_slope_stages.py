@@ -138,6 +138,22 @@ def test_how_long_ties_are_tried():
     assert slope_stages.tries_of(none) is slope_stages.tries_of(None) is None
 
 
+def test_settled_slopes_keep_their_worth(monkeypatch, ball):
+    """Laid once more they are not asked whether they pay, but the least worthy leave first as before."""
+    which, known = np.flatnonzero(sloped(ball))[:3], []
+
+    def around(slopes, worth, *_):
+        known.append(worth.tolist())
+        return slopes, ball.hollow
+
+    monkeypatch.setattr(slope_stages, "paying", lambda *_, **__: pytest.fail("asked again"))
+    monkeypatch.setattr(slope_stages, "lay_around_slopes", around)
+    given = Slopes(ball.bricks.take(which), np.array([3.0, 1, 2]), np.arange(3), np.ones(3, bool), ball.grid.solid)
+    settled = given.settled(np.array([True, False, True]), filled=True)
+    slope_stages.lay_with_slopes(Run.of(SETTINGS, Overall({}, silent)), ball.hollow, settled)
+    assert known == [[3, 2]]
+
+
 def test_what_relaxing_sets_loose(monkeypatch, ball):
     """If a model falls apart with less behind its slopes, it is laid once more with all of it."""
     filled = []

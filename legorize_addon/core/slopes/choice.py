@@ -40,6 +40,8 @@ class Slopes:
         What the model fills before it is hollowed.
     filled : bool
         Whether hidden cells behind slopes have to be filled as they would without them, as what a model hangs on.
+    pays : bool
+        Whether it is known that all of them pay.
     """
 
     bricks: Bricks
@@ -48,11 +50,12 @@ class Slopes:
     dear: Mask
     solid: Mask
     filled: bool = False
+    pays: bool = False
 
     def settled(self, rows: Mask, *, filled: bool) -> Slopes:
         """Return those of them that stay, and are not asked again whether they pay."""
-        worth = np.full(np.count_nonzero(rows), np.inf)
-        return Slopes(self.bricks.take(rows), worth, self.pair[rows], self.dear[rows], self.solid, filled)
+        kept = self.bricks.take(rows), self.worth[rows], self.pair[rows], self.dear[rows]
+        return Slopes(*kept, self.solid, filled, pays=True)
 
 
 @one_thread()
