@@ -6,7 +6,7 @@ box's lower face, so that a quarter turn about z keeps the box on the grid.
 
 Every shape here is a loft: rings of points above one another, joined by
 quadrilaterals, with an n-gon as the lid. Bodies that fall along their length
-are in :mod:`.slope_bodies`, those with aslant sides in :mod:`.wedge_bodies`.
+are in :mod:`.slope_bodies`, those with slanted sides in :mod:`.wedge_bodies`.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Bodies of parts with aslant sides: their outline drawn up, hollow from below.
+"""Bodies of parts with slanted sides: their outline drawn up, hollow from below.
 
 Sides of a convex outline may vanish as it is moved inwards: the corners at both of its ends become one.
 """
@@ -15,7 +15,7 @@ from .lofts import BEVEL, GAP, ROOF, WALL, Detail, Floats, Loft, welded
 
 
 def wedge_body(part: Part, detail: Detail) -> Loft:
-    """Return the faces of the body of a part with aslant sides.
+    """Return the faces of the body of a part with slanted sides.
 
     Parameters
     ----------

@@ -12,12 +12,14 @@ from bpy.app.translations import pgettext_tip as tip
 from ..core.errors import LegorizeError
 from ..scene import builds, damage, is_own, sources_of, stand_beside
 from ..view import edits_of
+from . import job
 from .build import Building
 from .current import current_build
 from .requests import BuildRequest, resolved_settings
 from .session import SESSION
 from .setting_names import as_in_panel
 from .settings_properties import settings_of
+from .working import BUSY
 
 if TYPE_CHECKING:
     from ..core.build import Build
@@ -38,8 +40,11 @@ class _Again(Building):
             cls.poll_message_set(damage(build).removesuffix("."))
         elif not sources_of(build):
             cls.poll_message_set(tip("This model was not made of an object in the scene."))
+        elif job.running():
+            cls.poll_message_set(tip(BUSY))
         else:
-            return super().poll(context)
+            # they may be in another scene, from which the model was pasted, where nothing can be selected
+            return True
         return False
 
     def _take_order(self, context: bpy.types.Context) -> BuildRequest:

@@ -1,6 +1,6 @@
 """Slopes, wedge plates and jumpers in pictures: their true faces and studs, drawn over all else.
 
-What falls or runs aslant has no place on the lattice of :mod:`.lattice`. So everything else is drawn first, as if no
+What falls or is slanted has no place on the lattice of :mod:`.lattice`. So everything else is drawn first, as if no
 slope were there, and then the slopes, from the farthest to the nearest, each within the pieces of its cells that
 nothing else hides.
 """
@@ -35,7 +35,7 @@ _SMOOTH: Final = 0.94
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Shape:
-    """A part that falls or has aslant sides, as it is seen from a place, from the corner of its box of cells.
+    """A part that falls or has slanted sides, as it is seen from a place, from the corner of its box of cells.
 
     Attributes
     ----------

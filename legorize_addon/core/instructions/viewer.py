@@ -129,10 +129,10 @@ def _corners(bricks: Bricks) -> Floats:
 
 
 def _ramps(bricks: Bricks, catalogue: Catalogue) -> tuple[Floats, Ints]:
-    """Return the straight pieces of bricks that fall or have aslant sides, (n, 11), and the brick of each.
+    """Return the straight pieces of bricks that fall or have slanted sides, (n, 11), and the brick of each.
 
     Of each piece its lowest corner and size in cells, how high of its size the bottom is at the start and at the end
-    of an axis, how high the top, and the axis: 0 for x, 1 for y. With aslant sides the same along x of the sides at
+    of an axis, how high the top, and the axis: 0 for x, 1 for y. With slanted sides the same along x of the sides at
     low and at high y, and 2.
     """
     found, owner = [], []

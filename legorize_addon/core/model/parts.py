@@ -22,7 +22,7 @@ Profile = Literal[
 box; smooth on top; flat below and half as thick as a plate, in the upper half of its cells; falling along its length:
 from a row of studs, from a sharp edge, upside down under a top full of studs, or as a curve, elliptical or circular,
 over an underside in steps (see ``profiles``); smooth on top but for one stud in the middle; or with sides that run
-aslant as seen from above."""
+at an angle as seen from above."""
 
 SLOPED: Final = ("slope", "cheese", "inverted", "curved", "bow")
 """Profiles that fall along the length: their high or deep end is at low x at turn 0."""
@@ -58,7 +58,7 @@ class Part:
     aliases : tuple of str
         Other numbers that LDraw files use for the same part.
     outline : tuple of (float, float), optional
-        Of a part with aslant sides: its corners as seen from above at turn 0, counter-clockwise, in studs from the
+        Of a part with slanted sides: its corners as seen from above at turn 0, counter-clockwise, in studs from the
         lowest corner of its box. Convex.
     """
 
@@ -101,12 +101,12 @@ class Part:
 
     @property
     def wedge(self) -> bool:
-        """Whether it has sides that run aslant as seen from above."""
+        """Whether it has sides that run at an angle as seen from above."""
         return self.profile == "wedge"
 
     @property
     def shaped(self) -> bool:
-        """Whether it is laid for its shape, which is no box: it falls, or has aslant sides."""
+        """Whether it is laid for its shape, which is no box: it falls, or has slanted sides."""
         return self.sloped or self.wedge
 
     @property
@@ -153,5 +153,5 @@ def outline(part: Part) -> Floats:
 
 @cache
 def _covered(part: Part) -> Mask:
-    """Return the squares that a part with aslant sides reaches into at turn 0, (length, width)."""
+    """Return the squares that a part with slanted sides reaches into at turn 0, (length, width)."""
     return shares(outline(part), part.length, part.width) > 0

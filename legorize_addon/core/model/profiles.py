@@ -1,7 +1,7 @@
 """The shapes of the parts: what each of their columns claims and holds, and their exact solids.
 
 A part that falls along its length is given by two lines along it, of its top and its bottom, drawn out over its
-width; one with aslant sides by its outline as seen from above. Columns, solids and centres of mass follow from these.
+width; one with slanted sides by its outline as seen from above. Columns, solids and centres of mass follow from these.
 Measured in LDraw's library: slopes end in a lip of half a plate, cheese slopes are a twentieth of a plate lower than
 two plates and flat for 0.67 LDU at their edge.
 """
@@ -39,7 +39,7 @@ SOCKET_ROOM: Final = 5.5 / STUD_LDU
 """How far from the sides of a wedge plate the middle of a square with a stud is, and of one that clutches a stud.
 
 Where it is nearer there is a notch below, in which a stud may stand. Measured in LDraw's library: studs are 10 LDU from
-aslant sides or more, squares without one 7.3 or less; of these, those from 6.3 on clutch, those to 4.5 are notches."""
+slanted sides or more, squares without one 7.3 or less; of these, those from 6.3 on clutch, those to 4.5 are notches."""
 
 _FINE: Final = 32
 """Samples of a cell along each axis for the volume of a part: its centre is off by less than a thousandth of a stud."""

@@ -171,7 +171,7 @@ def _one_way(around: Mask, shell: Mask, cover: Mask, allowance: int) -> tuple[Nu
     closed = between & (ring == 0)
     ring += _steps_from(covered, closed)
     left = _steps_from(covered, shown, most=allowance)
-    # at the corner of an outline that runs aslant, the trajectory itself passes the brick
+    # at the corner of an outline that runs at an angle, the trajectory itself passes the brick
     span = left + 1 - _steps_from(~around, between, most=1)
     spare = between & ~closed & (left > 0) & (span <= allowance)
     ring[spare] = 0

@@ -8,9 +8,10 @@ import pytest
 from legorize_addon.core import pipeline
 from legorize_addon.core import stages as core_stages
 from legorize_addon.core.errors import BuildError
-from legorize_addon.scene import builds, read_bricks, state_of
+from legorize_addon.scene import builds, read_bricks, sources_of, state_of
 from legorize_addon.ui import updating
 from legorize_addon.ui.current import current_build
+from legorize_addon.ui.duplicates import adopt
 from legorize_addon.ui.session import SESSION
 from tests.blender.bricks import assert_same
 from tests.blender.builders import add_table_on_one_leg
@@ -126,3 +127,23 @@ def test_nothing_to_update():
     assert bpy.ops.legorize.update.poll()
     bpy.data.objects.remove(table)
     assert not bpy.ops.legorize.update.poll()
+
+
+def test_a_model_that_was_pasted_into_another_scene(settings):
+    """It is made again of the objects in its first scene, though nothing here can be selected."""
+    [first] = builds(bpy.context.scene)
+    here, there = bpy.context.scene, bpy.data.scenes.new("there")
+    bpy.ops.view3d.copybuffer()
+    bpy.context.window.scene = there
+    bpy.ops.view3d.pastebuffer()
+    adopt(bpy.context)
+    [copy] = builds(there)
+    sources, n_bricks = sources_of(copy), len(read_bricks(copy))
+    assert bpy.ops.legorize.update() == {"FINISHED"}
+    [again] = builds(there)
+    assert sources_of(again) == sources
+    assert len(read_bricks(again)) == n_bricks
+    assert bpy.ops.legorize.build_beside() == {"FINISHED"}
+    assert len(builds(there)) == 2
+    assert builds(here) == [first]
+    assert not set(sources) & set(there.objects)

@@ -44,7 +44,7 @@ def test_outlines_hold_the_cells_of_the_parts():
         box = product(range(longest + 1), repeat=2)
         shown = {(i, j) for i, j in box if inside(points[low:high], x + i + 0.5, y + j + 0.5)}
         if part.wedge:
-            # a square that aslant sides cut into may have its middle outside
+            # a square that slanted sides cut into may have its middle outside
             assert shown <= cells
             assert _area(points[low:high]) == pytest.approx(_area(outline(part)))
         else:

@@ -31,7 +31,7 @@ def test_claims_are_those_of_the_contact_graph(form):
     owner = contact_graph(table([(form.part, 0, 0, 0, form.turn, RED, 0, 0, 0)]), CATALOGUE).owner
     assert cells(form.cells) == cells(np.argwhere(owner >= 0))
     part = CATALOGUE.parts[form.part]
-    # samples of what runs aslant are not exact
+    # samples of what runs at an angle are not exact
     fine = 8 if part.wedge else 1
     sampled = solid(part, form.turn, fine * ACROSS, UP).sum() / fine**2
     assert form.fill.sum() == pytest.approx(sampled, rel=0.03 * part.wedge)

@@ -189,7 +189,7 @@ def test_wedge_plates_hold_on_studs_alone(part) -> None:
     assert set(map(tuple, np.floor(held).astype(int).tolist())) == set(map(tuple, own.xy[own.socket].tolist()))
 
 
-def test_nothing_presses_on_the_aslant_side_of_a_wedge_plate() -> None:
+def test_nothing_presses_on_the_slanted_side_of_a_wedge_plate() -> None:
     """Bricks beside a wedge plate push its long straight side and its wide end; beside the other one is a gap."""
     # 43722 is three studs long, straight at high y
     bricks = table(("43722", 0, 1, 0), ("3623", 0, 3, 0), ("3623", 0, 0, 0), ("3022", 3, 1, 0), ("3022", -2, 1, 0))
