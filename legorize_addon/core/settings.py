@@ -123,7 +123,7 @@ class Settings:
         "none", "Features", "What counts more by itself, as if it were painted with a weight.", group="Shape", words={
             "none": "nothing", "colours": "small patterns such as eyes, letters and logos",
             "shapes": "edges and thin parts such as horns, ears and beaks",
-            "all": "such patterns, edges and thin parts"})
+            "all": "small patterns, edges and thin parts"})
     emphasis: float = setting(
         3.0, "Emphasis", "How much more than elsewhere likeness counts where the weight is 1: with 3, four times as "
         "much.", group="Shape", limits=(0.0, 100.0), needs=("weight",), also="features")

@@ -20,8 +20,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.model import Catalogue, Part, columns, outline
-from ..core.model.polygons import depths
+from ..core.model import Catalogue, Part, columns, depths, outline
 from ..core.units import PLATE, STUD
 from .lofts import BEVEL, GAP, ROOF, WALL, Detail, Floats, Loft
 from .rounding import corner_normals
