@@ -69,8 +69,7 @@ class LevelFaces:
             covered = covered_area(fine, len(some), grid.origin[:2] * _ACROSS, n_y, n_x)
             changed = np.abs(np.diff(np.concatenate([before, covered]), axis=0))
             by_cell = changed.reshape(len(some), grid.n_y, _ACROSS, grid.n_x, _ACROSS).sum(axis=(2, 4))
-            plate = np.maximum((some - 1) // _PARTS, 0)
-            area[some - 1] = (factor[plate] * by_cell).sum(axis=(1, 2)) / (CELL_AREA * _ACROSS**2)
+            area[some - 1] = (factor[(some - 1) // _PARTS] * by_cell).sum(axis=(1, 2)) / (CELL_AREA * _ACROSS**2)
             before = covered[-1:]
         return cls(np.arange(n_slices - 1) / _PARTS, area)
 
