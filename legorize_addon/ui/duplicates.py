@@ -29,7 +29,8 @@ def adopt(context: bpy.types.Context, left: Container[int] = ()) -> bool:
     active = context.view_layer.objects.active
     for build, copy in found:
         SESSION.share(build, copy)
-        if state_of(copy).root == active:
+        # before Blender 5.0 nothing is active after pasting, in a scene that shows no model yet
+        if state_of(copy).root == active or context.scene.legorize.build is None:
             context.scene.legorize.build = copy
     return bool(found)
 
