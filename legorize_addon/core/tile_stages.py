@@ -14,6 +14,7 @@ from .model import Assembly, Bricks, Verdict
 from .run import Run
 from .statics import Effort, Stability, stability
 from .strength import like_before, weaker
+from .units import count_of
 
 PRICE: Final = 2.0
 """Studs that a part more has to take out of sight for smooth tops. Of eight models at 24 and 48 studs, 30 to 50 % of
@@ -95,5 +96,5 @@ def _again(run: Run, assembly: Assembly, near: Stability) -> Stability:
 def _told(made: Smoothed, before: int) -> str:
     """Say how many studs tiles hide, and how many parts more that takes."""
     more = len(made.bricks) - before
-    parts = "no additional part" if not more else "1 additional part" if more == 1 else f"{more} additional parts"
+    parts = count_of(more, "additional part", "additional parts") if more else "no additional part"
     return f"Tiles hide {made.seen - made.left} of the {made.seen} studs that would show on top, with {parts}."

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..core.model import Part, outline
+from ..core.model import Part, outline, sides
 from ..core.units import PLATE, STUD
 from .lofts import BEVEL, GAP, ROOF, WALL, Detail, Floats, Loft, welded
 
@@ -58,9 +58,7 @@ def inset(outline: Floats, by: float) -> Floats:
     (n, 2) float64 array
         The corners, those at both ends of a side that vanishes at the same place.
     """
-    along = np.roll(outline, -1, axis=0) - outline
-    along /= np.linalg.norm(along, axis=1, keepdims=True)
-    inwards = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    along, inwards = sides(outline)
     beyond = (inwards * outline).sum(axis=1) + by
     left = list(range(len(outline)))
     while True:

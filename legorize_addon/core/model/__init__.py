@@ -10,7 +10,7 @@ from .bricks import NOBODY, SUPPORTS, Bricks, Role, concatenate
 from .catalogue import ASSETS, Catalogue, Colour, load_catalogue
 from .images import part_images
 from .parts import MISSING_CELL, Part, Use, footprint, outline
-from .polygons import depths
+from .polygons import depths, sides
 from .profiles import columns, filled, jumper_turn, lines, solid, turned
 from .squares import Rows
 from .unit_grid import CELL_SIZE, COLOUR_ANY, COLOUR_EMPTY, Fill, UnitGrid, ground_of
@@ -94,6 +94,7 @@ __all__ = [
     "middles",
     "outline",
     "part_images",
+    "sides",
     "solid",
     "stacked",
     "stud_columns",

@@ -49,10 +49,16 @@ def centroid(outline: Floats) -> Floats:
 
 def depths(outline: Floats, places: Floats) -> Floats:
     """Return how far places, (k, 2), lie within a convex outline: from its nearest edge, negative outside, (k,)."""
-    along = np.roll(outline, -1, axis=0) - outline
-    inwards = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.linalg.norm(along, axis=1)[:, None]
+    inwards = sides(outline)[1]
     found: Floats = ((places[:, None] - outline) * inwards).sum(axis=2).min(axis=1)
     return found
+
+
+def sides(outline: Floats) -> tuple[Floats, Floats]:
+    """Return the unit vectors along the edges of an outline, (n, 2), and those across them, which point inwards."""
+    along = np.roll(outline, -1, axis=0) - outline
+    along = along / np.linalg.norm(along, axis=1, keepdims=True)
+    return along, np.stack([-along[:, 1], along[:, 0]], axis=1)
 
 
 def _cross(outline: Floats) -> Floats:

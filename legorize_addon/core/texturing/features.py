@@ -146,6 +146,7 @@ def _weights(area: Floats, normal: Floats, colour: Floats, kinds: Kinds) -> tupl
     stud = np.ravel_multi_index(tuple(each // _FINE for each in np.unravel_index(cells, area.shape)), studs)
 
     def summed(each: Floats) -> Floats:
+        """Return the sums of something by stud."""
         return np.bincount(stud, each, int(np.prod(studs))).reshape(studs)
 
     own = area.reshape(-1)[cells]
